@@ -1,4 +1,4 @@
-"""The figures: time against error, log-log; one panel for the README, all scenes for the page."""
+"""The figures: time against error, log-log; one panel for the head of the page, all scenes for the page."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def _panel(axes: Any, table: pl.DataFrame, scene: str) -> None:
 
 
 def main_figure(table: pl.DataFrame, bench: BenchmarkScene, path: Path) -> None:
-    """Draw the scene of the README."""
+    """Draw the scene of the head of the page."""
     figure = Figure(figsize=(8.6, 5.2), layout="constrained")
     axes = figure.subplots()
     _panel(axes, table, bench.name)

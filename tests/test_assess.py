@@ -221,7 +221,9 @@ def test_without_an_answer_nothing_stands_as_if_there_were_one(collapsing: sm.As
     assert '<div class="answer bad">' in page
     assert "have no value, since runs collapse" in page
     assert "nan" not in page.lower().replace("name", "")[: page.index("<h2")]
-    known = [name for name in ("effective_fraction", "drift", "slip") if (tmp_path / f"{name}.svg").exists()]
+    known = [
+        name for name in ("effective_fraction", "drift", "slip", "spectrum") if (tmp_path / f"{name}.svg").exists()
+    ]
     assert tuple(known) == collapsing.figure_names
 
 
@@ -229,7 +231,7 @@ def test_a_building_that_always_collapses_has_no_empty_figures(tmp_path: Path) -
     """Every drift is above a collapse ratio of 0.001: no model has a mean, no fraction a value."""
     result = sm.assess(tables(building={"collapse_drift_ratio": 0.001}), resamples=20)
     assert result.answer.reason == "the building collapses under 40 of 40 motions (mu as stated)"
-    assert result.figure_names == ("slip",)
+    assert result.figure_names == ("slip", "spectrum")
     result.write(tmp_path)
     assert not (tmp_path / "drift.svg").exists()
     assert "nan" not in result.text
@@ -450,7 +452,7 @@ def test_files_are_written_whole_and_old_ones_removed(small: sm.Assessment, tmp_
 
 def test_figures_have_what_they_should(warehouse: sm.Assessment) -> None:
     figures = warehouse.figures()
-    assert list(figures) == ["effective_fraction", "drift", "slip"]
+    assert list(figures) == ["effective_fraction", "drift", "slip", "spectrum"]
     for figure in figures.values():
         assert isinstance(figure, Figure)
     texts = [text.get_text() for text in figures["effective_fraction"].legends[0].get_texts()]
@@ -500,10 +502,10 @@ def test_the_governing_drift_is_the_largest_of_its_row(warehouse: sm.Assessment,
 
 
 def test_masses_of_both_analyses_are_those_of_the_models(warehouse: sm.Assessment) -> None:
-    masses, building = warehouse.tables["masses"], warehouse.building
-    np.testing.assert_allclose(masses["mass_1"], building.mass + warehouse.advised * building.goods, rtol=1e-14)
-    np.testing.assert_array_equal(masses["mass_2"], building.mass)
-    np.testing.assert_allclose(masses["weight_1"], G * masses["mass_1"].to_numpy(), rtol=1e-14)
+    masses, building = warehouse.tables["analysis"], warehouse.building
+    np.testing.assert_allclose(1e3 * masses["mass_1_t"], building.mass + warehouse.advised * building.goods, rtol=1e-14)
+    np.testing.assert_allclose(1e3 * masses["mass_2_t"], building.mass, rtol=1e-14)
+    np.testing.assert_allclose(masses["weight_1_kn"], G * masses["mass_1_t"].to_numpy(), rtol=1e-14)
     # Goods are 0.8 of the live load on floors 1 to 3, and the roof has none.
     np.testing.assert_allclose(masses["multiplier_1"], [*3 * [0.8 * warehouse.advised], 0.0], rtol=1e-14)
 
@@ -543,7 +545,7 @@ def test_command_prints_page_and_json(tmp_path: Path, capsys: pytest.CaptureFixt
     assert main(["building", str(file), "--out", out, "--no-figures", "--mu-factors", "1", "1"]) == 0
     page = capsys.readouterr().out
     assert "ANSWER    two analyses" in page
-    assert page.rstrip().splitlines()[-1].startswith("21 files in ")
+    assert page.rstrip().splitlines()[-1].startswith("23 files in ")
     options = ["--json", "--no-figures", "--sds", "0.8", "--sd1", "0.5", "--code", "nbc", "--period", "0.6"]
     assert main(["building", str(file), "--out", out, *options]) == 0
     document = json.loads(capsys.readouterr().out)

@@ -81,6 +81,11 @@ def test_codes_are_found_in_any_case_and_close_ones_are_named() -> None:
         ("timber-on-steel", 0.40, 0.30),
         ("pallet-on-wire-deck", 0.41, 0.41),
         ("pallet-on-steel-beam", 0.37, 0.37),
+        # Abstracts of Rabbat and Russell 1985 (dry) and TRL LR491 (0.03 to 0.07); roymech.org; two tables on the web.
+        ("steel-on-concrete", 0.57, 0.57),
+        ("ptfe-slider-on-steel", 0.05, 0.05),
+        ("felt-pad-on-metal", 0.22, 0.22),
+        ("wheel-on-rail", 0.002, 0.002),
     ],
 )
 def test_friction_of_a_contact(pair_id: str, mu_s: float, mu_k: float) -> None:
@@ -89,6 +94,13 @@ def test_friction_of_a_contact(pair_id: str, mu_s: float, mu_k: float) -> None:
     assert pair.source
     low, high = pair.bounds()
     assert (low, high) == (0.67 * mu_s, 1.5 * mu_s)  # EN 16681, second-hand
+
+
+def test_contacts_without_a_measurement_say_so() -> None:
+    table = sm.friction.friction_table()
+    assumed = table.filter(kind="assumption")
+    assert assumed["pair_id"].to_list() == ["container-validation", "container-study", "book-on-metal-shelf"]
+    assert assumed["source"].str.contains("no measurement of this contact was found").all()
 
 
 def test_friction_table_has_bounds_by_the_factors_given() -> None:

@@ -20,6 +20,7 @@ from seismass.records.builtin import data_directory
 
 RUN = [
     "new own.toml --from storeys.csv --area 1200 --sds 1.0 --sd1 0.6 --live-load 7.2 --friction 0.3",
+    "new shed.toml --from storeys.csv --pushover push.csv --area 1200 --sds 1 --sd1 0.6 --live-load 7.2 --friction 0.3",
     "building --example > warehouse.toml",
     "building warehouse.toml",
     "explore",
@@ -67,6 +68,12 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     rows = [f"{level:g},{rate:.6g}" for level, rate in zip(intensity, 0.01 * (intensity / 0.1) ** -2.5, strict=True)]
     storeys = "Story,Height (m),Mass (t),Stiffness (kN/m)\nRoof,4,600,5e5\nStory1,4.5,700,7e5\n"
     (made / "storeys.csv").write_text(storeys)
+    curves = [
+        f"{name},{drift},{part * min(drift, 20 + 0.1 * drift)}"
+        for name, part in (("L1", 100), ("Roof", 60))
+        for drift in range(61)
+    ]
+    (made / "push.csv").write_text("\n".join(["Story,Drift (mm),Shear (kN)", *curves, ""]))
     (made / "hazard.csv").write_text("\n".join(["Sa,rate", *rows, ""]))
     assert main(["building", str(made / "warehouse.toml"), "--out", str(made / "assessment"), "--no-figures"]) == 0
     return made

@@ -113,9 +113,10 @@ def test_commands_write_models(
     assert main(command) == 0
     content = json.loads(Path("models/model.json").read_text())
     assert list(content["models"]) == ["goods slide", "analysis 1", "analysis 2"]
-    masses = list(csv.DictReader(Path("warehouse/masses.csv").read_text().splitlines()))
+    beside = Path("warehouse/analysis.csv").read_text()
+    assert Path("models/analysis.csv").read_text() == beside
     for number in (1, 2):
-        own = [float(row[f"mass_{number}"]) for row in masses]
+        own = [1e3 * float(row[f"mass_{number}_t"]) for row in csv.DictReader(beside.splitlines())]
         assert content["models"][f"analysis {number}"]["mass"] == pytest.approx(own, rel=1e-12)
         assert content["models"][f"analysis {number}"]["blocks"] == []
     capsys.readouterr()

@@ -70,11 +70,13 @@ def test_what_belongs_to_two_directions_is_refused_in_one() -> None:
         sm.Scene(sm.Building([1.0], 100.0), other_direction=sm.Building([2.0], 100.0))
 
 
-def test_other_functions_refuse_two_directions_by_name() -> None:
-    with pytest.raises(sm.errors.InvalidScene, match="other_direction of scene"):
+def test_a_motion_that_does_not_suit_its_scene_is_refused() -> None:
+    with pytest.raises(sm.errors.InvalidMotion, match="motion 1 of batch must be a Pair"):
         sm.simulate_many([crate()], [constant(1.0)])
+    with pytest.raises(sm.errors.InvalidMotion, match="motion 2 of batch must be a Motion"):
+        sm.simulate_many([sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)])], [constant(1.0), (constant(1.0),) * 2])
     scene = sm.Scene(sm.Building.uniform(1, 0.5), sm.blocks_on_floors([0.5], mu=0.2), other_direction=True)
-    with pytest.raises(sm.errors.InvalidScene, match="other_direction of scene"):
+    with pytest.raises(sm.errors.InvalidMotion, match="motion 1 of effective mass must be a Pair"):
         sm.effective_mass(scene, [constant(1.0)])
     with pytest.raises(sm.errors.InvalidScene, match="left out where there are two directions"):
         sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)], base=sm.SlidingBase(mu=0.1, mass=1.0), other_direction=True)
@@ -119,6 +121,28 @@ def test_scene_files_and_the_command(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert (tmp_path / "histories.csv").read_text().startswith("time,drift_1_x,drift_1_y,")
     path.write_text(FILE.replace("[other_direction]\nperiod = 0.7\n", ""))
     with pytest.raises(sm.errors.InvalidScene, match=r"initial\.velocity"):
+        sm.read_scene(path)
+
+
+def test_pairs_of_scene_files(tmp_path: Path) -> None:
+    path = tmp_path / "pair.toml"
+    goods = "[other_direction]\n[[blocks]]\nfloor = 0\nmass = 100.0\nmu = 0.1\n"
+    path.write_text(f'{goods}[pair]\nbuiltin = "scenario-3"\nrotation = 30.0\nscale = 2.0\n')
+    file = sm.read_scene(path)
+    expected = sm.records.builtin_pairs()[2].rotated(30.0).scaled(2.0)
+    assert file.motion == expected.first.motion
+    assert file.other_motion == expected.second.motion
+    for table, message in (
+        ('builtin = "none"', "pair.builtin of pair.toml must be the name of one of 40 pairs"),
+        ('first = "a.AT2"', "pair.second"),
+        ('builtin = "scenario-3"\nstrike = 10.0', "pair.strike"),
+        ('builtin = "scenario-3"\n[motion]\nbuiltin = "synthetic-1"', "motion of pair.toml must be left out"),
+    ):
+        path.write_text(f"{goods}[pair]\n{table}\n")
+        with pytest.raises(sm.errors.InvalidSceneFile, match=message):
+            sm.read_scene(path)
+    path.write_text(f"{goods.replace('[other_direction]', '')}[pair]\nbuiltin = 'scenario-3'\n")
+    with pytest.raises(sm.errors.InvalidSceneFile, match=r"pair of pair\.toml must be left out where"):
         sm.read_scene(path)
 
 

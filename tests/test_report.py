@@ -18,7 +18,8 @@ import seismass as sm
 from seismass.assessment.building_file import example_file
 from seismass.cli import main
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
-from seismass.show.study.answer import answer, compared_rules, percent
+from seismass.media.roles import LAMBDA, MU, lettered
+from seismass.show.study.answer import answer, compared_rules, one_line, percent
 from seismass.show.study.slip import slip_demand
 from seismass.show.study.tables import StudyTables, read_study_tables, study_tables
 from seismass.show.study.words import assumptions
@@ -79,23 +80,24 @@ def test_page_has_every_part(folder: Path) -> None:
     titles = re.findall(r"<h[23][^>]*>([^<]*)</h[23]>", page)
     assert titles == [
         "Contents",
-        "Ground motions",
-        "Validation",
-        "Three storeys",
-        "Shaking table",
+        "Findings",
+        "Underestimation",
         "Drift demands",
         "R = 1",
         "R = 2",
         "R = 6",
-        "Underestimation",
         "Effective fraction",
         "Slip of the goods",
         "Example",
         "Claims of the paper",
+        "Ground motions",
         "Tables",
         "Drift of every storey",
         "Fractions of every building",
         "Slip of every building",
+        "Validation",
+        "Three storeys",
+        "Shaking table",
         "Assumptions",
         "Provenance",
     ]
@@ -117,7 +119,8 @@ def test_page_says_what_the_tables_say(folder: Path, result: StudyResult) -> Non
     )
     assert result.metadata["inputs_sha256"] in text
     for sentence in assumptions(result.metadata):
-        assert sentence in text
+        assert lettered(sentence) in text
+    assert " ".join(one_line(result).split()) in text
     for motion in result.metadata["suite"]["motions"]:
         assert f"{motion['factor']:.4f}" in text
 
@@ -257,11 +260,14 @@ def test_page_of_a_building_has_every_part_and_the_numbers_of_the_assessment(bui
     assert re.findall(r"<h2[^>]*>([^<]*)</h2>", page) == [
         "Contents",
         "Input as understood",
-        "Checks",
+        "Method",
         "Effective fraction",
         "Drifts",
         "Slip of the goods",
         "In an analysis",
+        "Checks",
+        "Motions",
+        "The building in motion",
         "Remarks",
         "Assumptions",
         "Limits of this page",
@@ -269,12 +275,13 @@ def test_page_of_a_building_has_every_part_and_the_numbers_of_the_assessment(bui
     ]
     text = analysis_text(page)
     document = json.loads((building / "assessment.json").read_text())
+    # Symbols are letters on the page.
     for part in (*document["advice"], *document["assumptions"], document["metadata"]["inputs_sha256"]):
-        assert part in text
+        assert lettered(part) in text
     # The answer that the README has for this building.
-    pair = "lambda = 0.80 of the goods present (0.64 of the design live load) as mass: dead + 0.64 live"
+    pair = f"{LAMBDA} = 0.80 of the goods present (0.64 of the design live load) as mass: dead + 0.64 live"
     assert f"Analysis 1: {pair}. Analysis 2: no goods: dead load alone." in text
-    assert "mu as stated gives 0.38 [0.26, 0.48]" in text
+    assert f"{MU} as stated gives 0.38 [0.26, 0.48]" in text
     assert '<div class="answer">' in page
 
 
@@ -316,3 +323,28 @@ def test_page_of_a_building_without_heights_and_goods(tmp_path: Path) -> None:
     again = tmp_path / "again.html"
     assert main(["report", str(tmp_path), "--out", str(again)]) == 0
     assert again.read_text(encoding="utf-8") == page
+
+
+@pytest.mark.parametrize(
+    ("further", "words"),
+    [
+        ({"base": {"mu_s": 0.08, "mu_k": 0.06, "radius_m": 2.5}}, ["Sliding base", "it stands on a sliding base"]),
+        ({"other_direction": {"period_s": 0.7}}, ["Other direction, y", "it moves in two directions"]),
+    ],
+)
+def test_page_of_a_building_that_no_animation_shows(
+    tmp_path: Path, further: dict[str, object], words: list[str]
+) -> None:
+    given = {
+        "site": {"sds_g": 1.0, "sd1_g": 0.6},
+        "building": {"period_s": 0.4, "area_m2": 500.0, "dead_load_kpa": 5.0, "design": True, "R": 3.0},
+        "goods": {"live_load_kpa": 6.0, "mu_s": 0.2, "mu_k": 0.15},
+        "storeys": [{}, {"live_load_kpa": 0.0}],
+        **further,
+    }
+    few = list(sm.records.builtin_pairs())[:3] if "other_direction" in further else list(SUITE)[:3]
+    sm.assess(given, few, mu_factors=(1.0, 1.0), resamples=2).write(tmp_path)
+    text = analysis_text((tmp_path / "report.html").read_text(encoding="utf-8"))
+    for said in (*words, "The live page cannot show this building", "Spectra of the motions"):
+        assert said in text
+    assert not (tmp_path / "animation.json").exists()

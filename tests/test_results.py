@@ -21,6 +21,7 @@ KINDS = (
     sm.EffectiveMass,
     EffectiveMassMap,
     sm.LiveLoadUncertainty,
+    sm.design.PushoverFit,
     sm.fragility.FragilityAnalysis,
     sm.risk.RiskTargetedShare,
     sm.scaling.ScalingResult,

@@ -151,7 +151,6 @@ def test_what_is_no_base_is_refused() -> None:
 def test_what_takes_the_ground_alone_says_so() -> None:
     scene = sm.Scene(building(), [sm.Block(1, mass=500.0, mu=0.2)], base=sm.SlidingBase(0.1))
     for call in (
-        lambda: sm.effective_mass(scene, [PULSE]),
         lambda: sm.slip.slip_demand(scene, [PULSE], clearance=0.1),
         lambda: sm.animate(scene, PULSE),
     ):

@@ -71,7 +71,7 @@ def test_figures_of_several_frictions_are_named_after_them() -> None:
     ]
     figures = study_figures(result)
     assert list(figures) == names
-    assert "\u00b5 = 0.2;" in figures["drift_R4_mu0.2"].get_supxlabel()
+    assert "\u03bc = 0.2;" in figures["drift_R4_mu0.2"].get_supxlabel()
 
 
 def test_figures_show_the_three_models_and_say_what_they_depend_on(small: StudyResult) -> None:

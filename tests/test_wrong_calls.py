@@ -67,7 +67,7 @@ LEFT_OUT: dict[str, str] = {
     **dict.fromkeys(("HuntAndFill", "IntensityMeasure", "multiple_stripes", "cloud_analysis"), "see its own tests"),
     **dict.fromkeys(("fit_capacities", "fit_cloud", "fit_counts"), "see its own tests"),
     **dict.fromkeys(RESULTS.split(), "a result, made by the package"),
-    **dict.fromkeys(("catalogue", "code_legend", "code_table", "instruction_set"), "takes nothing"),
+    **dict.fromkeys(("builtin_pairs", "catalogue", "code_legend", "code_table", "instruction_set"), "takes nothing"),
     "EffectiveMassParameters": "see effective_mass_map",
     "NearFaultPulse": "see synthetic_motion",
     "SyntheticParameters": "see synthetic_motion",

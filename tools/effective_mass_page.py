@@ -1,4 +1,5 @@
-"""Make docs/effective_mass.md's tables and the chart of the README from maps under recordings and the built-in suite.
+"""Make the tables of docs/effective_mass.md and the chart of docs/question.md from maps under recordings and built-in
+motions.
 
 Usage: tools/effective_mass_page.py SHARED [SUITE ...], SHARED a folder with `records`, by default all three suites;
 some ten minutes. Recordings are solved with a quarter of the shares. The tests check the table of the built-in suite

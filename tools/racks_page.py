@@ -18,7 +18,8 @@ from matplotlib.figure import Figure
 
 from seismass.media.axes import grid_lines
 from seismass.media.figure_file import save_figure
-from seismass.media.style import GREY, INK, SERIES, STYLE
+from seismass.media.roles import GREY, INK
+from seismass.media.style import SERIES, STYLE
 
 ROOT: Final = Path(__file__).parents[1]
 PAGE: Final = ROOT / "docs" / "racks.md"

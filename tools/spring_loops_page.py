@@ -18,7 +18,8 @@ ROOT: Final = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "benchmarks"))
 
 from seismass.media.figure_file import save_figure  # noqa: E402
-from seismass.media.style import BLUE, GREY, STYLE, VERMILION  # noqa: E402
+from seismass.media.roles import BLUE, GREY, VERMILION  # noqa: E402
+from seismass.media.style import STYLE  # noqa: E402
 from spring_loops import CASES, DATA, FULL, PARTIAL, YIELD, YIELD_DRIFT, Case, FloatArray, drifts, kept  # noqa: E402
 
 PAGE: Final = ROOT / "docs" / "spring_loops.md"

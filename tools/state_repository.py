@@ -33,8 +33,10 @@ def additions(address: str) -> dict[str, tuple[str, str]]:
         ),
         "packaging/README.md": (
             "MIT or Apache 2.0, at your choice.",
-            f"[Documentation]({files}/docs/index.md), [source and issues]({address}).\n\n",
+            f"[Documentation]({files}/docs/index.md), [source and issues]({address}).\n\n"
+            f"![The page of a building]({address}/raw/{BRANCH}/docs/figures/building_page.png)\n\n",
         ),
+        "README.md": ("## Your own building", f"Issues: <{address}/issues>.\n\n"),
         "crates/seismass/README.md": ("## Licence", f"[Documentation and source of the project]({address}).\n\n"),
     }
 

@@ -25,7 +25,11 @@ from seismass.study.findings import findings
 
 ROOT: Final = Path(__file__).parents[1]
 SUITE: Final = Path("records/paper_seven.csv")
-FIGURES: Final = {"drift_R6": "study_drift_R6", "effective": "study_effective"}
+FIGURES: Final = {
+    "underestimation": "underestimation",
+    "drift_R6": "study_drift_R6",
+    "effective": "study_effective",
+}
 """Figures of the page, and their files in docs/figures."""
 
 

@@ -18,7 +18,8 @@ from matplotlib.figure import Figure
 
 import seismass as sm
 from seismass.media.figure_file import save_figure
-from seismass.media.style import BLUE, GREY, INK, STYLE, VERMILION
+from seismass.media.roles import BLUE, GREY, INK, VERMILION
+from seismass.media.style import STYLE
 from seismass.records.synthetic.files import ALL_RECIPES
 from seismass.records.synthetic.seven import Recipe
 from seismass.records.synthetic.site import SITE_RECIPES

@@ -23,7 +23,7 @@ EVERYWHERE = (
     "elastic",
 )
 MAIN = ("section4-0.05",)
-"""The scene of the README's figure; what is too slow for the others runs here."""
+"""The scene of the figure at the head of the page; what is too slow for the others runs here."""
 
 
 class Failed(Exception):

@@ -43,6 +43,7 @@ __all__ = [
     "simulate_general",
     "simulate_many",
     "simulate_many_general",
+    "simulate_many_plane",
     "simulate_plane",
     "uniform_stiffness",
 ]
@@ -809,18 +810,33 @@ class Rack:
 @final
 class RackColumns:
     """
-    Racks and stops of a batch. The list of run i is the next `levels[i]` values of a flat array over the levels of its
-    racks, one rack after the other, or as many as it has blocks; a run that failed has none.
+    Racks, stops and sliding bases of a batch. The list of run i is the next `levels[i]` values of a flat array over the
+    levels of its racks, one rack after the other, or as many as it has blocks; a run that failed has none.
     """
+    @property
+    def base_slip_path(self, /) -> NDArray[float64]:
+        """
+        Path slipped by the sliding base (m) of each run; NaN without one.
+        """
     @property
     def levels(self, /) -> NDArray[uint32]:
         """
         Number of rack levels of each run.
         """
     @property
+    def peak_base_acceleration(self, /) -> NDArray[float64]:
+        """
+        Peak absolute acceleration of the slab of the sliding base (m/s2) of each run; NaN without one.
+        """
+    @property
     def peak_base_shear(self, /) -> NDArray[float64]:
         """
         Peak base shear, the share of an elastic matrix included (N), of each run; NaN without a building.
+        """
+    @property
+    def peak_base_slip(self, /) -> NDArray[float64]:
+        """
+        Peak slip of the sliding base (m) of each run; NaN without one.
         """
     @property
     def peak_contact_force(self, /) -> NDArray[float64]:
@@ -846,6 +862,11 @@ class RackColumns:
     def peak_rack_shear(self, /) -> NDArray[float64]:
         """
         Peak spring force of rack levels (N), flat over runs and levels.
+        """
+    @property
+    def residual_base_slip(self, /) -> NDArray[float64]:
+        """
+        Slip of the sliding base at the end (m) of each run; NaN without one.
         """
     @property
     def residual_rack_drift(self, /) -> NDArray[float64]:
@@ -1240,6 +1261,21 @@ def simulate_many_general(
 ) -> tuple[Batch, RackColumns]:
     """
     Solves `runs`, rows of (index of scene, index of motion); `progress` is called with runs done and runs in all.
+    """
+
+def simulate_many_plane(
+    scenes: SupportsGetItem[int, PlaneScene],
+    motions: SupportsGetItem[int, Motion],
+    others: SupportsGetItem[int, NDArray[float64]],
+    runs: NDArray[int64],
+    *,
+    threads: SupportsIndex | None = None,
+    progress: Any | None = None,
+) -> list[tuple[Batch, RackColumns]]:
+    """
+    Solves `runs`, rows of (index of scene, index of motion), of scenes in two directions: a batch of the lengths of
+    vectors, one of x and one of y. `others` are the samples of the motions in y (m/s2); `progress` is called with runs
+    done and runs in all. The residuals of the first are lengths too, its contacts the larger of both directions.
     """
 
 def simulate_plane(

@@ -36,6 +36,10 @@
   // ---- figures are seen, and said ---------------------------------------------------------------------------------
   for (const picture of document.querySelectorAll("svg, canvas, img")) {
     if (picture.getAttribute("aria-hidden") === "true") continue;
+    // Of a figure with a drawing for phones one is shown, and is looked at.
+    const drawings = Array.from(picture.closest("figure")?.querySelectorAll(":scope > .on-wide, :scope > .on-narrow") ?? []);
+    if (drawings.length && drawings.filter((one) => one.getClientRects().length > 0).length !== 1) problems.push(`${name(picture)} is not shown once`);
+    if (drawings.length && picture.getClientRects().length === 0) continue;
     const box = picture.getBoundingClientRect();
     const style = getComputedStyle(picture);
     if (box.width < 40 || box.height < 20 || style.visibility !== "visible") problems.push(`${name(picture)} is not seen`);
@@ -108,7 +112,7 @@
   // What an animation draws: words in ink, in the colours of the buildings and in that of events, on its paper.
   for (const animation of document.querySelectorAll(".animation")) {
     const colour = (variable) => over(rgba(getComputedStyle(animation).getPropertyValue(variable)), over(rgba(paper), [255, 255, 255]));
-    for (const variable of ["--ink", "--soft", "--real", "--model", "--other", "--yield"]) {
+    for (const variable of ["--ink", "--soft", "--slide", "--code", "--attached", "--bare", "--yield"]) {
       const ratio = contrast(colour(variable), colour("--paper"));
       texts += 1;
       if (ratio < 4.5) problems.push(`${variable} of an animation has a contrast of ${ratio.toFixed(2)}`);

@@ -1,4 +1,4 @@
-//! Many runs of the general engine at once: a batch as of the chain engine, and columns of racks and stops beside it.
+//! Many runs of the general engine at once: a batch as of the chain engine, and columns of racks, stops and bases.
 
 use pyo3::prelude::*;
 use seismass::{EventKind, GeneralResponse, GeneralStatus, Options, Peak, Run};
@@ -32,24 +32,37 @@ pub(crate) fn simulate_many_general(
         let options = Options { events: false, ..Options::default() };
         let solved =
             seismass::simulate_general_each(&scenes, &motions, &runs, &options, threads, control, |response| {
-                (row(&response), OfRacks::new(&response))
+                kept(&response)
             })?;
-        let mut columns = RackColumns::default();
-        let mut of_run = |result: seismass::Result<(Row, OfRacks)>| {
-            let (row, racks) = match result {
-                Ok((row, racks)) => (Ok(row), racks),
-                Err(error) => (Err(error), OfRacks::default()),
-            };
-            columns.push(&racks);
-            row
-        };
-        let rows: Vec<_> = solved.into_iter().map(&mut of_run).collect();
-        let mut batch = Batch::with_room_for(&rows);
-        for (run, row) in rows.into_iter().enumerate() {
-            batch.push(run, row);
-        }
-        Ok((batch, columns))
+        Ok(gathered(solved))
     })
+}
+
+/// What a batch keeps of a run.
+pub(crate) type Kept = (Row, OfRacks);
+
+/// What a batch keeps of a response.
+pub(crate) fn kept(response: &GeneralResponse) -> Kept {
+    (row(response), OfRacks::new(response))
+}
+
+/// The columns of a batch, of what was kept of its runs in their order.
+pub(crate) fn gathered(runs: Vec<seismass::Result<Kept>>) -> (Batch, RackColumns) {
+    let mut columns = RackColumns::default();
+    let mut of_run = |result: seismass::Result<Kept>| {
+        let (row, racks) = match result {
+            Ok((row, racks)) => (Ok(row), racks),
+            Err(error) => (Err(error), OfRacks::none()),
+        };
+        columns.push(&racks);
+        row
+    };
+    let rows: Vec<_> = runs.into_iter().map(&mut of_run).collect();
+    let mut batch = Batch::with_room_for(&rows);
+    for (run, row) in rows.into_iter().enumerate() {
+        batch.push(run, row);
+    }
+    (batch, columns)
 }
 
 /// What storeys, floors and blocks have, as of a run of the chain engine.
@@ -84,14 +97,19 @@ fn row(response: &GeneralResponse) -> Row {
     }
 }
 
-/// What racks and stops of one run have.
+/// Columns of a sliding base in a run without one.
+const NO_BASE: [f64; 4] = [f64::NAN; 4];
+
+/// What racks, stops and a sliding base of one run have.
 #[derive(Default)]
-struct OfRacks {
+pub(crate) struct OfRacks {
     base_shear: f64,
     /// Peak drift, acceleration and shear, and residual drift, of the levels of all racks.
     levels: [Vec<f64>; 4],
     /// Peak contact force and velocity of the blocks.
     contact: [Vec<f64>; 2],
+    /// Peak slip, peak acceleration, slip at the end and path of a sliding base; NaN without one.
+    base: [f64; 4],
 }
 
 impl OfRacks {
@@ -108,12 +126,21 @@ impl OfRacks {
                 response.residual_drift[response.storeys..].to_vec(),
             ],
             contact: [values(&peaks.contact_force), values(&peaks.contact_velocity)],
+            base: response
+                .base
+                .as_ref()
+                .map_or(NO_BASE, |base| [base.slip.value, base.acceleration.value, base.residual_slip, base.slip_path]),
         }
+    }
+
+    /// Those of a run that failed.
+    fn none() -> Self {
+        Self { base: NO_BASE, ..Self::default() }
     }
 }
 
-/// Racks and stops of a batch. The list of run i is the next `levels[i]` values of a flat array over the levels of its
-/// racks, one rack after the other, or as many as it has blocks; a run that failed has none.
+/// Racks, stops and sliding bases of a batch. The list of run i is the next `levels[i]` values of a flat array over the
+/// levels of its racks, one rack after the other, or as many as it has blocks; a run that failed has none.
 #[pyclass(frozen, module = "seismass._kernel")]
 #[derive(Default)]
 pub(crate) struct RackColumns {
@@ -121,6 +148,7 @@ pub(crate) struct RackColumns {
     count: Vec<u32>,
     levels: [Vec<f64>; 4],
     contact: [Vec<f64>; 2],
+    base: [Vec<f64>; 4],
 }
 
 impl RackColumns {
@@ -129,6 +157,7 @@ impl RackColumns {
         self.count.push(count(racks.levels[0].len()));
         self.levels.iter_mut().zip(&racks.levels).for_each(|(all, own)| all.extend(own));
         self.contact.iter_mut().zip(&racks.contact).for_each(|(all, own)| all.extend(own));
+        self.base.iter_mut().zip(racks.base).for_each(|(all, own)| all.push(own));
     }
 }
 
@@ -184,5 +213,29 @@ impl RackColumns {
     #[getter]
     fn peak_contact_velocity(&self) -> Output<f64> {
         column(&self.contact[1])
+    }
+
+    /// Peak slip of the sliding base (m) of each run; NaN without one.
+    #[getter]
+    fn peak_base_slip(&self) -> Output<f64> {
+        column(&self.base[0])
+    }
+
+    /// Peak absolute acceleration of the slab of the sliding base (m/s2) of each run; NaN without one.
+    #[getter]
+    fn peak_base_acceleration(&self) -> Output<f64> {
+        column(&self.base[1])
+    }
+
+    /// Slip of the sliding base at the end (m) of each run; NaN without one.
+    #[getter]
+    fn residual_base_slip(&self) -> Output<f64> {
+        column(&self.base[2])
+    }
+
+    /// Path slipped by the sliding base (m) of each run; NaN without one.
+    #[getter]
+    fn base_slip_path(&self) -> Output<f64> {
+        column(&self.base[3])
     }
 }

@@ -10,6 +10,7 @@ mod general_run;
 mod general_scene;
 mod interrupt;
 mod plane;
+mod plane_batch;
 mod reference;
 mod response;
 mod scene;
@@ -58,6 +59,8 @@ mod _kernel {
     use crate::general_scene::{GeneralBuilding, GeneralScene, Rack};
     #[pymodule_export]
     use crate::plane::{PlaneResponse, PlaneScene, simulate_plane};
+    #[pymodule_export]
+    use crate::plane_batch::simulate_many_plane;
     #[pymodule_export]
     use crate::reference::{ReferenceRun, integrate_reference};
     #[pymodule_export]

@@ -15,7 +15,7 @@ use crate::scene::Motion;
 
 /// Scene in two horizontal directions held by the kernel.
 #[pyclass(frozen, module = "seismass._kernel")]
-pub(crate) struct PlaneScene(seismass::PlaneScene);
+pub(crate) struct PlaneScene(pub(crate) seismass::PlaneScene);
 
 #[pymethods]
 impl PlaneScene {

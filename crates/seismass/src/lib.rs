@@ -98,7 +98,7 @@ mod threads;
 mod tolerances;
 mod units;
 
-pub use batch::{Run, simulate_each, simulate_general_each, simulate_many};
+pub use batch::{Run, simulate_each, simulate_general_each, simulate_many, simulate_plane_each};
 pub use error::{Domain, Error, Result};
 pub use general::{
     Axis, GeneralBase, GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralResponse, GeneralStatus, PlaneEnergy,

@@ -11,6 +11,7 @@ from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.values import as_number, brief, content_hash, refusal, same_content
 from seismass.base.views import view
 from seismass.effective_mass.models import attached_scene
+from seismass.media.roles import SLIDE
 from seismass.model.codes import Use, code_fraction
 from seismass.model.motion import MotionLike, as_motion
 from seismass.model.scene import Scene
@@ -44,6 +45,11 @@ class Animation:
 
     __eq__ = same_content
     __hash__ = content_hash
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """What happens, a sentence for each run."""
+        return self.shown.sentences
 
     @view
     def fragment(self) -> Markup:
@@ -92,6 +98,13 @@ class Animation:
         runs = " and ".join(run.label for run in self.shown.runs)
         seconds = (self.shown.rows - 1) * self.shown.step
         return f"Animation({self.title!r}, {runs}, {seconds:g} s, {self.shown.rows} rows)"
+
+
+def _label(scene: Scene) -> str:
+    """What the run of the scene itself is called."""
+    if scene.building is None:
+        return f"{'racks' if scene.racks else 'blocks'} on the ground"
+    return SLIDE.name if scene.goods else "no goods"
 
 
 def animate(
@@ -144,9 +157,8 @@ def animate(
     if not isinstance(scene, Scene):
         raise refusal(InvalidScene, "scene", "animation", "a Scene", brief(scene))
     chosen = as_motion(motion, "motion", "animation")
-    scenes: list[tuple[str, float | None, Scene]] = [
-        ("real building" if scene.building else f"{'racks' if scene.racks else 'blocks'} on the ground", None, scene)
-    ]
+    scene.on_ground("animation")
+    scenes: list[tuple[str, float | None, Scene]] = [(_label(scene), None, scene)]
     if any(floor > 0 for floor in (*scene.block_floor, *(rack.floor for rack in scene.racks if rack.blocks))):
         if fraction is None:
             row = code_fraction(code, use)

@@ -2,8 +2,18 @@
 
 from seismass.assessment.building_file import read_building
 from seismass.assessment.own_building import OwnBuilding
+from seismass.assessment.pushover_file import PushoverCurves, read_pushover
 from seismass.assessment.result import Assessment
 from seismass.assessment.run import assess
 from seismass.assessment.storey_table import StoreyTable, read_storey_table
 
-__all__ = ["Assessment", "OwnBuilding", "StoreyTable", "assess", "read_building", "read_storey_table"]
+__all__ = [
+    "Assessment",
+    "OwnBuilding",
+    "PushoverCurves",
+    "StoreyTable",
+    "assess",
+    "read_building",
+    "read_pushover",
+    "read_storey_table",
+]

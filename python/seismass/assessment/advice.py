@@ -13,10 +13,11 @@ from seismass.assessment.checks import drift_source
 from seismass.assessment.governing import friction_words
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, REAL, REALS
 from seismass.assessment.own_building import DEFAULT_THETA_LIMIT, OwnBuilding
-from seismass.assessment.structure import about_support, rule_advice
+from seismass.assessment.structure import about_support, base_advice, rule_advice
 from seismass.design import THETA_THRESHOLD
 from seismass.effective_mass import EffectiveMass
 from seismass.effective_mass.structure_remarks import RULE_UNKNOWN
+from seismass.effective_mass.two_directions import one_direction_of_slip
 from seismass.media.text_table import numbers_text
 from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
 from seismass.scaling import ScalingResult
@@ -33,7 +34,8 @@ def advice_of(
     slip: pl.DataFrame,
     collapses: dict[str, int],
     motions: int,
-    effective: EffectiveMass | None = None,
+    effective: EffectiveMass | None,
+    runs: pl.DataFrame,
 ) -> tuple[str, ...]:
     """Return what to use in an analysis, and what the checks say, sentence by sentence."""
     reals = [name for name in REALS if name in collapses]
@@ -61,8 +63,8 @@ def advice_of(
         lines += rule_advice(building, effective)
     lines += _checks(building, storeys, reals)
     lines += _against_code(building, storeys, reals)
-    lines += _slip_advice(slip)
-    return tuple(lines)
+    lines += _slip_advice(slip, in_plane=building.other is not None)
+    return (*lines, *base_advice(runs))
 
 
 def _mean(storeys: pl.DataFrame, model: str) -> list[float | None]:
@@ -156,16 +158,20 @@ def _against_code(building: OwnBuilding, storeys: pl.DataFrame, reals: Sequence[
     ]
 
 
-def _slip_advice(slip: pl.DataFrame) -> list[str]:
+def _slip_advice(slip: pl.DataFrame, *, in_plane: bool) -> list[str]:
     known = slip.drop_nulls("peak_p84").sort("peak_p84", descending=True)
     if not known.height:
         return []
     row = known.row(0, named=True)
     if not row["peak_max"]:
         return ["No goods slide under any motion."]
+    sentence = one_direction_of_slip()
+    beside = [] if in_plane else [f"{sentence[:1].upper()}{sentence[1:]}."]
+    way = "in any direction" if in_plane else "each way"
     return [
-        f"Allow for {1e3 * row['peak_p84']:.0f} mm of slip each way on floor {row['floor']} (84 % of the motions, mu = "
-        f"{row['mu_s']:.3g}; largest {1e3 * row['peak_max']:.0f} mm): edges, aisles and neighbours."
+        f"Allow for {1e3 * row['peak_p84']:.0f} mm of slip {way} on floor {row['floor']} (84 % of the motions, mu = "
+        f"{row['mu_s']:.3g}; largest {1e3 * row['peak_max']:.0f} mm): edges, aisles and neighbours.",
+        *beside,
     ]
 
 
@@ -185,7 +191,11 @@ def remarks_of(
     for name, result in effective.items():
         label = "" if name == REAL else f"{NAMES[name]}: "
         # What storeys the share does not cover is advice, of the share that is advised.
-        once = [text for text in result.remarks if not text.startswith(("storey ", "the real building collapses"))]
+        once = [
+            text
+            for text in result.remarks
+            if not text.startswith(("storey ", "the building with sliding goods collapses"))
+        ]
         once = [text for text in once if text not in doubts and not _of_friction(text)]
         everywhere = (" motions are few", RULE_UNKNOWN)
         found += [label + remark for remark in once if name == REAL or not any(part in remark for part in everywhere)]
@@ -225,18 +235,28 @@ def _about_motions(
     motions, synthetic = len(suite["motions"]), suite["synthetic"]
     kind = "all synthetic" if synthetic == motions else f"{synthetic} synthetic" if synthetic else "recorded"
     lines = [f"Motions: {suite['name']}, {motions}, {kind}; one direction, vertical where a motion has it."]
+    if suite["pairs"]:
+        lines = [
+            f"Motions: {suite['name']}, {motions} pairs, {kind}; two directions, vertical where a pair has it.",
+            "Two directions: friction of goods is of the circle, springs act in x and y by themselves. The drift of a "
+            "storey is the larger of its peaks in x and in y, of the building and of models; slip is the length of its "
+            "vector. Models have the same share attached in both directions.",
+        ]
     if target is not None:
         lines.append(f"Site spectrum: {target.label}.")
     if scaling is None:
         return [*lines, "Motions are taken as they are."]
     shortest, longest = scaling.periods[0], scaling.periods[-1]
-    period = shortest / 0.2
-    fits = abs(period / building.period(building.goods) - 1.0) < 1e-9
-    which = "first period with the goods present attached" if fits else "as asked for"
+    period = scaling.period
+    longest_period = max(each.period(building.goods) for each in (building, building.other) if each is not None)
+    fits = abs(period / longest_period - 1.0) < 1e-9
+    of = " of the more flexible direction" if building.other is not None else ""
+    which = f"first period{of} with the goods present attached" if fits else "as asked for"
+    both = "one factor for both components, geometric " if suite["pairs"] else ""
     return [
         *lines,
-        f"Scaling: ASCE/SEI 7-10, 16.1.3.1, mean not below the target from {shortest:.3g} to {longest:.3g} s, for "
-        f"T = {period:.3g} s ({which}).",
+        f"Scaling: ASCE/SEI 7-10, 16.1.3.1, {both}mean not below the target from {shortest:.3g} to {longest:.3g} s, "
+        f"for T = {period:.3g} s ({which}).",
     ]
 
 

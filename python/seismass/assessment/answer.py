@@ -26,6 +26,8 @@ ROUNDING_STEP: Final = 0.05
 """An advised share is the next multiple of it."""
 MOST_DOUBTS: Final = 3
 """Doubts that stand in the headline; the others are among the remarks."""
+ANALYSIS: Final = "analysis"
+"""Name of the table of what to type into another program."""
 NO_MATTER: Final = 0.01
 """Change of a drift below which the share does not matter."""
 
@@ -215,12 +217,13 @@ def deciding(effective: dict[str, EffectiveMass]) -> str:
 def motions_sentence(suite: dict[str, Any], scaling: ScalingResult | None) -> str:
     """Return on how many motions of which kind an answer stands, and how they were scaled."""
     count, synthetic = len(suite["motions"]), suite["synthetic"]
+    of = "pairs of " * suite["pairs"]
     if synthetic == count:
-        kind = f"{count} synthetic motions, none recorded"
+        kind = f"{count} {of}synthetic motions, none recorded"
     elif synthetic:
-        kind = f"{count} motions, {synthetic} of them synthetic"
+        kind = f"{count} {of}motions, {synthetic} of them synthetic"
     else:
-        kind = f"{count} recorded motions"
+        kind = f"{count} {of}recorded motions"
     if scaling is None:
         how = "taken as they are"
     else:
@@ -364,29 +367,23 @@ def _design(building: OwnBuilding, advised: float, design: DesignShare | None) -
     )
 
 
-def floor_masses(answer: Answer, building: OwnBuilding) -> pl.DataFrame:
-    """Return what to type into another program: one row per floor.
+def analysis_table(answer: Answer, building: OwnBuilding) -> pl.DataFrame:
+    """Return what to type into another program, in the units that such programs take: one row per floor.
 
     Returns
     -------
     polars.DataFrame
-        floor, name; mass_1 and mass_2 (kg) and weight_1 and weight_2 (N) of the floor in both analyses; multiplier_1
-        and multiplier_2, of the live load in their mass sources. Empty where there is no answer.
+        floor, name; mass_1_t and mass_2_t (t) and weight_1_kn and weight_2_kn (kN) of the floor in both analyses;
+        multiplier_1 and multiplier_2, of the design live load in their mass sources. Empty where there is no answer.
     """
-    columns: dict[str, Any] = {"floor": [], "name": [], "mass_1": [], "weight_1": [], "multiplier_1": []}
-    columns |= {"mass_2": [], "weight_2": [], "multiplier_2": []}
+    columns: dict[str, Any] = {"floor": [], "name": []}
     if answer.analyses:
-        one, two = answer.analyses
-        columns = {
-            "floor": list(range(1, building.storeys + 1)),
-            "name": list(building.storey_names),
-            "mass_1": list(one.mass),
-            "weight_1": [STANDARD_GRAVITY * value for value in one.mass],
-            "multiplier_1": list(one.multipliers),
-            "mass_2": list(two.mass),
-            "weight_2": [STANDARD_GRAVITY * value for value in two.mass],
-            "multiplier_2": list(two.multipliers),
-        }
+        columns = {"floor": list(range(1, building.storeys + 1)), "name": list(building.storey_names)}
     schema: dict[str, Any] = {"floor": pl.UInt32, "name": pl.String}
+    for number in (1, 2):
+        of = next((one for one in answer.analyses if one.number == number), None)
+        columns[f"mass_{number}_t"] = [] if of is None else [1e-3 * mass for mass in of.mass]
+        columns[f"weight_{number}_kn"] = [] if of is None else [1e-3 * STANDARD_GRAVITY * mass for mass in of.mass]
+        columns[f"multiplier_{number}"] = [] if of is None else list(of.multipliers)
     schema |= dict.fromkeys(list(columns)[2:], pl.Float64)
     return pl.DataFrame(columns, schema=schema)

@@ -7,13 +7,16 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final, cast, get_args
 
 import numpy as np
 
+from seismass.assessment.file_base import BASE_KEYS, base_of
 from seismass.assessment.file_codes import code_of, floor_codes
 from seismass.assessment.file_goods import FRICTION, LIVE_LOAD, PRESENT, kinds_of, live_load_of, mu_factors_of
+from seismass.assessment.file_plane import OTHER_DIRECTION, tables_in_y
 from seismass.assessment.file_racks import SUPPORT
 from seismass.assessment.file_site import LIMIT, PERIOD, SITE, check_period, limit_of, period_of, site_of
 from seismass.assessment.file_units import (
@@ -42,6 +45,8 @@ from seismass.assessment.own_building import (
     DesignRule,
     OwnBuilding,
 )
+from seismass.assessment.project import PROJECT, project_of
+from seismass.assessment.sources import sources_of
 from seismass.base.errors import InvalidBuildingFile
 from seismass.base.input_kinds import BUILDING_FILE, refuse_other_kind
 from seismass.base.input_table import POSITIVE, SHARE, Need, Table, load_table
@@ -71,7 +76,21 @@ _KIND: Final = (*PRESENT, *FRICTION, "mu_k", *SUPPORT)
 _GOODS: Final = (*LIVE_LOAD, *_KIND)
 _DESIGN: Final = ("R", "design_fraction", "combination")
 KEYS: Final = {
-    "": ("name", "note", "units", "site", "code", "building", "walls", "goods", "storeys"),
+    "": (
+        "name",
+        "note",
+        "units",
+        "project",
+        "site",
+        "code",
+        "building",
+        "walls",
+        "base",
+        "goods",
+        "storeys",
+        "other_direction",
+    ),
+    "project": PROJECT,
     "site": SITE,
     "code": ("id", "use", "fraction"),
     "building": (
@@ -88,9 +107,11 @@ KEYS: Final = {
         *_STOREY,
     ),
     "walls": WALL_KEYS,
+    "base": BASE_KEYS,
     "goods": ("mu_factors", *_GOODS),
     "storeys": ("name", "use", "fraction", "exempt", "goods", *_STOREY, *_GOODS),
     "storeys.goods": ("name", "share", "attached", *_KIND),
+    "other_direction": OTHER_DIRECTION,
 }
 """Keys of each table of a building file, the file itself first."""
 US_KEYS: Final[dict[str, tuple[str, ...]]] = {
@@ -152,6 +173,16 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         top = load_table(path, "building file", InvalidBuildingFile)
     refuse_other_kind(top, BUILDING_FILE)
     top.known(KEYS[""])
+    if "other_direction" not in top.values:
+        return _building(top, path)
+    if "base" in top.values:
+        top.refuse("base", f"left out where {top.key('other_direction')} is given", "both")
+    in_y = tables_in_y(top.values, top.file)
+    return replace(_building(top, path), other=_building(in_y, path))
+
+
+def _building(top: Table, path: Path | None) -> OwnBuilding:
+    """The building of a file in one direction."""
     units = top.choice("units", SYSTEMS) if "units" in top.values else ""
     storeys = top.tables("storeys")
     if not storeys:
@@ -160,8 +191,8 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         _known(storey, "storeys", units)
         for kind in storey.tables("goods"):
             _known(kind, "storeys.goods", units)
-    building, goods, site, code, walls = (
-        _table(top, key, units) for key in ("building", "goods", "site", "code", "walls")
+    building, goods, site, code, walls, base, project = (
+        _table(top, key, units) for key in ("building", "goods", "site", "code", "walls", "base", "project")
     )
     _unique(building, goods, storeys)
     frame = np.array([_mass(storey, building) for storey in storeys])
@@ -245,8 +276,11 @@ def read_building(source: str | os.PathLike[str] | Mapping[str, Any]) -> OwnBuil
         collapse_drift_ratio=collapse,
         scaling_period=_optional(building, "scaling_period_s"),
         path=path,
+        project=project_of(project),
+        sources=sources_of(top.values),
         walls=None if beside is None else beside.matrix,
         walls_stated="" if beside is None else beside.how,
+        base=base_of(base),
     )
 
 

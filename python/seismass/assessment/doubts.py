@@ -62,19 +62,24 @@ def doubts_of(
         The building.
     real : Scene
         It with its goods.
-    motions : list of Record or Motion
+    motions : list of Record, Motion or Pair
         Motions, scaled.
     target : TargetSpectrum or None
         Site spectrum.
     storeys : polars.DataFrame
         `Assessment.storeys`.
     """
+    directions = [(real, motions)]
+    if real.other_direction is not False:
+        x, y = real._directions()
+        directions = [(x, [pair.first for pair in motions]), (y, [pair.second for pair in motions])]
     found = [
         *building_doubts(building, real, target),
-        *usage_remarks((), motions),
+        *usage_remarks((), [motion for _, of in directions for motion in of]),
         *_about_drifts(storeys),
-        *(damping_doubts(real, motions) if building.walls is None else ()),
     ]
+    if building.walls is None:
+        found += [doubt for scene, of in directions for doubt in damping_doubts(scene, of)]
     return tuple(dict.fromkeys(found))
 
 

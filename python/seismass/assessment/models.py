@@ -11,10 +11,12 @@ import polars as pl
 from seismass.assessment.own_building import OwnBuilding
 from seismass.base.errors import SimulationError
 from seismass.base.values import FloatArray
-from seismass.effective_mass.models import frame_mass
-from seismass.model.motion import Motion
+from seismass.effective_mass.models import base_of_model, frame_mass
+from seismass.media.roles import MODELS
+from seismass.model.motion import MotionLike
 from seismass.model.scene import Scene
 from seismass.runs.batch import solve_many
+from seismass.runs.plane_motion import MotionPair
 from seismass.spectra import TargetSpectrum
 
 REAL: Final = "real"
@@ -27,15 +29,7 @@ CODE: Final = "code"
 ATTACHED: Final = "attached"
 BARE: Final = "bare"
 _SLIPS: Final = ("peak_slip", "residual_slip", "slip_path")
-NAMES: Final = {
-    REAL: "goods slide",
-    REAL_LOW: "goods slide, low mu",
-    REAL_HIGH: "goods slide, high mu",
-    ADVISED: "advised",
-    CODE: "code",
-    ATTACHED: "all attached",
-    BARE: "none attached",
-}
+NAMES: Final = {name: MODELS[name].name for name in (*REALS, ADVISED, CODE, ATTACHED, BARE)}
 """What texts and figures call the models."""
 
 
@@ -52,18 +46,28 @@ def with_mass(scene: Scene, attached: FloatArray) -> Scene:
     Parameters
     ----------
     scene : Scene
-        Building and goods. Stiffness, strength, walls, damping matrix and P/h stay those of the real building; frames
-        of racks are attached to their floors.
+        Building and goods. Stiffness, strength, walls, damping matrix and P/h stay those of the real building, and so
+        do the friction and the restoring force of a sliding base; frames of racks are attached to their floors.
     attached : ndarray, shape (storeys,)
         Mass attached to each floor (kg).
     """
+    if scene.other_direction is not False:
+        x, y = (with_mass(each, attached) for each in scene._directions())
+        other = y.building
+        assert other is not None
+        return Scene(x.building, other_direction=other, collapse_drift=scene.collapse_drift, name=scene.name)
     building = scene.building
     assert building is not None
     mass = building.mass + frame_mass(scene) + attached
     changes: dict[str, Any] = {"mass": mass, "damping": building.damping_matrix}
     if scene.geometric_stiffness.any():
         changes |= {"gravity_load": None, "geometric_stiffness": scene.geometric_stiffness}
-    return Scene(building.replace(**changes), collapse_drift=scene.collapse_drift, name=scene.name)
+    return Scene(
+        building.replace(**changes),
+        base=base_of_model(scene, mass),
+        collapse_drift=scene.collapse_drift,
+        name=scene.name,
+    )
 
 
 def compared_models(building: OwnBuilding, target: TargetSpectrum | None, advised: float | None) -> dict[str, Scene]:
@@ -96,7 +100,7 @@ def compared_models(building: OwnBuilding, target: TargetSpectrum | None, advise
 def solve_models(
     building: OwnBuilding,
     scenes: dict[str, Scene],
-    motions: Sequence[Motion],
+    motions: Sequence[MotionLike | MotionPair],
     names: Sequence[str],
     *,
     threads: int | None = None,
@@ -109,7 +113,9 @@ def solve_models(
     runs : polars.DataFrame
         One row per model, motion and storey: model, motion, record, status, collapsed, storey, peak_drift (m),
         peak_drift_ratio (null without heights), residual_drift (m), peak_storey_shear (N), peak_floor_acceleration
-        (m/s2), peak_slip (m, the largest of the loose goods of the floor; null where none slide).
+        (m/s2), peak_slip (m, the largest of the loose goods of the floor; null where none slide), peak_base_slip
+        (m, of a sliding base, the same in every storey; null without one). In two directions drift and shear are the
+        larger of both, with the drifts of each in peak_drift_x and peak_drift_y; the others are lengths of vectors.
     slips : polars.DataFrame
         One row per model with goods that slide, motion and kind of loose goods: model, motion, kind (index in
         `OwnBuilding.loose`), level of its rack (0: on the floor), collapsed, peak_slip, residual_slip and slip_path
@@ -121,7 +127,7 @@ def solve_models(
         A run could not be carried to its end.
     """
     table = solve_many(list(scenes.values()), list(motions), threads=threads, progress=progress)
-    runs = table.to_dicts()
+    runs, in_plane = table.to_dicts(), "peak_drift_x" in table.columns
     rows: list[dict[str, Any]] = []
     slides: list[dict[str, Any]] = []
     for index, run in enumerate(runs):
@@ -139,7 +145,10 @@ def solve_models(
             of_floor = [
                 run["peak_slip"][i] for i, (kind, _) in enumerate(blocks) if building.loose[kind].floor == storey
             ]
-            drift = run["peak_drift"][storey - 1]
+            of_directions = {}
+            if in_plane:
+                of_directions = {f"peak_drift_{axis}": run[f"peak_drift_{axis}"][storey - 1] for axis in "xy"}
+            drift, shear = (_larger(run, name, storey - 1, in_plane) for name in ("peak_drift", "peak_storey_shear"))
             rows.append(
                 {
                     "model": model,
@@ -151,16 +160,24 @@ def solve_models(
                     "peak_drift": drift,
                     "peak_drift_ratio": None if building.heights is None else drift / building.heights[storey - 1],
                     "residual_drift": run["residual_drift"][storey - 1],
-                    "peak_storey_shear": run["peak_storey_shear"][storey - 1],
+                    "peak_storey_shear": shear,
                     "peak_floor_acceleration": run["peak_floor_acceleration"][storey - 1],
                     "peak_slip": max(of_floor, default=None),
+                    "peak_base_slip": run.get("peak_base_slip"),
+                    **of_directions,
                 }
             )
     schema: dict[str, Any] = {"motion": pl.UInt32, "storey": pl.UInt32}
-    schema |= dict.fromkeys(("peak_drift_ratio", "peak_slip"), pl.Float64)
+    schema |= dict.fromkeys(("peak_drift_ratio", "peak_slip", "peak_base_slip"), pl.Float64)
     of_kinds: dict[str, Any] = {"model": pl.String, "motion": pl.UInt32, "collapsed": pl.Boolean}
     of_kinds |= dict.fromkeys(("kind", "level"), pl.UInt32)
     return (
         pl.DataFrame(rows, schema_overrides=schema),
         pl.DataFrame(slides, schema=of_kinds | dict.fromkeys(_SLIPS, pl.Float64)),
     )
+
+
+def _larger(run: dict[str, Any], name: str, place: int, in_plane: bool) -> float:
+    """A peak of a storey; in two directions the larger of both."""
+    values = [run[f"{name}_{axis}"][place] for axis in "xy"] if in_plane else [run[name][place]]
+    return float(max(values))

@@ -1,19 +1,32 @@
-"""A building file from a few answers, or from a storey table and a few answers: commented, to be edited further."""
+"""A building file from a few answers, a storey table or pushover curves: commented, to be edited further."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Final, Literal, TypeAlias, get_args
+
+import numpy as np
 
 from seismass.assessment.file_values import REDUCTION
+from seismass.assessment.pushover_file import PushoverCurves
 from seismass.assessment.storey_table import StoreyTable
-from seismass.base.errors import InvalidOption
+from seismass.base.errors import InvalidBuildingFile, InvalidOption
 from seismass.base.input_table import POSITIVE, SHARE, Need
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import brief, refusal
+from seismass.base.values import FloatArray, brief, refusal
+from seismass.design import PushoverFit, fit_pushover
+from seismass.design.spring_fit import SpringShape
 from seismass.model.friction import friction_table
+
+FloorForces: TypeAlias = Literal["triangular", "uniform"]
+FLOOR_FORCES: Final[tuple[FloorForces, ...]] = get_args(FloorForces)
+"""Lateral forces as mass times height above ground, or as mass."""
+_SLOPES: Final = (
+    "overstrength = 2.0           # second yield over the first: an assumption",
+    "second_slope = 0.05          # stiffness after the first yield over the initial one: an assumption",
+)
 
 
 def _text(given: str) -> str:
@@ -97,31 +110,96 @@ QUESTIONS: Final = (
 """What is asked, in order. The roof carries no goods."""
 
 
-def questions_for(table: StoreyTable | None) -> tuple[Question, ...]:
-    """Return what has still to be asked where a storey table is given."""
-    if table is None:
-        return QUESTIONS
-    known = {"storeys"}
-    for name, values in (
-        ("height", table.heights),
-        ("dead_load", table.mass),
-        ("period", table.stiffness),
-        ("reduction", table.strength),
-    ):
-        if values is not None:
-            known.add(name)
+def questions_for(table: StoreyTable | None, curves: PushoverCurves | None = None) -> tuple[Question, ...]:
+    """Return what has still to be asked where a storey table or pushover curves are given."""
+    known = set()
+    if table is not None:
+        of = {"height": table.heights, "dead_load": table.mass, "period": table.stiffness, "reduction": table.strength}
+        known = {"storeys", *(name for name, values in of.items() if values is not None)}
+    if curves is not None:
+        known |= {"period", "reduction", *(["storeys"] if curves.names else [])}
     return tuple(question for question in QUESTIONS if question.name not in known)
 
 
-def building_text(answers: Mapping[str, Any], table: StoreyTable | None = None) -> str:
+def fit_of_curves(
+    curves: PushoverCurves,
+    answers: Mapping[str, Any],
+    table: StoreyTable | None = None,
+    *,
+    shape: SpringShape = "bilinear",
+    pattern: FloorForces = "triangular",
+) -> PushoverFit:
+    """Return the springs of a building that is to be written, fitted to its pushover curves.
+
+    Parameters
+    ----------
+    curves : PushoverCurves
+        The curves.
+    answers : mapping of str to object
+        As for `building_text`.
+    table : StoreyTable, optional
+        What is known storey by storey; its stiffnesses and yield shears are then the relative ones of a curve of the
+        whole building.
+    shape : {"bilinear", "trilinear"}
+        Lines of the springs.
+    pattern : {"triangular", "uniform"}
+        Lateral forces of a curve of the whole building: as mass times height above ground, or as mass.
+
+    Raises
+    ------
+    InvalidBuildingFile, InvalidOption
+        Curves and storeys do not belong together, or a curve cannot be fitted.
+    """
+    _need(answers, questions_for(table, curves))
+    storeys = len(table.names) if table is not None else len(curves.names) or int(answers["storeys"])
+    if curves.names and len(curves.names) != storeys:
+        got = f"{len(curves.names)} for {storeys} storeys"
+        raise refusal(InvalidBuildingFile, "curves", curves.source, "one for each storey of the table", got)
+    heights = None if table is None else table.heights
+    if heights is None and "height" in answers:
+        heights = np.full(storeys, float(answers["height"]))
+    drift = curves.drift_in_metres(heights)
+    if curves.names:
+        return fit_pushover(drift, curves.shear, shape=shape)
+    if heights is None:
+        raise refusal(InvalidBuildingFile, "heights", curves.source, "known with a curve of the whole building", "none")
+    mass = np.ones(storeys) if table is None or table.mass is None else table.mass
+    return fit_pushover(
+        drift[0],
+        curves.shear[0],
+        shape=shape,
+        forces=mass * np.cumsum(heights) if pattern == "triangular" else mass,
+        relative_stiffness=None if table is None else table.stiffness,
+        relative_strength=None if table is None else table.strength,
+    )
+
+
+def _need(answers: Mapping[str, Any], questions: Sequence[Question]) -> None:
+    """Refuse answers that lack one."""
+    for question in questions:
+        if question.name not in answers:
+            need = f"given, by --{question.name.replace('_', '-')}, where it is not asked for"
+            raise refusal(InvalidOption, question.name, "new building", need, "nothing")
+
+
+def building_text(
+    answers: Mapping[str, Any],
+    table: StoreyTable | None = None,
+    curves: PushoverCurves | None = None,
+    fit: PushoverFit | None = None,
+) -> str:
     """Return a building file as text.
 
     Parameters
     ----------
     answers : mapping of str to object
-        An answer, as its `Question` reads it, to each of `questions_for(table)`.
+        An answer, as its `Question` reads it, to each of `questions_for`.
     table : StoreyTable, optional
         What is known storey by storey.
+    curves : PushoverCurves, optional
+        Pushover curves, with the names of storeys where there is no table.
+    fit : PushoverFit, optional
+        The springs that were fitted to them, in place of the table's.
 
     Returns
     -------
@@ -133,18 +211,17 @@ def building_text(answers: Mapping[str, Any], table: StoreyTable | None = None) 
     InvalidOption
         An answer is missing.
     """
-    for question in questions_for(table):
-        if question.name not in answers:
-            need = f"given, by --{question.name.replace('_', '-')}, where it is not asked for"
-            raise refusal(InvalidOption, question.name, "new building", need, "nothing")
+    _need(answers, questions_for(table, curves))
     friction = answers["friction"]
-    has_design = table is None or table.strength is None
+    has_design = fit is None and (table is None or table.strength is None)
+    notes = [] if table is None else [f"storeys from {table.source}"]
+    notes += [] if curves is None else [f"springs fitted to {curves.source}"]
     lines = [
         "# A building file of seismass: change it, and run `seismass building` on it.",
         "# docs/building_file.md explains every key; `seismass building --example` prints a file with all of them.",
         "",
         f"name = {_quoted(answers['name'])}",
-        *([] if table is None else [f"note = {_quoted(f'storeys from {table.source}')}"]),
+        *([f"note = {_quoted(', '.join(notes))}"] if notes else []),
         "",
         "[site]",
         f"sds_g = {answers['sds']!r}                # S_DS, g",
@@ -167,8 +244,7 @@ def building_text(answers: Mapping[str, Any], table: StoreyTable | None = None) 
             if has_design
             else []
         ),
-        "overstrength = 2.0           # second yield over the first: an assumption",
-        "second_slope = 0.05          # stiffness after the first yield over the initial one: an assumption",
+        *(_SLOPES if fit is None else [f"# springs: {_misfit(fit)}"]),
         "drift_limit = 0.020          # of the height",
         "",
         "[goods]",
@@ -178,27 +254,47 @@ def building_text(answers: Mapping[str, Any], table: StoreyTable | None = None) 
         f"{_quoted(friction) if isinstance(friction, str) else repr(friction)}",
         "",
     ]
-    return "\n".join([*lines, *_storeys(answers, table)])
+    return "\n".join([*lines, *_storeys(answers, table, curves, fit)])
 
 
-def _storeys(answers: Mapping[str, Any], table: StoreyTable | None) -> list[str]:
+def _misfit(fit: PushoverFit) -> str:
+    """How well springs fit, in a line."""
+    largest, rms = 100.0 * float(fit.largest_misfit.max()), 100.0 * float(fit.rms_misfit.max())
+    return f"the shear is met within {largest:.2g} % of its peak, {rms:.2g} % in the root mean square"
+
+
+def _storeys(
+    answers: Mapping[str, Any], table: StoreyTable | None, curves: PushoverCurves | None, fit: PushoverFit | None
+) -> list[str]:
     """Tables of the storeys, storey 1 first; the highest carries no goods."""
-    count = int(answers["storeys"]) if table is None else len(table.names)
+    names = () if curves is None else curves.names
+    names = names if table is None else table.names
+    count = len(names) or int(answers["storeys"])
+    heights, mass = (None, None) if table is None else (table.heights, table.mass)
+    stiffness, strength = (None, None) if table is None else (table.stiffness, table.strength)
+    slopes: tuple[FloatArray | None, ...] = (None, None, None)
+    if fit is not None:
+        stiffness, strength = fit.stiffness, fit.yield_shear
+        slopes = (fit.overstrength, fit.second_slope, fit.third_slope)
+    columns = (
+        ("height_m", heights, 1.0),
+        ("mass_kg", mass, 1.0),
+        ("stiffness_kn_per_m", stiffness, 1e-3),
+        ("yield_shear_kn", strength, 1e-3),
+        ("overstrength", slopes[0], 1.0),
+        ("second_slope", slopes[1], 1.0),
+        ("third_slope", slopes[2], 1.0),
+    )
     lines = []
     for i in range(count):
         lines.append("[[storeys]]" + ("                  # storey 1; its floor is the one above" if i == 0 else ""))
-        if table is not None:
-            lines.append(f"name = {_quoted(table.names[i])}")
-            for key, values, unit in (
-                ("height_m", table.heights, 1.0),
-                ("mass_kg", table.mass, 1.0),
-                ("stiffness_kn_per_m", table.stiffness, 1e-3),
-                ("yield_shear_kn", table.strength, 1e-3),
-            ):
-                if values is not None:
-                    lines.append(f"{key} = {float(f'{unit * float(values[i]):.10g}')!r}")
+        if names:
+            lines.append(f"name = {_quoted(names[i])}")
         elif i == count - 1 and count > 1:
             lines.append('name = "roof"')
+        for key, values, unit in columns:
+            if values is not None:
+                lines.append(f"{key} = {float(f'{unit * float(values[i]):.10g}')!r}")
         if i == count - 1 and count > 1:
             lines.append("live_load_kpa = 0.0          # a bare roof")
         lines.append("")

@@ -13,9 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass.assessment.floors import CountedFraction, FloorCode, FloorGoods, by_floor, counted_fractions
+from seismass.assessment.project import NO_PROJECT, Project
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, brief, content_hash, refusal, same_content
+from seismass.base.values import FloatArray, brief, content_hash, refusal, same_content, short_repr
+from seismass.base.views import Card
 from seismass.design import (
     THETA_CAP,
     Combination,
@@ -30,6 +32,7 @@ from seismass.model.building import Building
 from seismass.model.codes import CodeFraction
 from seismass.model.damping import DEFAULT_DAMPING
 from seismass.model.scene import Scene
+from seismass.model.sliding_base import SlidingBase
 from seismass.spectra import TargetSpectrum
 
 DEFAULT_DRIFT_LIMIT: Final = 0.020
@@ -58,7 +61,7 @@ class DesignRule:
 
 
 @dataclass(frozen=True, eq=False)
-class OwnBuilding:
+class OwnBuilding(Card):
     """A building with its goods, as a building file describes it; see `read_building`.
 
     Attributes
@@ -117,10 +120,18 @@ class OwnBuilding:
         Period (s) for which motions are scaled; None: first period of the building with its goods attached.
     path : Path or None
         The file.
+    project : Project
+        What the head of the page says.
+    sources : tuple of (str, str)
+        Each quantity with the keys that state it; see `seismass.assessment.sources`.
     walls : ndarray, shape (storeys, storeys), or None
         Stiffness of elastic walls over the floors (N/m), beside the storeys; None without.
     walls_stated : str
         How they are stated, in words.
+    base : SlidingBase or None
+        What the building slides on; None on firm ground.
+    other : OwnBuilding or None
+        The building in y, where there are two directions: with the same masses, goods and limits.
     """
 
     name: str
@@ -154,9 +165,14 @@ class OwnBuilding:
     collapse_drift_ratio: float | None
     scaling_period: float | None
     path: Path | None = None
+    project: Project = NO_PROJECT
+    sources: tuple[tuple[str, str], ...] = ()
     walls: FloatArray | None = None
     walls_stated: str = ""
+    base: SlidingBase | None = None
+    other: OwnBuilding | None = None
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 
@@ -358,5 +374,13 @@ class OwnBuilding:
             if self.heights is None or self.collapse_drift_ratio is None
             else (self.collapse_drift_ratio * self.heights)
         )
-        building = self.structure(target)
-        return Scene(building, blocks, racks=racks, collapse_drift=collapse, name=self.name, note=self.note)
+        return Scene(
+            self.structure(target),
+            blocks,
+            racks=racks,
+            base=self.base,
+            other_direction=False if self.other is None else self.other.structure(target),
+            collapse_drift=collapse,
+            name=self.name,
+            note=self.note,
+        )

@@ -90,4 +90,5 @@ def _with_period_of(building: OwnBuilding, mass: str) -> OwnBuilding:
 
 
 def _by_hand(building: OwnBuilding, target: TargetSpectrum | None, motions: list[Any], yields: bool) -> float:
-    return rule_by_hand(building.scene(target), named_motions(motions, OWNER), yields).estimate
+    scene = building.scene(target)
+    return rule_by_hand(scene, named_motions(motions, OWNER, scene), yields).estimate

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import polars as pl
 
-from seismass.assessment.answer import Answer, floor_masses
+from seismass.assessment.answer import ANALYSIS, Answer, analysis_table
 from seismass.assessment.checks import checks_table, input_document
 from seismass.assessment.own_building import OwnBuilding
+from seismass.assessment.shown_motion import Shown
 from seismass.base.values import content_hash, same_content
 from seismass.base.views import view
 from seismass.effective_mass import EffectiveMass
@@ -23,7 +24,7 @@ from seismass.spectra import TargetSpectrum
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SCHEMA_VERSION: Final = 5
+SCHEMA_VERSION: Final = 6
 """Version of the tables and of the JSON of an assessment."""
 
 
@@ -41,6 +42,7 @@ def shown_figures(fractions: bool, storeys: pl.DataFrame, slip: pl.DataFrame) ->
         "effective_fraction": fractions,
         "drift": storeys["mean"].drop_nulls().len() > 0,
         "slip": slip["peak_mean"].drop_nulls().len() > 0,
+        "spectrum": True,
     }
     return tuple(name for name, is_shown in shown.items() if is_shown)
 
@@ -75,6 +77,10 @@ class Assessment(Result):
         Slips of every run by kind of goods; see there.
     collapses : dict of str to int
         Collapsed runs of each model.
+    spectra : polars.DataFrame
+        Spectra of the scaled motions; see `seismass.assessment.spectra.spectra_table`.
+    example : Shown
+        The building under the motion with the median drift of those under which goods slide.
     scaling : ScalingResult or None
         Factors of the motions; None where they were taken as they are.
     suite : dict
@@ -102,6 +108,8 @@ class Assessment(Result):
     slips: pl.DataFrame = field(repr=False)
     runs: pl.DataFrame = field(repr=False)
     collapses: dict[str, int]
+    spectra: pl.DataFrame = field(repr=False)
+    example: Shown = field(repr=False)
     scaling: ScalingResult | None = field(repr=False)
     suite: dict[str, Any] = field(repr=False)
     advice: tuple[str, ...] = field(repr=False)
@@ -111,6 +119,9 @@ class Assessment(Result):
 
     __eq__ = same_content
     __hash__ = content_hash
+
+    def __repr__(self) -> str:
+        return f"<Assessment of {self.building.name}: {self.answer.headline}>"
 
     @property
     def advised(self) -> float | None:
@@ -133,15 +144,16 @@ class Assessment(Result):
 
     @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """The tables by name: storeys, governing, masses, slip, runs, slips, checks; curve and scaling where known."""
+        """Tables by name: storeys, governing, analysis, slip, runs, slips, checks, spectra; curve, scaling if known."""
         tables = {
             "storeys": self.storeys,
             "governing": self.governing,
-            "masses": floor_masses(self.answer, self.building),
+            ANALYSIS: analysis_table(self.answer, self.building),
             "slip": self.slip,
             "runs": self.runs,
             "slips": self.slips,
             "checks": checks_table(self.building, self.storeys, self.collapses),
+            "spectra": self.spectra,
         }
         curves = [
             result.curve.select(pl.lit(model).alias("model"), pl.all()) for model, result in self.effective.items()
@@ -154,7 +166,7 @@ class Assessment(Result):
 
     @property
     def figure_names(self) -> tuple[str, ...]:
-        """effective_fraction, drift, slip: those that have something to show."""
+        """effective_fraction, drift, slip, spectrum: those that have something to show."""
         fractions = any(math.isfinite(one.value) for one in self.effective.values())
         return shown_figures(fractions, self.storeys, self.slip)
 
@@ -165,8 +177,9 @@ class Assessment(Result):
         Parameters
         ----------
         name : str, optional
-            "effective_fraction": real over model drift against the share, by friction; "drift": drift by storey and
-            model, beside the limit; "slip": slip demand by floor.
+            "effective_fraction": drift with goods that slide over that of the model against the share, by friction;
+            "drift": drift by storey and model, beside the limit; "slip": slip demand by floor; "spectrum": spectra of
+            the motions beside that of the site.
 
         Raises
         ------
@@ -182,6 +195,7 @@ class Assessment(Result):
             "schema_version": SCHEMA_VERSION,
             "name": building.name,
             "note": building.note,
+            "project": asdict(building.project),
             "input": input_document(building, self.target),
             "headline": self.answer.headline,
             "statement": self.answer.statement,
@@ -198,6 +212,9 @@ class Assessment(Result):
             "collapses": self.collapses,
             "suite": self.suite,
             "target": None if self.target is None else {"label": self.target.label, **self.target.parameters},
+            "scaling": None
+            if self.scaling is None
+            else {"period": self.scaling.period, "periods": [self.scaling.periods[0], self.scaling.periods[-1]]},
             "factors": None if self.scaling is None else self.scaling.factors.tolist(),
             "advice": list(self.advice),
             "remarks": list(self.remarks),
@@ -225,6 +242,10 @@ class Assessment(Result):
             "design": answer.design,
             "share_matters": answer.matters,
         }
+
+    @view
+    def _repr_html_(self) -> str:
+        raise NotImplementedError
 
     @view
     def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:

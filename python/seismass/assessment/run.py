@@ -22,14 +22,18 @@ from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.period import period_sentences
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.assessment.shares import DESIGN_SHARES, SHARES, advised_share, design_share, fractions_by_friction
+from seismass.assessment.shown_motion import Shown, motion_of_runs
+from seismass.assessment.spectra import spectra_table
 from seismass.assessment.tables import collapses_of, slip_table, storey_table
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import as_number, brief, refusal
 from seismass.effective_mass.beyond import SHARES_BEYOND, goes_beyond
+from seismass.effective_mass.tables import scene_bytes
 from seismass.model.codes import CodeFraction
 from seismass.model.friction import bound_factors
+from seismass.model.motion import motion_names
 from seismass.model.scene import Scene
-from seismass.records import Suite, builtin_suite
+from seismass.records import Pair, Pairs, Suite, builtin_pairs, builtin_suite
 from seismass.runs.simulate import instruction_set
 from seismass.scaling import ScalingResult, scale_asce7_10
 from seismass.spectra import TargetSpectrum
@@ -42,7 +46,7 @@ Progress = Callable[[int, int], object]
 
 def assess(
     building: OwnBuilding | str | os.PathLike[str] | Mapping[str, Any],
-    motions: Suite | Iterable[Any] | None = None,
+    motions: Suite | Pairs | Iterable[Any] | None = None,
     target: TargetSpectrum | None = None,
     *,
     code: CodeFraction | None = None,
@@ -61,8 +65,9 @@ def assess(
     ----------
     building : OwnBuilding, path-like or mapping
         The building, or its file or tables as `read_building` takes them.
-    motions : Suite or iterable of Record or Motion, optional
-        Motions, unscaled; at least three. Default the forty built-in motions, of which none was recorded.
+    motions : Suite, Pairs or iterable of Record, Motion or Pair, optional
+        Motions, unscaled; at least three. Default the forty built-in motions, of which none was recorded. A building
+        with two directions takes pairs, by default the forty with their second components.
     target : TargetSpectrum, optional
         Site spectrum; default that of the building.
     code : CodeFraction, optional
@@ -73,7 +78,9 @@ def assess(
         Period T (s) for which motions are scaled, from 0.2 T to 1.5 T; default that of the building file, else the
         first period of the building with the goods present attached.
     scale : bool
-        False takes the motions as they are.
+        False takes the motions as they are. Pairs are scaled by one factor for both components, so that the geometric
+        mean of their spectra is that of one component (`scale_asce7_10`); pairs scaled otherwise, as for the maximum
+        direction of ASCE 7-16, are given with False.
     confidence, resamples, seed
         Of the bootstrap interval, as for `effective_mass`.
     threads : int, optional
@@ -109,7 +116,8 @@ def assess(
     ['real', 'real_mu_low', 'real_mu_high', 'advised', 'code', 'attached', 'bare']
     """
     chosen = _building(building, code, mu_factors)
-    suite = _suite(builtin_suite("forty") if motions is None else motions)
+    in_plane = chosen.other is not None
+    suite = _suite((builtin_pairs() if in_plane else builtin_suite("forty")) if motions is None else motions, in_plane)
     spectrum = chosen.site_spectrum(target) if scale or chosen.design is not None else None
     scaling = _scaling(chosen, suite, spectrum, scaling_period, threads) if scale else None
     factors = np.ones(len(suite)) if scaling is None else scaling.factors
@@ -131,18 +139,21 @@ def assess(
         factor = frictions[deciding(effective)]
         design = design_share(chosen, spectrum, factor, scaled, threads, stages.next(designs * len(suite)))
     scenes = compared_models(chosen, spectrum, advised)
-    names = [str(getattr(motion, "name", "")) or f"motion {number}" for number, motion in enumerate(suite, start=1)]
-    kernel_motions = [getattr(motion, "motion", motion) for motion in scaled]
+    names = motion_names(suite)
+    components = [record for motion in scaled for record in (tuple(motion) if in_plane else (motion,))]
+    horizontal = [record for motion in scaled for record in (tuple(motion)[:2] if in_plane else (motion,))]
     runs, slips = solve_models(
-        chosen, scenes, kernel_motions, names, threads=threads, progress=stages.next(models * len(suite))
+        chosen, scenes, scaled, names, threads=threads, progress=stages.next(models * len(suite))
     )
     real = chosen.scene(spectrum)
     storeys, slip, collapses = storey_table(chosen, real, runs), slip_table(chosen, slips), collapses_of(runs)
     governing = governing_table(chosen, storeys)
+    place = motion_of_runs(runs)
     about = {
-        "name": suite.name if isinstance(suite, Suite) else "motions",
+        "name": suite.name if isinstance(suite, Suite | Pairs) else "motions",
         "motions": names,
-        "synthetic": sum(bool(getattr(motion, "synthetic", False)) for motion in suite),
+        "pairs": in_plane,
+        "synthetic": sum(_is_synthetic(motion) for motion in suite),
     }
     yields = effective[REAL].by_hand.yields if effective else None
     period = period_sentences(chosen, spectrum, scaled, yields)
@@ -160,16 +171,18 @@ def assess(
         slips=slips,
         runs=runs,
         collapses=collapses,
+        spectra=spectra_table(horizontal, spectrum, threads=threads),
+        example=Shown(real, scaled[place], place + 1, float(factors[place])),
         scaling=scaling,
         suite=about,
-        advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite), effective.get(REAL)),
+        advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite), effective.get(REAL), runs),
         remarks=remarks_of(chosen, doubts, scaling, effective, about),
         assumptions=assumptions_of(chosen, spectrum, scaling, about, period),
         metadata={
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
-            "inputs_sha256": _digest(chosen, scenes, spectrum, kernel_motions, bootstrap),
+            "inputs_sha256": _digest(chosen, scenes, spectrum, components, bootstrap),
             **bootstrap,
             "damping": "matrix of the building without goods, in every model",
             "p_delta": chosen.gravity_load is not None,
@@ -189,36 +202,49 @@ def _building(given: Any, code: CodeFraction | None, mu_factors: tuple[float, fl
     return building
 
 
-def _suite(motions: Any) -> Any:
+def _suite(motions: Any, in_plane: bool) -> Any:
     """Motions as a sequence; each has samples and can be scaled."""
     suite: Any = motions
-    if not isinstance(motions, Suite):
-        if hasattr(motions, "acceleration"):
+    kinds = "Pairs" if in_plane else "Records or Motions"
+    if not isinstance(motions, Suite | Pairs):
+        if hasattr(motions, "acceleration") or isinstance(motions, Pair):
             motions = [motions]
         try:
             suite = list(motions)
         except TypeError:
-            raise refusal(
-                InvalidMotion, "motions", "assessment", "a list of Records or Motions", brief(motions)
-            ) from None
+            raise refusal(InvalidMotion, "motions", "assessment", f"a list of {kinds}", brief(motions)) from None
     if not len(suite):
-        raise refusal(InvalidMotion, "motions", "assessment", "at least one Record or Motion", "none")
+        least = "Pair" if in_plane else "Record or Motion"
+        raise refusal(InvalidMotion, "motions", "assessment", f"at least one {least}", "none")
     for number, motion in enumerate(suite, start=1):
-        if not (hasattr(motion, "acceleration") and hasattr(motion, "scaled")):
+        if in_plane and not isinstance(motion, Pair):
+            requirement = "a Pair, as the building has two directions"
+            raise refusal(InvalidMotion, f"motion {number}", "assessment", requirement, brief(motion))
+        if not in_plane and not (hasattr(motion, "acceleration") and hasattr(motion, "scaled")):
             raise refusal(InvalidMotion, f"motion {number}", "assessment", "a Record or Motion", brief(motion))
     return suite
+
+
+def _is_synthetic(motion: Any) -> bool:
+    return bool(getattr(motion.first if isinstance(motion, Pair) else motion, "synthetic", False))
 
 
 def _scaling(
     building: OwnBuilding, suite: Any, target: TargetSpectrum | None, period: float | None, threads: int | None
 ) -> ScalingResult:
+    """Factors for the period; in two directions from 0.2 of the shorter period to 1.5 of the longer one."""
     chosen = building.scaling_period if period is None else period
+    shorter = longer = chosen
     if chosen is None:
-        chosen = building.period(building.goods)
+        both = [each.period(building.goods) for each in (building, building.other) if each is not None]
+        shorter, longer = min(both), max(both)
     elif period is not None:
-        chosen = as_number(period, "scaling_period", "assessment", InvalidOption)
+        shorter = longer = as_number(period, "scaling_period", "assessment", InvalidOption)
     assert target is not None
-    return scale_asce7_10(suite, target, chosen, between=False, threads=threads)
+    assert shorter is not None
+    assert longer is not None
+    within = (0.2 * (shorter / longer), 1.5)
+    return scale_asce7_10(suite, target, longer, period_range=within, between=False, threads=threads)
 
 
 class _Stages:
@@ -264,14 +290,19 @@ def _digest(
         blocks = [[block.floor, block.mu_s, block.mu_k] for block in scene.blocks]
         digest.update(np.array(blocks, dtype="<f8").tobytes())
         stops = [block.stop_numbers for block in scene.blocks]
+        if scene.base is not None:
+            digest.update(repr(scene.base).encode())
         if scene.racks or any(stops) or structure.stiffness_matrix is not None:
             matrix = structure.stiffness_matrix
             digest.update(b"" if matrix is None else np.ascontiguousarray(matrix, dtype="<f8").tobytes())
             digest.update(repr((stops, *(sorted(rack._arguments().items()) for rack in scene.racks))).encode())
+        if scene.other_direction is not False:
+            for part in scene_bytes(scene._directions()[1]):
+                digest.update(part)
     for motion in motions:
         digest.update(np.float64(motion.dt).tobytes())
         digest.update(np.ascontiguousarray(motion.acceleration, dtype="<f8").tobytes())
-        if motion.vertical is not None:
+        if getattr(motion, "vertical", None) is not None:
             digest.update(b"vertical")
             digest.update(np.ascontiguousarray(motion.vertical, dtype="<f8").tobytes())
     return digest.hexdigest()

@@ -15,8 +15,7 @@ from seismass.effective_mass import EffectiveMass
 from seismass.effective_mass.models import SAME_DAMPING
 from seismass.effective_mass.runs import named_motions
 from seismass.effective_mass.search import OWNER, checked_options
-from seismass.effective_mass.solved import solved_designs, solved_frictions
-from seismass.model.building import Building
+from seismass.effective_mass.solved import Designed, solved_designs, solved_frictions
 from seismass.spectra import TargetSpectrum
 
 DESIGN_SHARES: Final = np.linspace(0.0, 1.0, 21)
@@ -46,7 +45,7 @@ def fractions_by_friction(
         Site spectrum, for strengths of a design.
     frictions : dict of str to float
         Factor of friction of each model.
-    motions : list of Record or Motion
+    motions : list of Record, Motion or Pair
         Motions, scaled.
     bootstrap : dict
         confidence, resamples and seed.
@@ -59,7 +58,8 @@ def fractions_by_friction(
     drawn = (bootstrap["confidence"], bootstrap["resamples"], bootstrap["seed"])
     options = checked_options("mean", SAME_DAMPING, None, *drawn, threads, progress)
     found = {}
-    for name, solved in zip(frictions, solved_frictions(scenes, named_motions(motions, OWNER), options), strict=True):
+    named = named_motions(motions, OWNER, scenes[0])
+    for name, solved in zip(frictions, solved_frictions(scenes, named, options), strict=True):
         found[name] = solved.answer("median" if solved.real.collapsed.any() else "mean")
     return found
 
@@ -90,13 +90,15 @@ def design_share(
         Factor of friction.
     """
 
-    def designed(share: float) -> Building:
-        return building.structure(target, share * building.goods)
+    def designed(share: float) -> Designed:
+        attached, other = share * building.goods, building.other
+        in_x = building.structure(target, attached)
+        return in_x if other is None else (in_x, other.structure(target, attached))
 
     scene = building.scene(target, mu_factor=factor)
     options = checked_options("mean", SAME_DAMPING, DESIGN_SHARES, 0.9, 1, 0, threads, progress)
-    named = named_motions(motions, OWNER)
-    solved = solved_designs(designed, scene.blocks, named, options, scene.racks, scene.collapse_drift)
+    named = named_motions(motions, OWNER, scene)
+    solved = solved_designs(designed, scene.blocks, named, options, scene.racks, scene.collapse_drift, scene.base)
     fallen = solved.real.collapsed.sum(axis=1)
     if not few_collapses(int(fallen.max()), len(motions)):
         return DesignShare(None, _collapsing(fallen, len(motions)))

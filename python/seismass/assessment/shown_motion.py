@@ -5,11 +5,14 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+import polars as pl
+from numpy.typing import NDArray
 
 from seismass.assessment.own_building import OwnBuilding
+from seismass.base.values import FloatArray
 from seismass.effective_mass.runs import named_motions, solve
 from seismass.model.scene import Scene
-from seismass.records import Suite
+from seismass.records import Pairs, Suite
 from seismass.scaling import scale_asce7_10
 from seismass.spectra import TargetSpectrum
 
@@ -21,7 +24,7 @@ class Shown(NamedTuple):
     ----------
     scene : Scene
         The building with its goods.
-    motion : Record
+    motion : Record or Pair
         The motion, scaled.
     number : int
         Its number in the suite, from 1.
@@ -35,7 +38,27 @@ class Shown(NamedTuple):
     factor: float
 
 
-def shown_motion(building: OwnBuilding, suite: Suite, target: TargetSpectrum | None = None) -> Shown:
+def motion_of_runs(runs: pl.DataFrame) -> int:
+    """Return the number (from 0) of that motion among the runs of an assessment, by the first model of their table.
+
+    Where no run stands it is that of all.
+    """
+    of = runs.filter(pl.col("model") == runs["model"][0])
+    by_motion = of.group_by("motion", maintain_order=True).agg(
+        pl.col("collapsed").any(), pl.col("peak_drift").max(), slides=(pl.col("peak_slip") > 0.0).any()
+    )
+    drift = np.where(by_motion["collapsed"].to_numpy(), np.inf, by_motion["peak_drift"].to_numpy())
+    slides = by_motion["slides"].fill_null(value=False).to_numpy() & np.isfinite(drift)
+    return _median(drift, np.flatnonzero(slides) if slides.any() else np.arange(len(drift)))
+
+
+def _median(drift: FloatArray, among: NDArray[np.int64]) -> int:
+    """Place of the median drift among some."""
+    ordered = among[np.argsort(drift[among], kind="stable")]
+    return int(ordered[(len(ordered) - 1) // 2])
+
+
+def shown_motion(building: OwnBuilding, suite: Suite | Pairs, target: TargetSpectrum | None = None) -> Shown:
     """Return the building with its goods and a motion: the median by largest drift of those under which goods slide.
 
     Where none slide it is the median of all.
@@ -44,7 +67,7 @@ def shown_motion(building: OwnBuilding, suite: Suite, target: TargetSpectrum | N
     ----------
     building : OwnBuilding
         The building.
-    suite : Suite
+    suite : Suite or Pairs
         Motions, which are scaled to the site as `assess` does.
     target : TargetSpectrum, optional
         Site spectrum; default the building's own.
@@ -57,10 +80,10 @@ def shown_motion(building: OwnBuilding, suite: Suite, target: TargetSpectrum | N
     spectrum = building.site_spectrum(target)
     period = building.scaling_period or building.period(building.goods)
     factors = scale_asce7_10(suite, spectrum, period, between=False).factors
-    scaled = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
+    listed: list[Any] = list(suite)
+    scaled = [record.scaled(float(factor)) for record, factor in zip(listed, factors, strict=True)]
     scene = building.scene(spectrum)
-    peaks = solve([scene], named_motions(scaled, "animation"))
+    peaks = solve([scene], named_motions(scaled, "animation", scene))
     among = np.flatnonzero(peaks.slides[0]) if peaks.slides.any() else np.arange(len(scaled))
-    ordered = among[np.argsort(peaks.largest[0][among], kind="stable")]
-    place = int(ordered[(len(ordered) - 1) // 2])
+    place = _median(peaks.largest[0], among)
     return Shown(scene, scaled[place], place + 1, float(factors[place]))

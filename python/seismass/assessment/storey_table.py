@@ -6,22 +6,20 @@ are stated for the whole table.
 
 from __future__ import annotations
 
-import csv
-import io
 import os
 import re
-import zipfile
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, Literal
 
 import numpy as np
 
-from seismass.assessment.storey_units import Quantity, system_of, unit_factor
-from seismass.base.errors import InvalidBuildingFile, MissingPackage
-from seismass.base.files import MOST_BYTES, read_file
+from seismass.assessment.sheet import read_sheet
+from seismass.assessment.storey_units import Quantity, system_of
+from seismass.base.errors import InvalidBuildingFile
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_path, brief, printable, refusal, short
+from seismass.base.values import FloatArray, as_path, printable, refusal, short
+from seismass.base.views import Card
 from seismass.media.text_table import text_table
 
 Order = Literal["roof-first", "ground-first"]
@@ -50,11 +48,10 @@ _QUANTITIES: Final[dict[str, Quantity]] = {
 }
 _BASE: Final = re.compile(r"base|ground|foundation|0", re.IGNORECASE)
 _ROOF: Final = re.compile(r"roof|top", re.IGNORECASE)
-_HEAD: Final = re.compile(r"^(?P<name>[^([,]*)(?:[(\[,]\s*(?P<unit>[^)\]]*)[)\]]?)?\s*$")
 
 
 @dataclass(frozen=True)
-class StoreyTable:
+class StoreyTable(Card):
     """Storeys of another program's model, storey 1 first, in SI units.
 
     Attributes
@@ -146,144 +143,22 @@ def read_storey_table(
     (('Story1', 'Roof'), [150000.0, 120000.0], [300000000.0, 200000000.0])
     """
     path = as_path(source, "storey table", InvalidBuildingFile)
-    rows = _rows(path)
-    head, columns = _head(rows, path, direction)
-    body = rows[head + 1 :]
-    stated = {kind: _unit_in(rows[head][place]) for kind, place in columns.items()}
-    if body and _is_unit_row(body[0], columns):
-        stated = {kind: body[0][place].strip() or stated[kind] for kind, place in columns.items()}
-        body = body[1:]
-    place = columns["storey"]
-    body = [row for row in body if row[place].strip()]
-    names = [printable(row[place].strip()) for row in body]
+    need = "a head with a column story and others such as elevation, height, mass, weight, stiffness"
+    sheet = read_sheet(path, COLUMNS, needed=("storey",), need=need, direction=direction)
+    names = sheet.texts("storey")
     repeated = sorted({name for name in names if names.count(name) > 1})
     if repeated:
         got = f"{short(repeated[0])} in {names.count(repeated[0])} rows: keep one load case and one diaphragm"
         raise refusal(InvalidBuildingFile, "rows", path.name, "one for each storey", got)
     system = None if units is None else system_of(units, path.name)
+    owners = [f"storey {short(name)}" for name in names]
+    ratio = "drift" in sheet.columns and not sheet.units["drift"]
     values: dict[str, list[float]] = {}
-    for kind, column in columns.items():
-        if kind == "storey":
-            continue
-        factor = _factor(kind, stated[kind], system, path)
-        values[kind] = [
-            factor * _number(row[column], f"{kind} of storey {short(name)}", path)
-            for row, name in zip(body, names, strict=True)
-        ]
-    return _ordered(path, names, values, order, ratio="drift" in columns and not stated["drift"])
-
-
-def _rows(path: Path) -> list[list[str]]:
-    """Cells of the file as text, in rows of equal length."""
-    try:
-        content = read_file(path)
-    except OSError as error:
-        raise InvalidBuildingFile(
-            f"storey table must be a file that can be read; got {path} ({error.strerror or error})"
-        ) from error
-    if path.suffix.lower() in (".xlsx", ".xlsm"):
-        rows = _sheet(content, path)
-    else:
-        text = content.decode("utf-8-sig", errors="replace")
-        lines = [line for line in text.splitlines() if line.strip()][:50]
-        separator = max(";\t,", key=lambda each: sum(line.count(each) for line in lines))
-        rows = [list(row) for row in csv.reader(io.StringIO(text), delimiter=separator)]
-        if separator == ";":  # then a comma is decimal
-            rows = [[re.sub(r"^(\s*[+-]?\d+),(\d+)", r"\1.\2", cell) for cell in row] for row in rows]
-    width = max(map(len, rows), default=0)
-    return [[*row, *([""] * (width - len(row)))] for row in rows]
-
-
-def _sheet(content: bytes, path: Path) -> list[list[str]]:
-    """Cells of the first sheet of a workbook."""
-    try:
-        from openpyxl import load_workbook
-    except ImportError:
-        needed = "openpyxl, which reads XLSX, must be installed (pip install seismass[xlsx]); or save the table as CSV"
-        raise MissingPackage(needed) from None
-    try:
-        with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            size = sum(item.file_size for item in archive.infolist())
-        if size > MOST_BYTES:
-            raise refusal(InvalidBuildingFile, "size", path.name, f"at most {MOST_BYTES} bytes unpacked", str(size))
-        book = load_workbook(io.BytesIO(content), read_only=True, data_only=True)
-        found = book.worksheets[0].iter_rows(values_only=True)
-        return [["" if cell is None else str(cell) for cell in row] for row in found]
-    except (zipfile.BadZipFile, KeyError, IndexError, ValueError, OSError) as error:
-        raise refusal(InvalidBuildingFile, "content", path.name, "a workbook", short(str(error))) from error
-
-
-def _name_of(cell: str, direction: str) -> str:
-    """Name of a column in small letters without its unit; that of the other direction is no known one."""
-    matched = _HEAD.match(cell.strip())
-    name = re.sub(r"[^a-z0-9%]+", " ", (matched["name"] if matched else cell).lower()).strip()
-    words = name.split()
-    other = "y" if direction == "x" else "x"
-    if words and (words[-1] == other or words[-1] in (f"u{other}", f"k{other}", f"v{other}")):
-        return ""
-    words = [{f"u{direction}": "ux", f"k{direction}": "kx", f"v{direction}": "vx"}.get(word, word) for word in words]
-    if words and words[-1] == direction:
-        words[-1] = "x"
-    return " ".join(words)
-
-
-def _unit_in(cell: str) -> str:
-    """Unit of a head such as "Mass (kg)" or "Mass, kg"."""
-    matched = _HEAD.match(cell.strip())
-    return (matched["unit"] or "").strip() if matched else ""
-
-
-def _head(rows: list[list[str]], path: Path, direction: str) -> tuple[int, dict[str, int]]:
-    """Row of the head, and the column of each kind."""
-    for number, row in enumerate(rows[:50]):
-        names = [_name_of(cell, direction) for cell in row]
-        found = {
-            kind: min((names.index(name) for name in known if name in names), default=-1)
-            for kind, known in COLUMNS.items()
-        }
-        columns = {kind: place for kind, place in found.items() if place >= 0}
-        if "storey" in columns and len(columns) > 1:
-            return number, columns
-    first = next((", ".join(cell for cell in row if cell) for row in rows if any(row)), "no rows")
-    need = "a head with a column story and others such as elevation, height, mass, weight, stiffness"
-    raise refusal(InvalidBuildingFile, "rows", path.name, f"below {need}", short(first))
-
-
-def _is_unit_row(row: list[str], columns: dict[str, int]) -> bool:
-    """Whether a row below the head states units."""
-    cells = [row[place].strip() for kind, place in columns.items() if kind != "storey"]
-    return (
-        not row[columns["storey"]].strip()
-        and any(cells)
-        and not any(re.fullmatch(r"[+-]?[\d.].*", cell) for cell in cells)
-    )
-
-
-def _factor(kind: str, unit: str, system: tuple[float, float] | None, path: Path) -> float:
-    """Factor of a column towards SI units."""
-    quantity = _QUANTITIES[kind]
-    if kind == "drift" and not unit:
-        return 1.0
-    if unit:
-        return unit_factor(unit, quantity, f"unit of the column {kind}", path.name)
-    if system is None:
-        need = "stated: in its head, as in Mass (kg), in a row below, or for the table by --units, such as kN-m"
-        raise refusal(InvalidBuildingFile, f"unit of the column {kind}", path.name, need, "none")
-    force, length = system
-    return {"length": length, "force": force, "stiffness": force / length, "mass": force / length}[quantity]
-
-
-def _number(cell: str, what: str, path: Path) -> float:
-    text = cell.strip().replace(" ", "")
-    if text == "":
-        return float("nan")
-    if re.fullmatch(r"[+-]?\d{1,3}(,\d{3})+(\.\d+)?", text):
-        text = text.replace(",", "")
-    try:
-        number = float(text)
-    except ValueError:
-        raise refusal(InvalidBuildingFile, what, path.name, "a number", brief(cell)) from None
-    return number
+    for kind in sheet.columns:
+        if kind != "storey":
+            factor = 1.0 if kind == "drift" and ratio else sheet.factor(kind, _QUANTITIES[kind], system)
+            values[kind] = sheet.numbers(kind, factor, owners)
+    return _ordered(path, names, values, order, ratio=ratio)
 
 
 def _ordered(
@@ -295,7 +170,7 @@ def _ordered(
     elevation = values.get("elevation")
     if elevation is not None:
         rows.sort(key=lambda i: elevation[i])
-    elif _is_roof_first(names, order, path):
+    elif is_roof_first(names, order, path):
         rows.reverse()
     base = 0.0
     loads = [values[kind] for kind in ("mass", "weight", "stiffness", "height") if kind in values]
@@ -343,7 +218,7 @@ def _ordered(
     )
 
 
-def _is_roof_first(names: list[str], order: Order | None, path: Path) -> bool:
+def is_roof_first(names: list[str], order: Order | None, path: Path) -> bool:
     """Whether the first row is the highest storey: by what is stated, else by names."""
     if order is not None:
         return order == "roof-first"

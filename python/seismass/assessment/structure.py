@@ -1,13 +1,18 @@
-"""What an assessment says of racks, walls and stops: what was assumed of them, and that the rule by period fails."""
+"""What an assessment says of racks, walls, stops and a sliding base: assumptions, and that the rule by period fails."""
 
 from __future__ import annotations
 
 import math
 from typing import Final
 
+import numpy as np
+import polars as pl
+
+from seismass.assessment.models import NAMES, REALS
 from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.racks import CONTACT_PERIOD
 from seismass.effective_mass import EffectiveMass
+from seismass.model.building import Building
 
 NOT_APPLIED: Final = "The rule by period is not applied"
 """How the advice on the rule begins."""
@@ -19,6 +24,7 @@ def beyond_rule(building: OwnBuilding) -> tuple[str, ...]:
         "racks": any(kind.rack is not None for kind in building.present),
         "walls": building.walls is not None,
         "stops": any(kind.stops is not None for kind in building.present),
+        "a sliding base": building.base is not None,
     }
     return tuple(name for name, has in parts.items() if has)
 
@@ -36,8 +42,32 @@ def rule_advice(building: OwnBuilding, effective: EffectiveMass | None) -> tuple
     )
 
 
+def base_advice(runs: pl.DataFrame) -> list[str]:
+    """Return how far a sliding base slips: at the friction of goods at which it slips most; or nothing."""
+    of_base = runs.filter((pl.col("storey") == 1) & ~pl.col("collapsed")).drop_nulls("peak_base_slip")
+    found = (
+        of_base.filter(pl.col("model").is_in(REALS))
+        .group_by("model", maintain_order=True)
+        .agg(
+            mean=pl.col("peak_base_slip").mean(),
+            p84=pl.col("peak_base_slip").quantile(0.84, "linear"),
+            most=pl.col("peak_base_slip").max(),
+            motions=pl.len(),
+        )
+        .sort("p84", descending=True)
+    )
+    if not found.height:
+        return []
+    row = found.row(0, named=True)
+    return [
+        f"The base slips {1e3 * row['mean']:.0f} mm in the mean of {row['motions']} motions, up to "
+        f"{1e3 * row['p84']:.0f} mm under 84 % of them and {1e3 * row['most']:.0f} mm at most ({NAMES[row['model']]}): "
+        "what crosses the joint must follow."
+    ]
+
+
 def about_support(building: OwnBuilding) -> list[str]:
-    """Return what is assumed of racks, walls and stops, sentence by sentence."""
+    """Return what is assumed of racks, walls, stops and a sliding base, sentence by sentence."""
     lines = []
     for kind in building.present:
         rack, what = kind.rack, f"{kind.name or 'goods'} on floor {kind.floor}"
@@ -59,5 +89,15 @@ def about_support(building: OwnBuilding) -> list[str]:
         lines.append(
             f"Walls: {building.walls_stated}; elastic, and in the damping of every mode. Beside them storeys have no "
             "stability coefficient of their own."
+        )
+    if building.base is not None:
+        base = building.base
+        slab = base.slab_mass(Building(building.mass, building.stiffness, yield_shear=np.inf))
+        surface = "flat" if base.radius is None else f"a pendulum of R = {base.radius:g} m"
+        lines.append(
+            f"Base: slides on the ground with mu_s = {base.mu_s:g} and mu_k = {base.mu_k:g} as stated, without bounds, "
+            f"{surface}, slab of {1e-3 * slab:.3g} t; it sticks exactly, and damping is that of the "
+            "building fixed at it. Its friction is that of the whole weight in every model. Period and scaling are of "
+            "the building fixed at its base unless stated."
         )
     return lines

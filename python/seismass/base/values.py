@@ -147,6 +147,27 @@ def brief(value: Any) -> str:
     return text if len(text) <= _BRIEF else text[: _BRIEF - 3] + "..."
 
 
+def short_repr(self: Any) -> str:
+    """`__repr__` of results, which hold arrays and tables: their fields in few words each."""
+    shown = ", ".join(f"{each.name}={_in_short(getattr(self, each.name))}" for each in fields(self) if each.repr)
+    return f"{type(self).__name__}({shown})"
+
+
+def _in_short(value: Any) -> str:
+    """A field of a result: numbers and words as they are, of the rest its kind and size."""
+    if isinstance(value, np.ndarray):
+        return f"<array {' x '.join(map(str, value.shape))}>"
+    if hasattr(value, "equals"):  # a table of Polars
+        return f"<table {value.height} x {value.width}>"
+    if is_dataclass(value) and not isinstance(value, type):
+        return f"<{type(value).__name__}>"
+    if isinstance(value, tuple | list | dict) and len(value) > 3:
+        return f"<{len(value)} items>"
+    if isinstance(value, tuple | list) and any(is_dataclass(one) or isinstance(one, np.ndarray) for one in value):
+        return f"<{len(value)} items>"
+    return brief(value)
+
+
 _SHOWN_AS_ESCAPES: Final = {
     code: f"\\x{code:02x}" if code < 256 else f"\\u{code:04x}"
     for code in (*range(32), *range(127, 160), *range(0x2028, 0x202F), *range(0x2066, 0x206A))

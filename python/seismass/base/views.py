@@ -54,6 +54,16 @@ def view(declaration: Callable[P, T]) -> Callable[P, T]:
     return shown
 
 
+class Card:
+    """A value that has a card in notebooks, made of its text, its table or its numbers."""
+
+    __slots__ = ()
+
+    @view
+    def _repr_html_(self) -> str:
+        raise NotImplementedError
+
+
 class Views:
     """Several views of one value under one name, as `response.plot.drift()`; a subclass declares them."""
 

@@ -15,6 +15,7 @@ import polars as pl
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import as_path, refusal
+from seismass.base.views import Card
 from seismass.campaign.campaign import CampaignRuns
 from seismass.campaign.columns import KEYS
 from seismass.campaign.contents import campaign_in, read_table
@@ -30,7 +31,7 @@ _JOINED: Final = ("record", "dt", "pga_g")
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
-class Campaign(CampaignRuns):
+class Campaign(CampaignRuns, Card):
     """The runs of a grid under motions, which become a folder of Parquet files.
 
     Runs are numbered as in the table of `simulate_many`: every scene under every motion, the motion changing fastest,
@@ -149,7 +150,7 @@ class Campaign(CampaignRuns):
 
 
 @dataclass(frozen=True)
-class CampaignFolder:
+class CampaignFolder(Card):
     """The folder of a campaign, whole or begun.
 
     Parameters

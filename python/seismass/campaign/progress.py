@@ -6,9 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from seismass.base.views import Card
+
 
 @dataclass(frozen=True)
-class CampaignProgress:
+class CampaignProgress(Card):
     """How far a campaign is.
 
     Attributes

@@ -15,7 +15,7 @@ from seismass.commands.terminal import show
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from seismass.records import Suite
+    from seismass.records import Pairs, Suite
 
 
 class Answer(Protocol):
@@ -33,7 +33,7 @@ class Answer(Protocol):
 
 
 def give_answer(
-    args: argparse.Namespace, result: Answer, suite: Suite, *, head: str = "", indent: int = 0, answer: str = ""
+    args: argparse.Namespace, result: Answer, suite: Suite | Pairs, *, head: str = "", indent: int = 0, answer: str = ""
 ) -> None:
     """Write the files of an answer and print it.
 
@@ -74,7 +74,7 @@ def write_answer(args: argparse.Namespace, result: Answer) -> list[Path]:
 def print_answer(
     args: argparse.Namespace,
     result: Answer,
-    suite: Suite,
+    suite: Suite | Pairs,
     files: Sequence[Path],
     *,
     head: str = "",
@@ -93,7 +93,7 @@ def print_answer(
         show(" " * indent + line)
     page = f", the page is {args.out / PAGE}" if any(file.name == PAGE for file in files) else ""
     written = f"{len(files)} files in {args.out}{page}, " if files else ""
-    print(f"\n{written}{seconds(args)}")
+    show(f"\n{written}{seconds(args)}")
 
 
 def write_figure(figure: Figure, path: Path) -> None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from seismass.commands.answer_output import give_answer
+from seismass.commands.answer_output import print_answer, write_answer
 from seismass.commands.command import Command
 from seismass.commands.options import (
     add_answer_options,
@@ -17,9 +18,14 @@ from seismass.commands.options import (
     numbers_option,
     read_code,
     read_motions,
+    read_pairs,
     read_site,
 )
 from seismass.commands.progress import progress
+from seismass.commands.terminal import show
+
+if TYPE_CHECKING:
+    from seismass.assessment import Assessment
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -54,18 +60,25 @@ def options(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Assess the building, write its files and print the page; return the exit code."""
     if args.example or args.codes or args.frictions or args.occupancies:
-        print(_listing(args), end="")
+        if args.example:
+            print(_listing(args), end="")
+        else:
+            show(_listing(args).removesuffix("\n"))
         return 0
     from seismass.assessment import assess
     from seismass.assessment.building_file import read_building
     from seismass.assessment.opensees_models import write_models
+    from seismass.base.errors import InvalidOption
     from seismass.media.folder import check_out
 
     args.out = args.out or Path(args.file.stem)
     check_out(args.out, "assessment")
     building = read_building(args.file)
     code, target = read_code(args, "building"), read_site(args, "building")
-    suite = read_motions(args)
+    in_plane = building.other is not None
+    if in_plane and args.opensees is not None:
+        raise InvalidOption(f"--opensees of building must be left out in two directions; got {args.opensees}")
+    suite: Any = read_pairs(args) if in_plane else read_motions(args)
     with progress() as tell:
         result = assess(
             building,
@@ -79,8 +92,31 @@ def run(args: argparse.Namespace) -> int:
         )
     if args.opensees is not None:
         write_models(args.opensees, result, suite)
-    give_answer(args, result, suite, answer="ANSWER")
+    files = write_answer(args, result)
+    if files and not args.no_figures:
+        files += _live_page(args.out, result)
+    print_answer(args, result, suite, files, answer=r"ANSWER| {10}[12]  ")
     return 0
+
+
+def _live_page(out: Path, result: Assessment) -> list[Path]:
+    """Write the live page, to which the page links, where it can show the building and the package has its kernel."""
+    from seismass.base.errors import MissingPackage
+    from seismass.base.files import written_whole
+    from seismass.explore import explorer_html
+    from seismass.media.live_address import PAGE
+    from seismass.show.assessment.live import own_case
+    from seismass.show.assessment.tables import assessment_tables
+
+    if own_case(assessment_tables(result)).case is None:
+        return []
+    try:
+        html = explorer_html()
+    except MissingPackage:
+        return []
+    with written_whole(out / PAGE) as temporary:
+        temporary.write_text(html, encoding="utf-8")
+    return [out / PAGE]
 
 
 def _listing(args: argparse.Namespace) -> str:
@@ -117,7 +153,8 @@ building --occupancies
     options=options,
     run=run,
     note="""
-docs/building_file.md explains every key of a building file.
+docs/building_file.md explains every key of a building file. analysis.csv, beside the page and the OpenSees models, has
+what is typed into another program: floor masses and weights of both analyses, and multipliers of the live load.
 """,
     codes={0: "done (a collapse is a result)", 1: "a run failed"},
 )

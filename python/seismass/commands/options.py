@@ -17,7 +17,7 @@ from seismass.scaling.target_text import TARGET_HELP, target_of
 
 if TYPE_CHECKING:
     from seismass.model.codes import CodeFraction
-    from seismass.records import Suite
+    from seismass.records import Pairs, Suite
     from seismass.records.builtin import BuiltinName
     from seismass.records.named import Reading
     from seismass.spectra import TargetSpectrum
@@ -135,6 +135,31 @@ def read_motions(args: argparse.Namespace, default: BuiltinName = "forty") -> Su
     return read_suite(args.records)
 
 
+def read_pairs(args: argparse.Namespace) -> Pairs:
+    """Return the pairs that the options name: those of a folder, or the forty built-in ones.
+
+    Raises
+    ------
+    InvalidOption
+        Another built-in suite is named, which has no second components, or one beside --records.
+    RecordFormatError
+        As for `find_pairs`, or the folder has no pair.
+    """
+    from seismass.base.errors import InvalidOption, RecordFormatError
+    from seismass.records import builtin_pairs, find_pairs
+
+    if args.records is None:
+        if args.suite not in (None, "forty"):
+            raise InvalidOption(f"suite of pairs must be forty, which has second components; got {args.suite}")
+        return builtin_pairs()
+    if args.suite is not None:
+        raise InvalidOption(f"suite of motions must be left out where --records is given; got {args.suite}")
+    found = find_pairs(args.records)
+    if not len(found):
+        raise RecordFormatError(f"pairs of {found.name} must be at least one; got {len(found.excluded)} files of none")
+    return found
+
+
 def check_files(*paths: Path | None) -> None:
     """Refuse files that cannot be written since their folder is missing, before anything is computed.
 
@@ -152,7 +177,7 @@ def check_files(*paths: Path | None) -> None:
             raise FileNotFoundError(errno.ENOENT, "No such folder", str(path.parent))
 
 
-def warn_left_out(suite: Suite) -> None:
+def warn_left_out(suite: Suite | Pairs) -> None:
     """Print on standard error what the suite left out, where standard output is for machines."""
     for line in left_out(suite):
         print(f"seismass: {line}", file=sys.stderr)
@@ -165,7 +190,7 @@ def warn_remarks(suite: Suite) -> None:
             print(f"seismass: motion {number}, {record.name}: {remark}", file=sys.stderr)
 
 
-def left_out(suite: Suite) -> list[str]:
+def left_out(suite: Suite | Pairs) -> list[str]:
     """Return a line for each file that the suite left out, with the reason, and for each of its remarks.
 
     More than a few files are counted by reason.
@@ -185,7 +210,7 @@ def left_out(suite: Suite) -> list[str]:
             f"{' and others' if len(names) > 1 else ''}: {reason}"
             for reason, names in grouped.items()
         ]
-    return [*lines, *suite.remarks]
+    return [*lines, *getattr(suite, "remarks", ())]
 
 
 def add_opensees_option(parser: argparse.ArgumentParser, what: str) -> None:

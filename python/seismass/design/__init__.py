@@ -33,6 +33,7 @@ from seismass.design.periods import (
     upper_limit_coefficient,
 )
 from seismass.design.pushover import Pattern, Pushover, pushover
+from seismass.design.pushover_fit import PushoverFit, fit_pushover
 from seismass.design.spectrum_analysis import (
     MODAL_BASE_SHEAR_SHARE,
     DesignDemand,
@@ -61,6 +62,7 @@ __all__ = [
     "Pattern",
     "PeriodRule",
     "Pushover",
+    "PushoverFit",
     "SeismicWeight",
     "SpectrumAnalysis",
     "SystemFactors",
@@ -73,6 +75,7 @@ __all__ = [
     "effective_seismic_weight",
     "equivalent_lateral_forces",
     "exponent_k",
+    "fit_pushover",
     "importance_factor",
     "modal_correlation",
     "period_table",

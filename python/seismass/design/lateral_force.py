@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_positive, frozen, known_id
+from seismass.base.views import Card
 from seismass.design.modes import positive, positive_of_length
 from seismass.design.spectrum_analysis import moments
 from seismass.model.codes import CODE_NAMES, FROM_MEMORY, VERIFIED
@@ -69,7 +70,7 @@ DISTRIBUTION_CODES: Final = tuple(rule.code_id for rule in _RULES)
 
 
 @dataclass(frozen=True, eq=False)
-class LateralForces:
+class LateralForces(Card):
     """Equivalent lateral forces of a building.
 
     Attributes

@@ -21,13 +21,14 @@ from seismass.base.values import (
     refusal,
     same_content,
 )
+from seismass.base.views import Card
 
 Combination: TypeAlias = Literal["srss", "cqc"]
 """How modal peaks are combined: root of the sum of squares, or complete quadratic combination."""
 
 
 @dataclass(frozen=True, eq=False)
-class Modes:
+class Modes(Card):
     """Vibration modes of an undamped shear building, longest period first.
 
     Attributes

@@ -10,6 +10,7 @@ import polars as pl
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import as_count, as_number, brief, known_id, refusal
+from seismass.base.views import Card
 from seismass.model.codes import CODE_NAMES, FROM_MEMORY, SECOND_HAND, VERIFIED
 
 Variable: TypeAlias = Literal["height", "storeys"]
@@ -176,7 +177,7 @@ _C_U_STATUS: Final = {"asce7-10": VERIFIED, "asce7-16": FROM_MEMORY, "asce7-22":
 
 
 @dataclass(frozen=True)
-class CodePeriod:
+class CodePeriod(Card):
     """Approximate period of a building by a code, and the upper limit of calculated ones.
 
     Attributes

@@ -10,8 +10,8 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_array, brief, content_hash, frozen, refusal, same_content
-from seismass.base.views import view
+from seismass.base.values import FloatArray, as_array, brief, content_hash, frozen, refusal, same_content, short_repr
+from seismass.base.views import Card, view
 from seismass.design.lateral_force import exponent_k
 from seismass.design.modes import positive_of_length, vibration_modes
 from seismass.design.pushover_path import SeriesPath, WallPath
@@ -28,7 +28,7 @@ DEFAULT_DRIFT_RATIO: Final = 0.05
 
 
 @dataclass(frozen=True, eq=False)
-class Pushover:
+class Pushover(Card):
     """Equilibrium path of a building under growing lateral forces: points with straight lines between.
 
     Attributes
@@ -71,6 +71,7 @@ class Pushover:
     weight: float
     heights: FloatArray | None
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 

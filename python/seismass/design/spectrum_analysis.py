@@ -11,7 +11,8 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_array, as_positive, brief, frozen, refusal
+from seismass.base.values import FloatArray, as_array, as_positive, brief, frozen, refusal, short_repr
+from seismass.base.views import Card
 from seismass.design.modes import (
     Combination,
     Modes,
@@ -26,7 +27,7 @@ MODAL_BASE_SHEAR_SHARE: Final = 0.85
 
 
 @dataclass(frozen=True, eq=False)
-class DesignDemand:
+class DesignDemand(Card):
     """Demands of a response spectrum analysis for the design.
 
     Attributes
@@ -48,7 +49,7 @@ class DesignDemand:
 
 
 @dataclass(frozen=True, eq=False)
-class SpectrumAnalysis:
+class SpectrumAnalysis(Card):
     """Result of a response spectrum analysis: elastic peaks, not reduced by R.
 
     Attributes
@@ -89,6 +90,8 @@ class SpectrumAnalysis:
     displacement: FloatArray
     heights: FloatArray | None
     overturning: FloatArray | None
+
+    __repr__ = short_repr
 
     @property
     def base_shear(self) -> float:

@@ -18,6 +18,7 @@ from seismass.base.values import (
     refusal,
     same_content,
 )
+from seismass.base.views import Card
 from seismass.design.modes import checked_heights, positive, positive_of_length, vibration_modes
 from seismass.model.building import Building
 
@@ -26,7 +27,7 @@ _FARTHEST = 1e9
 
 
 @dataclass(frozen=True, eq=False)
-class Wall:
+class Wall(Card):
     """An elastic wall that bends: a cantilever, fixed at the ground, that has every floor's displacement.
 
     It has no shear deformation and no mass of its own. Walls side by side that have the same displacements count as one

@@ -23,7 +23,9 @@ from seismass.base.values import (
     known_id,
     refusal,
     same_content,
+    short_repr,
 )
+from seismass.base.views import Card
 from seismass.model.codes import CODE_IDS, FROM_MEMORY, SECOND_HAND, VERIFIED, code_fraction
 
 FloorUse: TypeAlias = Literal["storage", "ordinary", "garage"]
@@ -66,7 +68,7 @@ _INTENSITY: Final = {"bnbc2017": (3000.0, "2.5.7.3", VERIFIED), "is1893": (3000.
 
 
 @dataclass(frozen=True, eq=False)
-class SeismicWeight:
+class SeismicWeight(Card):
     """Effective seismic weight of a building by a code.
 
     Attributes
@@ -90,6 +92,7 @@ class SeismicWeight:
     rules: pl.DataFrame
     status: str
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 

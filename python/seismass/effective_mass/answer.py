@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from seismass.effective_mass.curve import Statistic
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, check_any_load
+from seismass.effective_mass.plane_runs import LARGER, DriftMeasure
 from seismass.effective_mass.result import EffectiveMass
 from seismass.effective_mass.runs import Progress, named_motions
 from seismass.effective_mass.search import OWNER, checked_options
@@ -23,13 +24,16 @@ from seismass.model.building import Building
 from seismass.model.motion import MotionLike
 from seismass.model.rack import Rack
 from seismass.model.scene import Scene
+from seismass.model.sliding_base import SlidingBase
+from seismass.runs.batch import MotionsLike
 
 
 def effective_mass(
     scene: Scene,
-    motions: MotionLike | Iterable[MotionLike],
+    motions: MotionsLike,
     *,
     statistic: Statistic = "mean",
+    drift: DriftMeasure = LARGER,
     damping: ModelDamping = SAME_DAMPING,
     fractions: ArrayLike | None = None,
     confidence: float = 0.90,
@@ -43,16 +47,22 @@ def effective_mass(
     Parameters
     ----------
     scene : Scene
-        The building with its goods as blocks, on floors and on racks; walls and stops are as in the real building.
-    motions : Motion, Record or iterable of them
-        The suite, scaled as it is to act; a `Suite` is one. Records of one event are resampled together.
+        The building with its goods as blocks, on floors and on racks; walls, stops and a base are those of the real
+        building.
+    motions : Motion, Record, Pair or iterable of them
+        The suite, scaled as it is to act; a `Suite` is one. Records of one event are resampled together. A scene in two
+        directions takes pairs.
     statistic : {"mean", "median"}
         What is taken of the largest drifts over the motions. With the median a collapsed run counts as infinite drift;
         with the mean one collapse of the real building leaves no value.
+    drift : {"larger", "vector", "x", "y"}
+        Of scenes in two directions, what is compared: the larger of a storey's peak drifts in x and in y; the peak
+        length of its drift vector; the peak in one direction.
     damping : {"same", "ratio"}
         Damping of the models, see `attached_scene`.
     fractions : array_like, optional
-        Shares at which models are solved before roots are refined, from 0 to 1; by default 0, 0.01, ..., 1.
+        Shares at which models are solved before roots are refined, from 0 to 1; by default 0, 0.01, ..., 1, of
+        vectors 0, 0.05, ..., 1.
     confidence : float, default 0.90
         Probability of the bootstrap interval.
     resamples : int, default 2000
@@ -85,6 +95,11 @@ def effective_mass(
     near that of the building passes on more than the inertia of its goods. The rule by period in `estimate` is of goods
     on the floors of shear buildings, and a remark says so.
 
+    In two directions the real building has friction on the circle, and models have the same share attached in both.
+    Nothing couples the directions of a model, so that each is solved by itself; for the vector, as a run in two
+    directions. The rule takes all components of the motions, the building in x, or in y where `drift` is that, and 0.8
+    times mu_k (docs/two_directions.md).
+
     Examples
     --------
     >>> import seismass as sm
@@ -95,8 +110,8 @@ def effective_mass(
     'root'
     """
     checked = check_any_load(scene)
-    named = named_motions(motions, OWNER)
-    options = checked_options(statistic, damping, fractions, confidence, resamples, seed, threads, progress)
+    named = named_motions(motions, OWNER, checked)
+    options = checked_options(statistic, damping, fractions, confidence, resamples, seed, threads, progress, drift)
     return solved_frictions([checked], named, options)[0].answer()
 
 
@@ -106,6 +121,7 @@ def effective_mass_of_design(
     motions: MotionLike | Iterable[MotionLike],
     *,
     racks: Iterable[Rack] = (),
+    base: SlidingBase | None = None,
     statistic: Statistic = "mean",
     damping: ModelDamping = SAME_DAMPING,
     fractions: ArrayLike | None = None,
@@ -128,6 +144,8 @@ def effective_mass_of_design(
         The goods, the same for every design.
     racks : iterable of Rack
         Racks with goods, the same for every design; shares above 1 are not sought.
+    base : SlidingBase, optional
+        Base that slides under every design.
     motions, statistic, damping, fractions, confidence, resamples, seed, threads, progress
         As for `effective_mass`.
 
@@ -155,4 +173,4 @@ def effective_mass_of_design(
     """
     named = named_motions(motions, OWNER)
     options = checked_options(statistic, damping, fractions, confidence, resamples, seed, threads, progress)
-    return solved_designs(design, blocks, named, options, racks).answer()
+    return solved_designs(design, blocks, named, options, racks, base=base).answer()

@@ -22,7 +22,7 @@ FROM_ONE: Final = np.concatenate([[1.0], SHARES_BEYOND])
 def goes_beyond(scene: Scene) -> bool:
     """Whether shares above 1 are sought: there are racks on floors, or goods with stops."""
     return any(rack.floor > 0 for rack in scene.racks) or any(
-        block.stops is not None and block.floor > 0 for block in scene.blocks
+        (block.stops is not None or block.stops_y is not None) and block.floor > 0 for block in scene.blocks
     )
 
 

@@ -10,7 +10,9 @@ from seismass.base.values import FloatArray
 from seismass.design import response_spectrum_analysis
 from seismass.effective_mass.estimate import base_shear_by_hand, best_estimate, exponent, height_ratio
 from seismass.effective_mass.models import building_of, frame_mass, friction, full_weight, goods_mass
+from seismass.effective_mass.plane_runs import LARGER, DriftMeasure
 from seismass.effective_mass.runs import NamedMotions, Peaks
+from seismass.effective_mass.two_directions import friction_factor
 from seismass.model.building import Building
 from seismass.model.scene import Scene
 from seismass.spectra import corner_period, mean_spectrum
@@ -51,11 +53,14 @@ class ByHand:
     estimate: float
 
 
-def by_hand(scene: Scene, motions: NamedMotions, full: Peaks) -> ByHand:
+def by_hand(scene: Scene, motions: NamedMotions, full: Peaks, drift: DriftMeasure = LARGER) -> ByHand:
     """Return what the rule says of the building of a scene; `full` has the peaks of the fully attached model.
 
-    Goods on racks count as if they stood on the floor of the rack.
+    Goods on racks count as if they stood on the floor of the rack. In two directions the building is that in y where
+    `drift` is, else that in x, and the motions are all components.
     """
+    if drift == "y" and isinstance(scene.other_direction, Building):
+        scene = scene.replace(building=scene.other_direction, other_direction=True)
     yields = bool((full.drift.mean(axis=1)[-1] > yield_drift(building_of(scene))).any())
     return rule_by_hand(scene, motions, yields)
 
@@ -65,8 +70,10 @@ def rule_by_hand(scene: Scene, motions: NamedMotions, yields: bool) -> ByHand:
     building, goods = building_of(scene), goods_mass(scene)
     mass, walls = building.mass + frame_mass(scene), building.stiffness_matrix
 
+    components = motions.components
+
     def spectrum(periods: FloatArray) -> FloatArray:
-        return mean_spectrum(motions.motions, np.ones(len(motions)), periods)
+        return mean_spectrum(components, np.ones(len(components)), periods)
 
     elastic = response_spectrum_analysis(mass + goods, building.stiffness, spectrum, stiffness_matrix=walls)
     weight = full_weight(scene)
@@ -86,7 +93,8 @@ def rule_by_hand(scene: Scene, motions: NamedMotions, yields: bool) -> ByHand:
         )
     )
     eta = friction(scene) / coefficient
-    return ByHand(period, corner, yields, heights, power, coefficient, eta, float(best_estimate(eta, power, heights)))
+    estimate = float(best_estimate(friction_factor(scene) * eta, power, heights))
+    return ByHand(period, corner, yields, heights, power, coefficient, eta, estimate)
 
 
 def yield_drift(building: Building) -> FloatArray:

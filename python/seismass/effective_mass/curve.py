@@ -26,6 +26,8 @@ TOLERANCE: Final = 1e-12
 """To which roots are located."""
 DEFAULT_FRACTIONS: Final = np.linspace(0.0, 1.0, 101)
 """Shares at which models are solved before roots are refined."""
+FRACTIONS_OF_VECTORS: Final = np.linspace(0.0, 1.0, 21)
+"""The same where drifts are lengths of vectors, for which a model takes a run in two directions."""
 
 
 def check_statistic(statistic: Any, owner: str) -> Statistic:
@@ -36,10 +38,10 @@ def check_statistic(statistic: Any, owner: str) -> Statistic:
     return checked
 
 
-def check_fractions(fractions: Any, owner: str) -> FloatArray:
-    """Return shares in increasing order from 0 to 1, those of `DEFAULT_FRACTIONS` where none are given."""
+def check_fractions(fractions: Any, owner: str, default: FloatArray = DEFAULT_FRACTIONS) -> FloatArray:
+    """Return shares in increasing order from 0 to 1, those of a default where none are given."""
     if fractions is None:
-        return DEFAULT_FRACTIONS
+        return default
     shares = as_array(fractions, "fractions", owner, InvalidOption)
     requirement = "a list in increasing order that begins with 0 and ends with 1"
     if len(shares) < 2 or shares[0] != 0.0 or shares[-1] != 1.0 or not (np.diff(shares) > 0.0).all():

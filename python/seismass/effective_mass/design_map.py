@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion
-from seismass.base.values import FloatArray, brief, content_hash, refusal, same_content
+from seismass.base.values import FloatArray, brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import view
 from seismass.design import response_spectrum_analysis
 from seismass.effective_mass.by_hand import yield_drift
@@ -86,6 +86,7 @@ class EffectiveMassMap(Result):
     scaling: ScalingResult
     metadata: dict[str, Any] = field(repr=False)
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from seismass import _kernel
 from seismass.base.distributions import Distribution
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content
+from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import view
 from seismass.effective_mass.curve import check_fractions, interpolated, over_records, resampled
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, check_loaded
@@ -86,6 +86,7 @@ class LiveLoadUncertainty(Result):
     remarks: tuple[str, ...] = field(repr=False)
     metadata: dict[str, Any] = field(repr=False)
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 
@@ -101,7 +102,7 @@ class LiveLoadUncertainty(Result):
         levels = ", ".join(f"{100 * row[0]:g} % {row[1]:.2f}" for row in self.quantiles.iter_rows())
         said = f"{self.share:.3f}{low_high}: equal expected drift"
         if not math.isfinite(self.share):
-            said = "no value: the real building collapses in some sample, and its expected drift has no value"
+            said = "no value: the building collapses in some sample, and its expected drift has no value"
         lines = [
             f"share of the design live load   {said}",
             f"enough in 84 % of samples       {self.share_84:.3f}",
@@ -341,7 +342,7 @@ def _remarks(
         remarks.append("P-Delta of the models has the weight of the whole design live load")
     collapsed = int(real.collapsed.any(axis=1).sum())
     if collapsed:
-        remarks.append(f"the real building collapses under some motion in {collapsed} samples")
+        remarks.append(f"the building with sliding goods collapses under some motion in {collapsed} samples")
     highest = float((over_records(real.largest, "mean") > model_drift[-1] * (1.0 + 1e-12)).mean())
     if highest > 0.0:
         remarks.append(f"in {100.0 * highest:.0f} % of samples it drifts more than with the whole design load attached")

@@ -12,6 +12,7 @@ from seismass.base.values import FloatArray, as_number, brief, is_one_of, refusa
 from seismass.effective_mass.beyond import LARGEST_SHARE, goes_beyond
 from seismass.model.building import Building
 from seismass.model.scene import Scene
+from seismass.model.sliding_base import SlidingBase
 
 ModelDamping: TypeAlias = Literal["same", "ratio"]
 """Damping of a model with attached mass: the matrix C of the real building, or its ratio in the model's own modes."""
@@ -20,9 +21,11 @@ ModelDamping: TypeAlias = Literal["same", "ratio"]
 def attached_scene(scene: Scene, fraction: float, damping: ModelDamping = "same") -> Scene:
     """Return the building of a scene with a share of its live load attached to the floors as mass, without blocks.
 
-    Stiffness and strength stay as they are, walls too, and so does P/h: the whole weight of the goods acts in P-Delta
-    whatever share of their mass is attached. Racks are lumped: the share of all their goods, fixed ones too, and the
-    whole mass of their frames on the floor on which they stand.
+    In two directions it has two as well. Stiffness and strength stay as they are, walls too, and so does P/h: the whole
+    weight of the goods acts in P-Delta whatever share of their mass is attached. Racks are lumped: the share of all
+    their goods, fixed ones too, and the whole mass of their frames on the floor on which they stand. A sliding base
+    keeps the friction and the restoring force of the whole weight: its coefficients, and 1/R, grow by the real weight
+    over that of the model.
 
     Parameters
     ----------
@@ -59,6 +62,16 @@ def attached_scene(scene: Scene, fraction: float, damping: ModelDamping = "same"
 
 def attached(scene: Scene, fraction: float, damping: ModelDamping) -> Scene:
     """Return the model of `attached_scene` for arguments that are known to be valid."""
+    if scene.other_direction is not False:
+        x, y = (attached(each, fraction, damping) for each in scene._directions())
+        return Scene(
+            x.building,
+            other_direction=building_of(y),
+            initial_drift=scene.initial_drift,
+            initial_velocity=scene.initial_velocity,
+            collapse_drift=scene.collapse_drift,
+            name=scene.name,
+        )
     building = building_of(scene)
     changes: dict[str, Any] = {"mass": building.mass + frame_mass(scene) + fraction * goods_mass(scene)}
     if damping == "same":
@@ -70,13 +83,45 @@ def attached(scene: Scene, fraction: float, damping: ModelDamping) -> Scene:
         initial_drift=scene.initial_drift,
         initial_velocity=scene.initial_velocity,
         collapse_drift=scene.collapse_drift,
+        base=base_of_model(scene, changes["mass"]),
         name=scene.name,
+    )
+
+
+def base_of_model(scene: Scene, mass: FloatArray) -> SlidingBase | None:
+    """Return the sliding base under a model of the building of a scene; None where the scene has none.
+
+    Parameters
+    ----------
+    scene : Scene
+        Building and goods, those on the slab included.
+    mass : ndarray, shape (storeys,)
+        Mass of the floors of the model (kg).
+
+    Returns
+    -------
+    SlidingBase
+        Its friction and restoring force are those of the weight of the scene, whatever mass the model has.
+    """
+    if scene.base is None:
+        return None
+    building, base = building_of(scene), scene.base
+    slab = base.slab_mass(building)
+    on_slab = sum(m for floor, m in zip(scene.block_floor, scene.block_mass, strict=True) if floor == 0)
+    on_slab += sum(rack.goods_mass(building) + rack.frame_mass(building) for rack in scene.racks if rack.floor == 0)
+    whole = slab + on_slab + float((building.mass + goods_mass(scene) + frame_mass(scene)).sum())
+    more = whole / (slab + float(mass.sum()))
+    return SlidingBase(
+        mu_s=more * base.mu_s,
+        mu_k=more * base.mu_k,
+        radius=None if base.radius is None else base.radius / more,
+        mass_ratio=slab / float(mass[0]),
     )
 
 
 def building_of(scene: Scene) -> Building:
     """Return the building of a scene that has one."""
-    building = scene.on_ground("effective mass").building
+    building = scene.building
     if building is None:
         raise refusal(InvalidScene, "building", "effective mass", "given", "None")
     return building

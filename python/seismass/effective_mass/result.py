@@ -13,6 +13,7 @@ from seismass.base.views import view
 from seismass.effective_mass.by_hand import ByHand
 from seismass.effective_mass.curve import Kind
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
+from seismass.effective_mass.two_directions import REDUCED_FRICTION
 from seismass.media.result import Result, finite_values
 
 if TYPE_CHECKING:
@@ -33,12 +34,12 @@ the cases, widened by 0.05 in 96 %: docs/effective_mass.md. Suites of seven diff
 
 KIND_TEXTS: Final[dict[Kind, str]] = {
     "stuck": "no goods slide under any motion, so that all of them act as mass",
-    "root": "one share gives the drift of the real building",
-    "multiple": "several shares give the drift of the real building, the largest counts",
-    "zero": "no share drifts less than the real building, so that none needs to be attached",
-    "one": "even with all goods attached the model drifts less than the real building",
-    "beyond": "with all goods attached the model drifts less than the real building, a larger share gives its drift",
-    "collapsed": "the real building collapses under so many motions that its drift has no such statistic",
+    "root": "one share gives the drift with sliding goods",
+    "multiple": "several shares give the drift with sliding goods, the largest counts",
+    "zero": "no share drifts less than with sliding goods, so that none needs to be attached",
+    "one": "even with all goods attached the model drifts less than with sliding goods",
+    "beyond": "with all goods attached the model drifts less than with sliding goods, a larger share gives their drift",
+    "collapsed": "with sliding goods the building collapses under so many motions that its drift has no such statistic",
 }
 """What each kind means."""
 
@@ -85,7 +86,7 @@ class EffectiveMass(Result):
         building and goods.
     estimate, conservative : float
         The rule by period and its conservative form with this eta, see `seismass.effective_mass.estimate`:
-        min(1, eta_h^p) and min(1, eta_h) with eta_h = eta/sqrt(h_g/h_m).
+        min(1, eta_h^p) and min(1, eta_h) with eta_h = eta/sqrt(h_g/h_m); in two directions 0.8 eta in place of eta.
     by_hand : ByHand
         What the rule takes, T, T_c, p, h_g/h_m and whether the building yields, and eta and the estimate with C1 by
         hand, without any run.
@@ -147,10 +148,10 @@ class EffectiveMass(Result):
         scale, unit = (1e3, "mm") if self.unit == "m" else (1e2, "% of the height")
         drifts = f"real {scale * self.real:.4g}, model {scale * self.model:.4g} {unit}"
         if not math.isfinite(self.real):
-            drifts = f"none, since the real building collapses under {self.collapses['real']} of them"
+            drifts = f"none, since the building with sliding goods collapses under {self.collapses['real']} of them"
         lines = [
             f"effective fraction  {self.value_text} ({scatter})",
-            f"                    {self.kind}: {KIND_TEXTS[self.kind]}",
+            f"                    {KIND_TEXTS[self.kind]}",
             f"largest drift       {self.statistic} of {self.records.height} motions: {drifts}",
             *self.rule_lines,
         ]
@@ -175,6 +176,7 @@ class EffectiveMass(Result):
         """The estimates in three lines: with the mean peak base shear of the runs, what the exponent is of, by hand."""
         rule = self.by_hand
         behaviour = "yields" if rule.yields else "stays elastic"
+        in_plane = () if "drift" not in self.metadata else (f"{'':20}two directions: {REDUCED_FRICTION:g} eta in it",)
         return (
             f"estimates           eta = mu_k/C1 = {self.eta:.3f}, C1 = {self.base_shear_coefficient:.4f} (mean peak "
             f"base shear of the runs): {RULE} = {self.estimate:.3f}, conservative {SAFE_RULE} = "
@@ -183,6 +185,7 @@ class EffectiveMass(Result):
             f"{rule.corner_period:.3g} s; h_g/h_m = {rule.height_ratio:.2f}",
             f"by hand             eta = {rule.eta:.3f}, C1 = {rule.base_shear_coefficient:.4f} without a run: {RULE} = "
             f"{rule.estimate:.3f}",
+            *in_plane,
         )
 
     @view

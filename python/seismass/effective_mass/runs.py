@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -12,8 +12,11 @@ from numpy.typing import NDArray
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, SimulationError
 from seismass.base.values import FloatArray, as_progress, as_threads, brief, refusal
-from seismass.model.motion import HasMotion, Motion, as_motion
+from seismass.effective_mass.plane_runs import LARGER, DriftMeasure, are_uncoupled, in_directions, solve_plane
+from seismass.model.motion import HasMotion, Motion, as_motion, motion_names
 from seismass.model.scene import Scene
+from seismass.records.pair import Pair
+from seismass.runs.plane_motion import motions_in_plane
 
 Progress: TypeAlias = Callable[[int, int], object]
 """Called with (runs done, runs in all)."""
@@ -33,14 +36,26 @@ class NamedMotions:
         Name of each record; "motion 3" where it has none.
     events : list of str
         Earthquake of each record; empty where it is not known, and of a synthetic motion.
+    others : list of Motion or None
+        Motions in y of pairs, whose motions in x are `motions`; None where there is one direction.
     """
 
     motions: list[Motion]
     names: list[str]
     events: list[str]
+    others: list[Motion] | None = None
 
     def __len__(self) -> int:
         return len(self.motions)
+
+    @property
+    def components(self) -> list[Motion]:
+        """All motions, those in y after those in x."""
+        return [*self.motions, *(self.others or ())]
+
+    def direction(self, axis: int) -> NamedMotions:
+        """Return the motions of pairs in one direction: 0, in x; 1, in y."""
+        return replace(self, motions=self.motions if axis == 0 or self.others is None else self.others, others=None)
 
     @property
     def cluster_of(self) -> NDArray[np.int64]:
@@ -55,22 +70,34 @@ class NamedMotions:
         return int(self.cluster_of.max()) + 1
 
 
-def named_motions(motions: Any, owner: str) -> NamedMotions:
-    """Return motions given as one, or as a list of Motions or Records."""
-    given = [motions] if isinstance(motions, Motion | HasMotion) else motions
+def named_motions(motions: Any, owner: str, scene: Scene | None = None) -> NamedMotions:
+    """Return motions given as one, or as a list of Motions or Records; of Pairs for a scene in two directions."""
+    given = [motions] if isinstance(motions, Motion | HasMotion | Pair) else motions
+    in_plane = scene is not None and scene.engine == "plane"
+    kinds = "Pairs, or tuples of two motions" if in_plane else "Motions or Records"
     if not isinstance(given, Iterable):
-        raise refusal(InvalidMotion, "motions", owner, "a list of Motions or Records", brief(motions))
+        raise refusal(InvalidMotion, "motions", owner, f"a list of {kinds}", brief(motions))
     listed = list(given)
     if not listed:
-        raise refusal(InvalidMotion, "motions", owner, "at least one Motion or Record", "none")
-    taken = [as_motion(motion, f"motion {number}", owner) for number, motion in enumerate(listed, start=1)]
-    if not any(motion.acceleration.any() for motion in taken):
+        raise refusal(InvalidMotion, "motions", owner, f"at least one of {kinds}" if in_plane else _LEAST, "none")
+    others = None
+    if in_plane:
+        pairs = [motions_in_plane(pair, f"motion {number}", owner) for number, pair in enumerate(listed, start=1)]
+        taken, others = [x for x, _ in pairs], [y for _, y in pairs]
+    else:
+        taken = [as_motion(motion, f"motion {number}", owner) for number, motion in enumerate(listed, start=1)]
+    if not any(motion.acceleration.any() for motion in [*taken, *(others or ())]):
         raise refusal(InvalidMotion, "motions", owner, "other than zero somewhere", "zero throughout")
-    return NamedMotions(
-        taken,
-        [str(getattr(motion, "name", "")) or f"motion {number}" for number, motion in enumerate(listed, start=1)],
-        ["" if getattr(motion, "synthetic", False) else str(getattr(motion, "event", "")) for motion in listed],
-    )
+    return NamedMotions(taken, motion_names(listed), [_event(motion) for motion in listed], others)
+
+
+_LEAST = "at least one Motion or Record"
+
+
+def _event(motion: Any) -> str:
+    """Earthquake of a record or a pair; empty where it is not known, and of a synthetic motion."""
+    first = motion.first if isinstance(motion, Pair) else motion[0] if isinstance(motion, tuple) else motion
+    return "" if getattr(first, "synthetic", False) else str(getattr(motion, "event", ""))
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,9 +107,11 @@ class Peaks:
     Attributes
     ----------
     drift : ndarray, shape (scenes, motions, storeys)
-        Peak drift (m), or drift ratio where heights are known; infinite in a run that collapsed.
+        Peak drift (m), or drift ratio where heights are known; infinite in a run that collapsed. In two directions
+        that of `solve`'s `drift`.
     base_shear : ndarray, shape (scenes, motions)
-        Peak shear of storey 1 (N), until the collapse where there is one; with the share of walls.
+        Peak shear of storey 1 (N), until the collapse where there is one; with the share of walls. In two directions
+        that of the direction, or the mean of both.
     slides : ndarray of bool, shape (scenes, motions)
         Whether a block on a floor slid.
     collapsed : ndarray of bool, shape (scenes, motions)
@@ -116,9 +145,17 @@ class Peaks:
 
 
 def solve(
-    scenes: Sequence[Scene], motions: NamedMotions, *, threads: int | None = None, progress: Progress | None = None
+    scenes: Sequence[Scene],
+    motions: NamedMotions,
+    *,
+    drift: DriftMeasure = LARGER,
+    threads: int | None = None,
+    progress: Progress | None = None,
 ) -> Peaks:
     """Solve scenes of equal number of storeys, all of them of the same engine, under all motions.
+
+    Scenes in two directions take pairs, and `drift` says which drift counts; without goods each direction is solved by
+    itself, as nothing couples them.
 
     Raises
     ------
@@ -128,23 +165,60 @@ def solve(
         Ctrl-C was pressed.
     """
     threads, progress = as_threads(threads, "runs"), as_progress(progress, "runs")
+    if scenes[0].engine == "plane" and are_uncoupled(scenes, drift):
+        return _directions_apart(scenes, motions, drift, threads, progress)
     count, storeys = len(motions), scenes[0].storeys
     runs = np.stack(np.divmod(np.arange(len(scenes) * count), count), axis=1)
-    batch, base_shear = _batch(scenes, motions, runs, threads, progress)
+    if scenes[0].engine == "plane":
+        pairs = (motions.motions, motions.others or [])
+        batch, peak_drift, base_shear = solve_plane(scenes, pairs, runs, drift, threads, progress)
+    else:
+        batch, base_shear = _batch(scenes, motions, runs, threads, progress)
+        peak_drift = batch.peak_drift
     for run, reason in batch.failures:
         name = motions.names[run % count]
         raise SimulationError(f"run under motion {run % count + 1} ({name}) must reach its end; got: {reason}")
     shape = (len(scenes), count)
     collapsed = (batch.status == _STATUS.index("collapsed")).reshape(shape)
-    drift = batch.peak_drift.reshape(*shape, storeys)
+    found = peak_drift.reshape(*shape, storeys)
     heights = None if scenes[0].building is None else scenes[0].building.heights
     if heights is not None:
-        drift = drift / heights
+        found = found / heights
     return Peaks(
-        drift=np.where(collapsed[:, :, None], np.inf, drift),
+        drift=np.where(collapsed[:, :, None], np.inf, found),
         base_shear=base_shear.reshape(shape),
         slides=_slides(scenes, batch, count),
         collapsed=collapsed,
+    )
+
+
+def _directions_apart(
+    scenes: Sequence[Scene],
+    motions: NamedMotions,
+    drift: DriftMeasure,
+    threads: int | None,
+    progress: Progress | None,
+) -> Peaks:
+    """Peaks of scenes in two directions without goods, of one direction or of the larger of both."""
+    axes = {"x": (0,), "y": (1,)}.get(drift, (0, 1))
+    total = len(scenes) * len(motions)
+
+    def told(first: int) -> Progress | None:
+        return None if progress is None else lambda done, _: progress((first + done) // len(axes), total)
+
+    of = in_directions(scenes)
+    parts = [
+        solve(of[axis], motions.direction(axis), threads=threads, progress=told(number * total))
+        for number, axis in enumerate(axes)
+    ]
+    if len(parts) == 1:
+        return parts[0]
+    x, y = parts
+    return Peaks(
+        drift=np.maximum(x.drift, y.drift),
+        base_shear=0.5 * (x.base_shear + y.base_shear),
+        slides=x.slides,
+        collapsed=x.collapsed | y.collapsed,
     )
 
 

@@ -22,6 +22,8 @@ from seismass.effective_mass.beyond import (
 )
 from seismass.effective_mass.by_hand import by_hand
 from seismass.effective_mass.curve import (
+    DEFAULT_FRACTIONS,
+    FRACTIONS_OF_VECTORS,
     Kind,
     Statistic,
     check_fractions,
@@ -36,10 +38,12 @@ from seismass.effective_mass.curve import (
 )
 from seismass.effective_mass.estimate import best_estimate, conservative_estimate
 from seismass.effective_mass.models import ModelDamping, attached, building_of, check_damping, friction, full_weight
+from seismass.effective_mass.plane_runs import LARGER, DriftMeasure, check_drift
 from seismass.effective_mass.result import SCHEMA_VERSION, EffectiveMass
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, solve
 from seismass.effective_mass.structure_remarks import remarks_of_structure
 from seismass.effective_mass.tables import curve_table, inputs_digest, record_table, remarks_of, storey_table
+from seismass.effective_mass.two_directions import friction_factor
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.model.springs import SHAPE_FIELDS
@@ -54,6 +58,7 @@ class Options:
     """How a fraction is sought, checked once."""
 
     statistic: Statistic
+    drift: DriftMeasure
     damping: ModelDamping
     fractions: FloatArray
     confidence: float
@@ -72,6 +77,7 @@ def checked_options(
     seed: Any,
     threads: Any,
     progress: Any,
+    drift: Any = LARGER,
 ) -> Options:
     """Return the arguments of `effective_mass`; one that is not what it must be is refused."""
     probability = as_number(confidence, "confidence", OWNER, InvalidOption)
@@ -81,8 +87,9 @@ def checked_options(
         raise refusal(InvalidOption, "progress", OWNER, "a callable of two numbers", brief(progress))
     return Options(
         statistic=check_statistic(statistic, OWNER),
+        drift=check_drift(drift, OWNER),
         damping=check_damping(damping, OWNER),
-        fractions=check_fractions(fractions, OWNER),
+        fractions=check_fractions(fractions, OWNER, FRACTIONS_OF_VECTORS if drift == "vector" else DEFAULT_FRACTIONS),
         confidence=probability,
         resamples=as_count(resamples, "resamples", OWNER, InvalidOption, least=1),
         seed=as_count(seed, "seed", OWNER, InvalidOption),
@@ -134,8 +141,8 @@ class Search:
         scene = self.scene_at(place)
         full = self._fully_attached(scene, real, model)
         coefficient = float(full.base_shear.mean()) / full_weight(scene)
-        eta = friction(scene) / coefficient
-        rule = by_hand(scene, self.motions, full)
+        eta, shared = friction(scene) / coefficient, friction_factor(scene)
+        rule = by_hand(scene, self.motions, full, options.drift)
         real_drift, model_drift = (
             float(over_records(peaks.largest[0], options.statistic)) for peaks in (real_there, model_there)
         )
@@ -162,15 +169,15 @@ class Search:
             excess=excess,
             eta=eta,
             base_shear_coefficient=coefficient,
-            estimate=float(best_estimate(eta, rule.exponent, rule.height_ratio)),
-            conservative=float(conservative_estimate(eta, rule.height_ratio)),
+            estimate=float(best_estimate(shared * eta, rule.exponent, rule.height_ratio)),
+            conservative=float(conservative_estimate(shared * eta, rule.height_ratio)),
             by_hand=rule,
             curve=curve_table(*self._with_larger(model), real, band, options.statistic),
             storeys=storeys,
             records=record_table(self.motions, shares, real, model),
             collapses=collapses,
             remarks=(
-                *usage_remarks(scene.remarks, self.motions.motions),
+                *usage_remarks(scene.remarks, self.motions.components),
                 *remarks_of(kind, roots, value, excess, interval, storeys, collapses, len(self.motions)),
                 *remarks_of_structure(scene),
             ),
@@ -220,7 +227,9 @@ class Search:
     def _fully_attached(self, scene: Scene, real: Peaks, model: Peaks) -> Peaks:
         """Peaks of the building of `scene` with all goods attached."""
         if real.scenes > 1:  # the strength depends on the share
-            return solve([attached(scene, 1.0, self.options.damping)], self.motions, threads=self.options.threads)
+            options = self.options
+            full = attached(scene, 1.0, options.damping)
+            return solve([full], self.motions, drift=options.drift, threads=options.threads)
         return model.one(-1)
 
     def _scatter(self, kind: Kind, real: Peaks, model: Peaks) -> tuple[tuple[float, float] | None, FloatArray | None]:
@@ -261,6 +270,7 @@ class Search:
         chosen = {
             **about,
             "statistic": options.statistic,
+            **({} if self.motions.others is None else {"drift": options.drift}),
             "damping": options.damping,
             "shares": options.fractions.tolist(),
             "confidence": options.confidence,

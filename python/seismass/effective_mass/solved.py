@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeAlias
 
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.values import FloatArray, brief, refusal
@@ -18,6 +18,10 @@ from seismass.model.block import Block
 from seismass.model.building import Building
 from seismass.model.rack import Rack
 from seismass.model.scene import Scene
+from seismass.model.sliding_base import SlidingBase
+
+Designed: TypeAlias = Building | tuple[Building, Building]
+"""What a design gives: a building, or the same one in x and in y."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,25 +71,26 @@ def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Op
         As for `solve`.
     """
     checked = [check_any_load(scene) for scene in scenes]
-    first, shares, threads = checked[0], options.fractions, options.threads
+    first, shares = checked[0], options.fractions
+    how: dict[str, Any] = {"drift": options.drift, "threads": options.threads}
     for number, scene in enumerate(checked[1:], start=2):
         if attached(scene, 1.0, options.damping) != attached(first, 1.0, options.damping):
             requirement = "the building and goods of scene 1 but for friction"
             raise refusal(InvalidScene, f"scene {number}", OWNER, requirement, "others")
     larger = SHARES_BEYOND if any(goes_beyond(scene) for scene in checked) else SHARES_BEYOND[:0]
     stages = Stages(options.progress, (len(checked) + len(shares) + len(larger)) * len(motions))
-    reals = solve(checked, motions, threads=threads, progress=stages.next(len(checked) * len(motions)))
+    reals = solve(checked, motions, **how, progress=stages.next(len(checked) * len(motions)))
     models = [attached(first, share, options.damping) for share in shares]
-    model = solve(models, motions, threads=threads, progress=stages.next(len(models) * len(motions)))
+    model = solve(models, motions, **how, progress=stages.next(len(models) * len(motions)))
     beyond = None
     if len(larger):
         models = [attached(first, share, options.damping) for share in larger]
-        beyond = solve(models, motions, threads=threads, progress=stages.next(len(models) * len(motions)))
+        beyond = solve(models, motions, **how, progress=stages.next(len(models) * len(motions)))
     beside: dict[float, Peaks] = {}
 
     def model_at(share: float) -> Peaks:
         if share not in beside:
-            beside[share] = solve([attached(first, share, options.damping)], motions, threads=threads)
+            beside[share] = solve([attached(first, share, options.damping)], motions, **how)
         return beside[share]
 
     def of(number: int, scene: Scene) -> Solved:
@@ -97,12 +102,13 @@ def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Op
 
 
 def solved_designs(
-    design: Callable[[float], Building],
+    design: Callable[[float], Designed],
     blocks: Iterable[Block],
     motions: NamedMotions,
     options: Options,
     racks: Iterable[Rack] = (),
     collapse_drift: FloatArray | None = None,
+    base: SlidingBase | None = None,
 ) -> Solved:
     """Solve the building that is designed with each share, with sliding goods and with that share attached.
 
@@ -116,6 +122,8 @@ def solved_designs(
         How the fraction is sought.
     collapse_drift : ndarray, shape (storeys,), optional
         Drift at which a storey counts as collapsed (m), beside the limit that P-Delta sets.
+    base : SlidingBase, optional
+        Base that slides under the building.
 
     Raises
     ------
@@ -125,13 +133,18 @@ def solved_designs(
     if not callable(design):
         requirement = "a callable that takes a share and returns a Building"
         raise refusal(InvalidOption, "design", OWNER, requirement, brief(design))
-    goods, standing, threads = tuple(blocks), tuple(racks), options.threads
+    goods, standing = tuple(blocks), tuple(racks)
+    how: dict[str, Any] = {"drift": options.drift, "threads": options.threads}
 
     def designed(share: float) -> Scene:
         building: Any = design(share)
+        other: Any = False
+        if isinstance(building, tuple) and len(building) == 2:
+            building, other = building
         if not isinstance(building, Building):
-            raise refusal(InvalidScene, "design", OWNER, "a Building", brief(building))
-        return check_any_load(Scene(building, goods, racks=standing, collapse_drift=collapse_drift))
+            raise refusal(InvalidScene, "design", OWNER, "a Building, or two in x and y", brief(building))
+        scene = Scene(building, goods, racks=standing, base=base, other_direction=other, collapse_drift=collapse_drift)
+        return check_any_load(scene)
 
     shares = [float(share) for share in options.fractions]
     stages = Stages(options.progress, 2 * len(shares) * len(motions))
@@ -140,15 +153,15 @@ def solved_designs(
         requirement = "a Building of the same number of storeys for every share"
         raise refusal(InvalidScene, "design", OWNER, requirement, "different ones")
     runs = len(scenes) * len(motions)
-    real = solve(scenes, motions, threads=threads, progress=stages.next(runs))
+    real = solve(scenes, motions, **how, progress=stages.next(runs))
     models = [attached(scene, share, options.damping) for scene, share in zip(scenes, shares, strict=True)]
-    model = solve(models, motions, threads=threads, progress=stages.next(runs))
+    model = solve(models, motions, **how, progress=stages.next(runs))
 
     def at(share: float) -> tuple[Peaks, Peaks]:
         scene = designed(share)
         both = (
-            solve([scene], motions, threads=threads),
-            solve([attached(scene, share, options.damping)], motions, threads=threads),
+            solve([scene], motions, **how),
+            solve([attached(scene, share, options.damping)], motions, **how),
         )
         return both
 

@@ -1,4 +1,4 @@
-"""What the rule by period cannot know of a building: racks, walls and stops, with what they were found to do."""
+"""What the rule by period cannot know of a building: racks, walls, stops and a base that slides."""
 
 from __future__ import annotations
 
@@ -27,5 +27,10 @@ def remarks_of_structure(scene: Scene) -> tuple[str, ...]:
         remarks.append(
             f"{RULE_UNKNOWN} stops: at 5 cm they raise the share of slippery goods (mu 0.1) by 0.2 to 0.3, and single "
             "records reach 3 times the drift without them"
+        )
+    if scene.base is not None:
+        remarks.append(
+            f"{RULE_UNKNOWN} sliding base: it takes C1 of the building on the ground, and a base that slides limits "
+            "what the floors feel to about its friction"
         )
     return tuple(remarks)

@@ -89,10 +89,10 @@ def remarks_of(
     if kind == "multiple":
         remarks.append(f"{len(roots)} shares give the same drift ({', '.join(f'{root:.3f}' for root in roots)})")
     if kind == "one":
-        remarks.append(f"the real building drifts {100.0 * excess:.2g} % more than the model with all goods attached")
+        remarks.append(f"with sliding goods the building drifts {100.0 * excess:.2g} % more than with all attached")
     if kind == "beyond":
         remarks.append("the goods load the building more than all of them attached would: racks or stops pass on more")
-    for name, count in (("real building", collapses["real"]), ("model", collapses["model"])):
+    for name, count in (("building with sliding goods", collapses["real"]), ("model", collapses["model"])):
         if count:
             remarks.append(f"the {name} collapses under {count} of {motions} motions")
     if motions < 7:
@@ -157,13 +157,18 @@ def scene_bytes(scene: Scene) -> Iterator[bytes]:
     for block, mass in zip(scene.blocks, scene.block_mass, strict=True):
         stops = block.stop_numbers or ()
         yield np.array([block.floor, mass, block.mu_s, block.mu_k, *chain(*block.wear), *stops], dtype="<f8").tobytes()
+    if scene.base is not None:
+        yield repr(scene.base).encode()
     for rack in scene.racks:
         yield repr(sorted(rack._arguments().items(), key=lambda item: item[0])).encode()
+    if scene.other_direction is not False:
+        yield b"in y"
+        yield from scene_bytes(scene._directions()[1])
 
 
 def motion_bytes(motions: NamedMotions) -> Iterator[bytes]:
     """Yield the samples and the time step of each motion."""
-    for motion in motions.motions:
+    for motion in motions.components:
         yield np.float64(motion.dt).tobytes()
         yield np.ascontiguousarray(motion.acceleration, dtype="<f8").tobytes()
         if motion.vertical is not None:

@@ -6,6 +6,7 @@ from markupsafe import Markup
 
 from seismass.design import response_spectrum_analysis
 from seismass.effective_mass import effective_mass
+from seismass.media.roles import CODE, SLIDE, YIELDS
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import Building
 from seismass.model.scene import Scene
@@ -13,6 +14,8 @@ from seismass.records.builtin import builtin_suite
 from seismass.scaling import scale_asce7_10
 from seismass.spectra import TargetSpectrum, mean_spectrum
 
+EMPTY = "#e4e4e0"
+"""The bar where no goods act as mass."""
 PERIOD, REDUCTION, FRICTION, COUNTED = 0.47, 4.0, 0.2, 0.25
 GOODS = (1.0, 1.0, 0.0)
 """The case that the page opens with: `defaultCase` in case.js."""
@@ -40,9 +43,19 @@ def still_answer() -> Markup:
     )
     return Markup(
         '<figure class="still"><svg viewBox="0 0 400 46" role="img" aria-label="{words}">'
-        '<rect width="400" height="30" fill="#e4e4e0"/><rect width="{filled:.1f}" height="30" fill="#0072b2"/>'
-        '<rect x="{low:.1f}" y="11" width="{wide:.1f}" height="8" fill="#a4276f"/>'
-        '<path d="M{code:.1f} 0V36" stroke="#b34700" stroke-width="2"/>'
+        '<rect width="400" height="30" fill="{empty}"/><rect width="{filled:.1f}" height="30" fill="{slide}"/>'
+        '<rect x="{low:.1f}" y="11" width="{wide:.1f}" height="8" fill="{interval}"/>'
+        '<path d="M{code:.1f} 0V36" stroke="{counted}" stroke-width="2"/>'
         '<text x="{code:.1f}" y="45" font-size="10" text-anchor="middle" fill="currentColor">code</text></svg>'
         "<figcaption>{words}</figcaption></figure>"
-    ).format(words=words, filled=400 * found.value, low=400 * low, wide=400 * (high - low), code=400 * COUNTED)
+    ).format(
+        slide=SLIDE.text,
+        interval=YIELDS.text,
+        counted=CODE.text,
+        empty=EMPTY,
+        words=words,
+        filled=400 * found.value,
+        low=400 * low,
+        wide=400 * (high - low),
+        code=400 * COUNTED,
+    )

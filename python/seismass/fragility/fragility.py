@@ -21,6 +21,7 @@ from seismass.base.values import (
     refusal,
     same_content,
 )
+from seismass.base.views import Card
 from seismass.fragility.likelihood import Fits
 from seismass.fragility.probability import NO_COLLAPSE, medians_and_dispersions, probabilities, quantiles
 
@@ -47,7 +48,7 @@ _KIND_TEXTS: Final[dict[FragilityKind, str]] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Fragility:
+class Fragility(Card):
     """Probability that a limit is exceeded, by intensity: Phi(ln(x / median) / dispersion).
 
     Attributes

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
 from seismass.base.quantiles import quantile
-from seismass.base.values import FloatArray, brief, content_hash, is_one_of, refusal, same_content
+from seismass.base.values import FloatArray, brief, content_hash, is_one_of, refusal, same_content, short_repr
 from seismass.base.views import view
 from seismass.fragility.compare import reference_of
 from seismass.fragility.fragility import Fragility
@@ -94,6 +94,7 @@ class FragilityAnalysis(Result):
     metadata: dict[str, Any] = field(repr=False)
     fits: dict[tuple[str, str], Fragility] = field(repr=False)
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 

@@ -12,7 +12,7 @@ import numpy as np
 import polars as pl
 
 from seismass.base.values import FloatArray, content_hash, counted, same_content
-from seismass.base.views import view
+from seismass.base.views import Card, view
 from seismass.matching.files import write_record
 from seismass.records.intensity import build_up
 from seismass.records.record import Record
@@ -44,7 +44,7 @@ def _misfit(ratios: FloatArray) -> Misfit:
 
 
 @dataclass(frozen=True, eq=False)
-class MatchedRecord:
+class MatchedRecord(Card):
     """A record whose spectrum was matched to a target.
 
     Attributes
@@ -232,7 +232,7 @@ class MatchedRecord:
 
 
 @dataclass(frozen=True, eq=False)
-class MatchedSuite:
+class MatchedSuite(Card):
     """Records matched one by one to the same target.
 
     Attributes

@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import brief, counted, refusal
-from seismass.media.style import GREY, INK
+from seismass.media.roles import GREY, INK, PAPER
 
 
 @dataclass(frozen=True)
@@ -33,6 +33,13 @@ class Panels:
     axes: list[Axes]
     shared: bool
     own: bool
+
+    @property
+    def left(self) -> list[Axes]:
+        """Those that need a label of their own: the leftmost of each row of an own figure; of others all."""
+        if not self.own:
+            return list(dict.fromkeys(self.axes))
+        return [axes for axes in self.axes if axes.get_subplotspec().is_first_col()]  # type: ignore[union-attr]
 
     @property
     def figure(self) -> Figure:
@@ -69,11 +76,21 @@ def panels(
     return given(ax, count, owner)
 
 
-def columns(ax: Axes | Sequence[Axes] | None, count: int, owner: str, *, width: float, height: float) -> Panels:
-    """Return axes for a number of things side by side, that need not have the same scale."""
+def columns(
+    ax: Axes | Sequence[Axes] | None, count: int, owner: str, *, width: float, height: float, most: int = 12
+) -> Panels:
+    """Return axes for a number of things side by side, that need not have the same scale.
+
+    Beyond `most` of them they go on in further rows, as even as can be.
+    """
     if ax is None:
-        figure = Figure(figsize=(0.8 + width * count, height), layout="constrained")
-        return Panels(list(figure.subplots(1, count, squeeze=False)[0]), shared=count == 1, own=True)
+        rows = -(-count // most)
+        across = -(-count // rows)
+        figure = Figure(figsize=(0.8 + width * across, height * rows), layout="constrained")
+        grid = list(figure.subplots(rows, across, squeeze=False).flat)
+        for unused in grid[count:]:
+            unused.remove()
+        return Panels(grid[:count], shared=count == 1, own=True)
     found = given(ax, count, owner)
     if found.shared and count > 1:
         raise refusal(InvalidOption, "ax", owner, f"a list of {count} Axes", "one Axes")
@@ -106,6 +123,14 @@ def grid_lines(axes: Axes) -> None:
 def zero_line(axes: Axes) -> None:
     """Draw where a history is zero."""
     axes.axhline(0.0, color=GREY, linewidth=0.6)
+
+
+def say(axes: Axes, words: str, *, at: float | None = None) -> None:
+    """Say in words that there is nothing to show: in the middle of axes, or at a height of their y axis."""
+    transform = axes.transAxes if at is None else axes.get_yaxis_transform()
+    box = {"boxstyle": "square,pad=0.25", "facecolor": PAPER, "edgecolor": "none"}
+    look: Any = {"ha": "center", "va": "center", "fontsize": 8.5, "style": "italic", "color": INK}
+    axes.text(0.5, 0.5 if at is None else at, words, transform=transform, bbox=box, gid="nothing", **look)
 
 
 def ring(label: str) -> Line2D:

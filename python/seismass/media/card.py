@@ -13,13 +13,14 @@ from typing import Final
 import numpy as np
 
 from seismass.base.values import FloatArray
+from seismass.media.roles import CODE, SLIDE
 
-COLOUR: Final = "#0072B2"
+COLOUR: Final = SLIDE.colour
 """The accent: legible on white and on dark grey."""
-SECOND: Final = "#D55E00"
+SECOND: Final = CODE.colour
 """The second accent, likewise."""
 
-_CELL: Final = "padding:0.1em 0.8em 0.1em 0;background:none;border:none"
+_CELL: Final = "padding:0.1em 0.8em 0.1em 0;background:none;border:none;white-space:nowrap"
 
 
 def card(
@@ -41,6 +42,14 @@ def card(
     )
 
 
+def pre(said: str, *, most: int = 24, more: str = "print(result.text)") -> str:
+    """Return the first lines of a text as they stand; where there are more, a line says how they are seen."""
+    lines = said.splitlines()
+    rest = f"\n... and {len(lines) - most} more lines: {more}" if len(lines) > most + 2 else ""
+    shown = "\n".join(lines[:most] if rest else lines) + rest
+    return f'<pre style="margin:0.3em 0;overflow-x:auto;font-size:inherit">{escape(shown)}</pre>'
+
+
 def line(text: str) -> str:
     """Return a line of text."""
     return f"<div>{escape(text)}</div>"
@@ -58,8 +67,9 @@ def rows(head: Sequence[str], body: Sequence[Sequence[str]], *, markup: Sequence
         texts = "".join(f"<td {left if place == 0 else right}>{escape(cell)}</td>" for place, cell in enumerate(cells))
         lines.append(f"<tr>{before}{texts}</tr>")
     return (
-        '<table style="border-collapse:collapse;margin:0.3em 0;color:inherit;font-size:inherit">'
-        f"<tr>{first}{heads}</tr>{''.join(lines)}</table>"
+        '<div style="overflow-x:auto"><table style="border-collapse:collapse;margin:0.3em 0;color:inherit;'
+        'font-size:inherit;font-variant-numeric:tabular-nums">'
+        f"<tr>{first}{heads}</tr>{''.join(lines)}</table></div>"
     )
 
 

@@ -31,6 +31,7 @@ from markupsafe import Markup, escape
 
 from seismass.media.page_figure import figure_html
 from seismass.media.page_table import Format, table_html
+from seismass.media.roles import SLIDE, css
 
 __all__ = ["Format", "Section", "facts_html", "figure_html", "page_html", "table_html", "templates", "text_html"]
 
@@ -98,6 +99,7 @@ def page_html(
     sections: Iterable[Section],
     *,
     subtitle: str = "",
+    description: str = "",
     lead: Iterable[str] = (),
     runs_kernel: bool = False,
 ) -> str:
@@ -114,6 +116,8 @@ def page_html(
         Its parts, in order.
     subtitle : str, optional
         A line below the heading, such as the version and the date of the input.
+    description : str, optional
+        What the page is, in a sentence, for lists of links.
     lead : iterable of Markup, optional
         What comes before the table of contents: the answer.
     runs_kernel : bool
@@ -126,7 +130,9 @@ def page_html(
     """
     placed = _placed(sections, 2, set())
     page: str = (
-        templates().get_template("base.html.jinja").render(title=title, subtitle=subtitle, lead=lead, sections=placed)
+        templates()
+        .get_template("base.html.jinja")
+        .render(title=title, subtitle=subtitle, description=description, lead=lead, sections=placed, icon=_icon())
     )
     digests = (hashlib.sha256(script.encode()).digest() for script in _SCRIPT.findall(page))
     allowed = dict.fromkeys(f"'sha256-{base64.b64encode(digest).decode()}'" for digest in digests)
@@ -138,12 +144,23 @@ def page_html(
 @cache
 def templates() -> Environment:
     """Return the templates of the package; what they are given is escaped."""
-    return Environment(
+    environment = Environment(
         loader=PackageLoader("seismass.media"),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
+    )
+    environment.globals |= {"role_colours": css(dark=False), "role_colours_dark": css(dark=True)}
+    return environment
+
+
+def _icon() -> str:
+    """A storey with goods on its floor, as the address of an image."""
+    colour = SLIDE.text.replace("#", "%23")
+    return (
+        "data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 16 16'%3E%3Cpath d='M2 15V8h12v7M5 7"
+        f"V2h6v5' fill='none' stroke='{colour}' stroke-width='2'/%3E%3C/svg%3E"
     )
 
 

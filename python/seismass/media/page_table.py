@@ -11,14 +11,17 @@ from markupsafe import Markup
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import refusal
+from seismass.media.isolate import isolated
 
 Format: TypeAlias = str | Callable[[Any], str]
 """A format specification, such as ".3f", or a function from a value to its text or Markup."""
 
 MISSING: Final = "\N{EN DASH}"
 """What stands for a null; such rows are last in either order."""
+LONGEST_WHOLE: Final = 24
+"""Characters of a name that is not broken at its hyphen."""
 LEAST_ROWS_TO_FILTER: Final = 8
-"""A table of fewer rows has no field to filter by."""
+"""A table of fewer rows is neither sorted nor filtered."""
 
 
 def table_html(
@@ -28,9 +31,11 @@ def table_html(
     headers: Mapping[str, str] | None = None,
     formats: Mapping[str, Format] | None = None,
 ) -> Markup:
-    """Return a table that is sorted by its headers and, where it is long, filtered by a field above it.
+    """Return a table; a long one is sorted by its headers and filtered by a field above it.
 
-    Without the script it is a table of all rows in the order given; it prints as it stands on the screen.
+    Without the script it is a table of all rows in the order given; it prints as it stands on the screen. Its heads are
+    plain text, from which the script makes buttons for the screen alone: Chromium does not repeat heads that hold
+    buttons on every page.
 
     Parameters
     ----------
@@ -63,9 +68,7 @@ def table_html(
                 raise refusal(InvalidOption, owner, "table", f"of its columns ({', '.join(frame.columns)})", name)
     numeric = [dtype.is_numeric() or dtype == pl.Boolean for dtype in frame.dtypes]
     head = Markup("").join(
-        Markup('<th scope="col"{}><button type="button">{}</button></th>').format(
-            Markup(' class="number"') if number else "", headers.get(name, name)
-        )
+        Markup('<th scope="col"{}>{}</th>').format(Markup(' class="number"') if number else "", headers.get(name, name))
         for name, number in zip(frame.columns, numeric, strict=True)
     )
     columns = [
@@ -78,23 +81,27 @@ def table_html(
     rows = Markup("\n").join(
         Markup("<tr>{}</tr>").format(Markup("").join(cells)) for cells in zip(*columns, strict=True)
     )
-    field = ""
+    field, kind = "", "table"
     if frame.height >= LEAST_ROWS_TO_FILTER:
+        kind = "table long-table"
         field = Markup(
             '<p class="filter"><label>Filter rows <input type="search" autocomplete="off" spellcheck="false"></label> '
             '<output aria-live="polite"></output></p>'
         )
     return Markup(
-        '<div class="table">{field}<div class="scroll" tabindex="0" role="region" aria-label="{caption}">'
+        '<div class="{kind}">{field}<div class="scroll" tabindex="0" role="region" aria-label="{caption}">'
         "<table><caption>{caption}</caption><thead><tr>{head}</tr></thead>\n<tbody>{rows}</tbody></table></div></div>"
-    ).format(field=field, caption=caption, head=head, rows=rows)
+    ).format(kind=kind, field=field, caption=caption, head=head, rows=rows)
 
 
 def _cell(value: Any, form: Format | None, number: bool, *, heading: bool) -> Markup:
-    text = MISSING if value is None else _text(value, form)
+    text: str = MISSING if value is None else _text(value, form)
+    whole = ' class="whole"' if not number and "-" in text and len(text) <= LONGEST_WHOLE else ""
+    if not isinstance(text, Markup):
+        text = isolated(text)
     start, end = ('<th scope="row"', "</th>") if heading else ("<td", "</td>")
     if not number:
-        return Markup(start + ">{}" + end).format(text)
+        return Markup(start + whole + ">{}" + end).format(text)
     # What sorts; a value that is missing has none.
     missing = value is None or (isinstance(value, float) and math.isnan(value))
     held = "" if missing else Markup(' data-value="{}"').format(f"{float(value):.9g}")

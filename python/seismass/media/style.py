@@ -1,38 +1,33 @@
-"""Style of all figures: colours, line looks and settings, in one place.
+"""Style of all figures: line looks and settings, in one place; colours and roles are those of `seismass.media.roles`.
 
-Figures are made without pyplot, so that nothing global changes. Colours are those of Okabe and Ito. Series differ in
-more than colour, so that a figure can be read in grey.
+Figures are made without pyplot, so that nothing global changes. Series differ in more than colour, so that a figure can
+be read in grey.
 """
 
 from __future__ import annotations
 
 import gc
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from typing import Any, Final
 
 from matplotlib.figure import Figure
 
-BLUE: Final = "#0072B2"
-VERMILION: Final = "#D55E00"
-GREEN: Final = "#009E73"
-PURPLE: Final = "#CC79A7"
-ORANGE: Final = "#E69F00"
-SKY: Final = "#56B4E9"
-GREY: Final = "#8C8C8C"
-INK: Final = "#222222"
-PAPER: Final = "#FFFFFF"
+from seismass.media.isolate import runs_leftwards
+from seismass.media.roles import BLOCK_COLOURS, GREY, INK
 
 PERIOD_TICKS: Final = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 """Periods (s) that logarithmic axes name."""
 
-SERIES: Final[tuple[dict[str, Any], ...]] = (
-    {"color": BLUE, "linestyle": "-"},
-    {"color": VERMILION, "linestyle": (0, (5, 2))},
-    {"color": GREEN, "linestyle": (0, (1.2, 1.2))},
-    {"color": INK, "linestyle": (0, (5, 1.5, 1, 1.5))},
-    {"color": PURPLE, "linestyle": (0, (8, 2))},
-    {"color": ORANGE, "linestyle": (0, (3, 1, 1, 1, 1, 1))},
+SERIES: Final[tuple[dict[str, Any], ...]] = tuple(
+    {"color": colour, "linestyle": line}
+    for colour, line in zip(
+        BLOCK_COLOURS,
+        ("-", (0, (5, 2)), (0, (1.2, 1.2)), (0, (5, 1.5, 1, 1.5)), (0, (8, 2)), (0, (3, 1, 1, 1, 1, 1))),
+        strict=True,
+    )
 )
 """Looks of lines in one panel, in their order; they differ in dashes too."""
 
@@ -57,11 +52,8 @@ STYLE: Final[Any] = {
     "figure.constrained_layout.use": False,
 }
 
-ALPHA: Final = "\N{GREEK SMALL LETTER ALPHA}"
-ETA: Final = "\N{GREEK SMALL LETTER ETA}"
-LAMBDA: Final = "\N{GREEK SMALL LETTER LAMDA}"
-MU: Final = "\N{GREEK SMALL LETTER MU}"
-"""Symbols as letters: a formula takes as long to be set as a whole panel."""
+_MISSING: Final = "\N{HORIZONTAL ELLIPSIS}"
+_LEFT_OUT: Final = re.compile(f"{_MISSING}(?: ?{_MISSING})*")
 
 
 def lay_out(figure: Figure, like: Figure | None = None) -> Figure:
@@ -98,5 +90,36 @@ def fewer_collections() -> Iterator[None]:
 
 
 def plain(text: str) -> str:
-    """Return a text of the user's in which matplotlib finds no formula."""
-    return text.replace("$", r"\$")
+    """Return a text of the user's as a picture can show it.
+
+    Matplotlib finds no formula in it. Words with characters that its font does not have, or whose script has to be set
+    from right to left, are left out for an ellipsis: pages and tables have them.
+
+    Examples
+    --------
+    >>> from seismass.media.style import plain
+    >>> plain("floor 2: 倉庫 east")
+    'floor 2: … east'
+    """
+    if text.isascii():
+        return text.replace("$", r"\$")
+    known = _letters_of_font()
+    shown = "".join(
+        letter if letter.isspace() or (ord(letter) in known and not runs_leftwards(letter)) else _MISSING
+        for letter in text
+    )
+    # Marks that belong to a letter which is left out go with it.
+    return _LEFT_OUT.sub(_MISSING, shown).replace("$", r"\$")
+
+
+def shortened(text: str, most: int) -> str:
+    """Return a text of at most so many characters, cut at its end."""
+    return text if len(text) <= most else f"{text[: most - 1].rstrip()}{_MISSING}"
+
+
+@cache
+def _letters_of_font() -> frozenset[int]:
+    """Code points that the font of figures has."""
+    from matplotlib.font_manager import findfont, get_font
+
+    return frozenset(get_font(findfont(STYLE["font.family"])).get_charmap())

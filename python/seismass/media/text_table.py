@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import unicodedata
 from collections.abc import Iterable, Sequence
 
 
@@ -24,8 +25,28 @@ def text_line(cells: Iterable[str], widths: Iterable[int], *, indent: int = 2, g
     >>> text_line(["floor 1", "0.40"], (-10, 8))
     '  floor 1       0.40'
     """
-    placed = (cell.ljust(-width) if width < 0 else cell.rjust(width) for cell, width in zip(cells, widths, strict=True))
+    placed = []
+    for cell, width in zip(cells, widths, strict=True):
+        room = " " * max(0, abs(width) - shown_width(cell))
+        placed.append(cell + room if width < 0 else room + cell)
     return (" " * indent + (" " * gap).join(placed)).rstrip()
+
+
+def shown_width(text: str) -> int:
+    """Return how many columns of a terminal a text takes: two for wide letters, none for marks on letters.
+
+    Examples
+    --------
+    >>> from seismass.media.text_table import shown_width
+    >>> shown_width("2 \u5009\u5eab"), shown_width("roof")
+    (6, 4)
+    """
+    if text.isascii():
+        return len(text)
+    return sum(
+        0 if unicodedata.combining(letter) else 2 if unicodedata.east_asian_width(letter) in "WF" else 1
+        for letter in text
+    )
 
 
 def text_table(rows: Sequence[Sequence[str]], *, left: int = 1, indent: int = 2) -> list[str]:
@@ -40,7 +61,7 @@ def text_table(rows: Sequence[Sequence[str]], *, left: int = 1, indent: int = 2)
     indent : int
         Spaces before the first column.
     """
-    sizes = (max(map(len, column)) for column in zip(*rows, strict=True))
+    sizes = (max(map(shown_width, column)) for column in zip(*rows, strict=True))
     widths = [-size if number < left else size for number, size in enumerate(sizes)]
     return [text_line(row, widths, indent=indent, gap=2) for row in rows]
 
@@ -68,6 +89,42 @@ def number_text(
     if infinite is not None and not math.isfinite(value):
         return infinite
     return f"{scale * value:{form}}"
+
+
+def column_texts(
+    values: Sequence[float | None], *, digits: int = 3, scale: float = 1.0, unit: str = "", missing: str = "-"
+) -> list[str]:
+    """Return numbers of a column as texts whose decimal points stand below one another.
+
+    Parameters
+    ----------
+    values : sequence of float or None
+        The numbers.
+    digits : int
+        Digits of the largest; the others have its decimals. A column whose largest number is below 1e-4 or above 1e9
+        has powers of ten.
+    scale : float
+        What they are multiplied by.
+    unit : str
+        What follows each number.
+    missing : str
+        What stands for None, and for what is not a number.
+
+    Examples
+    --------
+    >>> column_texts([0.06374, 0.00812, 3.296e-6], digits=4, scale=1e3, unit=" mm")
+    ['63.74 mm', '8.12 mm', '0.00 mm']
+    """
+    scaled = [None if value is None or math.isnan(value) else scale * value for value in values]
+    largest = max((abs(value) for value in scaled if value is not None and math.isfinite(value)), default=0.0)
+    if 0.0 < largest < 1e-4 or largest >= 1e9:
+        form = f".{digits - 1}e"
+    else:
+        before = math.floor(math.log10(largest)) + 1 if largest > 0.0 else 1
+        form = f".{min(max(digits - before, 0), 6)}f"
+        if largest > 0.0 and float(f"{largest:{form}}") >= 10.0**before:  # 9.996 is 10.00 in four digits
+            form = f".{min(max(digits - before - 1, 0), 6)}f"
+    return [missing if value is None else f"{value:{form}}{unit}" for value in scaled]
 
 
 def ends_text(

@@ -35,6 +35,7 @@ BOUNDS_SOURCE: Final = "EN 16681, second-hand"
 _UNECE: Final = "UNECE CTU Code, appendix 2; kinetic 75 % of static as it says"
 _TESTS: Final = "pull tests"
 _TRANSPORT: Final = "transport rule: low design value"
+_HANDBOOK: Final = "handbook value: its tests are not stated"
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ class FrictionPair:
     source : str
         Where they were read.
     kind : str
-        What the numbers are: of pull tests, or low design values of a transport rule.
+        What the numbers are: of tests, low design values of a transport rule, of a handbook, or an assumption.
     """
 
     pair_id: str
@@ -156,6 +157,48 @@ _ROWS: Final = (
         0.40,
         "16WCEE paper, section 5; no measurement of this contact was found",
         "assumption",
+    ),
+    FrictionPair(
+        "book-on-metal-shelf",
+        "books on a painted steel shelf",
+        0.35,
+        0.35,
+        "no measurement of this contact was found; between smooth metal on metal (0.2) and cardboard on wood (0.5)",
+        "assumption",
+    ),
+    FrictionPair(
+        "steel-on-concrete",
+        "steel plate on concrete that was cast against it, dry",
+        0.57,
+        0.57,
+        "Rabbat and Russell 1985, J. Struct. Eng. 111(3), abstract: 0.57 to 0.70, advised 0.57 dry, 0.65 wet; "
+        "kinetic not stated",
+        "push-off tests",
+    ),
+    FrictionPair(
+        "ptfe-slider-on-steel",
+        "PTFE pad or slider on polished steel, dry and slow",
+        0.05,
+        0.05,
+        "TRL report LR491, abstract: 0.03 to 0.07 in the long term; the middle; it grows with speed (Campbell 1990, "
+        "Transportation Research Record 1275, abstract)",
+        "tests of bridge bearings",
+    ),
+    FrictionPair(
+        "felt-pad-on-metal",
+        "felt pad on steel or cast iron, dry",
+        0.22,
+        0.22,
+        "roymech.org, table of clutch linings; kinetic not stated; felt on floors was not found",
+        _HANDBOOK,
+    ),
+    FrictionPair(
+        "wheel-on-rail",
+        "steel wheels that turn freely on steel rails, along the rails",
+        0.002,
+        0.002,
+        "engineeringarchives.com: 0.002 to 0.003; Engineering Toolbox, second-hand: 0.001 to 0.002; bearings besides",
+        _HANDBOOK,
     ),
 )
 

@@ -13,6 +13,7 @@ from seismass import _kernel
 from seismass.base.errors import InvalidMotion
 from seismass.base.units import STANDARD_GRAVITY, acceleration_factor
 from seismass.base.values import FloatArray, Value, as_array, as_number, brief, frozen, refusal
+from seismass.base.views import Card
 
 MOST_SAMPLES: Final = 10_000_000
 """Most samples of a motion of a file, or to which one is continued: some hundred megabytes in a run."""
@@ -21,7 +22,7 @@ MOST_SECONDS: Final = 10_000.0
 the cost of a run to seconds, and a step in milliseconds exceeds it."""
 
 
-class Motion(Value):
+class Motion(Value, Card):
     """Ground motion as the kernel takes it: acceleration, linear between samples, the first sample at t = 0.
 
     Parameters

@@ -12,6 +12,7 @@ from seismass import _kernel
 from seismass.base.errors import InvalidScene
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, refusal
+from seismass.base.views import Card
 from seismass.model.block import Block
 from seismass.model.building import Building, kernel_springs
 from seismass.model.springs import SHAPE_FIELDS, Hysteresis, SpringShape, checked_names, documented, takes_springs
@@ -110,7 +111,7 @@ class RackBlock(Value):
         return repr(self.block).replace("Block(floor=", "RackBlock(level=", 1)
 
 
-class Rack(Value):
+class Rack(Value, Card):
     """A rack: a chain of levels that stands on a floor of the building or on the ground.
 
     Every argument that has a value per level takes one number, which then stands for all levels, or a list with the

@@ -232,6 +232,13 @@ class Scene(Value):
             return "plane"
         return "general" if self._beyond_chain() is not None else "chain"
 
+    @property
+    def _engines(self) -> tuple[str, ...]:
+        """Which engines solve its directions each by itself: the same one in one direction."""
+        if self.other_direction is False:
+            return (self.engine,)
+        return tuple(each.engine for each in self._directions())
+
     def _beyond_chain(self) -> tuple[str, str, str] | None:
         """What the chain engine does not take: its parameter, whose it is, and what it is; None where it takes all."""
         if self.other_direction is not False:
@@ -265,7 +272,7 @@ class Scene(Value):
         return self
 
     def on_ground(self, owner: str) -> Scene:
-        """Return the scene itself, for what takes scenes in one direction that stand on the ground alone.
+        """Return the scene itself, for what takes scenes that stand on the ground alone.
 
         Parameters
         ----------
@@ -275,11 +282,8 @@ class Scene(Value):
         Raises
         ------
         InvalidScene
-            It has a sliding base, or two directions.
+            It has a sliding base.
         """
-        if self.other_direction is not False:
-            requirement = f"left out in {owner}; simulate takes it"
-            raise refusal(InvalidScene, "other_direction", "scene", requirement, "two directions")
         if self.base is not None:
             raise refusal(InvalidScene, "base", "scene", f"left out in {owner}; simulate takes it", repr(self.base))
         return self

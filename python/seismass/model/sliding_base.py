@@ -8,13 +8,14 @@ import numpy as np
 
 from seismass.base.errors import InvalidScene
 from seismass.base.values import Value, as_number, brief, refusal
+from seismass.base.views import Card
 from seismass.model.building import Building
 
 DEFAULT_SLAB_MASS_RATIO: Final = 1.0
 """Mass of the slab over that of floor 1, where neither `mass` nor `mass_ratio` is given: a mat like a floor."""
 
 
-class SlidingBase(Value):
+class SlidingBase(Value, Card):
     """A slab that carries the whole scene and slides on the ground: a mat, a flat slider, a friction pendulum.
 
     Parameters

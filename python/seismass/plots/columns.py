@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, refusal
-from seismass.media.style import ALPHA, MU, plain
+from seismass.media.roles import ALPHA, MU
+from seismass.media.style import plain
 
 _LABELS: Final[dict[str, tuple[str, float]]] = {
     "peak_drift": ("peak drift (mm)", 1e3),

@@ -12,7 +12,8 @@ from matplotlib.figure import Figure
 from seismass.base.errors import InvalidOption
 from seismass.base.values import brief, refusal
 from seismass.media.axes import grid_lines, panels, zero_line
-from seismass.media.style import INK, PURPLE, STYLE
+from seismass.media.roles import INK, PURPLE
+from seismass.media.style import STYLE
 from seismass.model.places import goods_names
 from seismass.plots.histories import numbers
 from seismass.plots.timeline import MARKS

@@ -13,7 +13,8 @@ from seismass.base.errors import InvalidOption
 from seismass.base.quantiles import quantile
 from seismass.base.values import FloatArray, refusal
 from seismass.media.axes import grid_lines, single
-from seismass.media.style import GREY, STYLE
+from seismass.media.roles import GREY
+from seismass.media.style import STYLE
 from seismass.plots.batches import FRACTILES
 from seismass.plots.columns import checked_table, in_unit, label_of
 

@@ -13,14 +13,15 @@ from matplotlib.lines import Line2D
 from seismass.base.values import FloatArray
 from seismass.design import Pushover
 from seismass.media.axes import grid_lines, single
-from seismass.media.style import BLUE, INK, STYLE, VERMILION
+from seismass.media.roles import BLUE, INK, LIMIT, VERMILION
+from seismass.media.style import STYLE
 
 _MARKS: Final[dict[str, dict[str, Any]]] = {
     "yield": {"marker": "o", "markersize": 5.5, "markerfacecolor": "white", "color": INK},
     "close": {"marker": "s", "markersize": 5.5, "markerfacecolor": "white", "color": INK},
     "open": {"marker": "s", "markersize": 5.5, "markerfacecolor": INK, "color": INK},
     "capacity": {"marker": "D", "markersize": 6.5, "markerfacecolor": VERMILION, "color": VERMILION},
-    "drift limit": {"marker": "|", "markersize": 11.0, "color": VERMILION},
+    "drift limit": {"marker": LIMIT.marker, "markersize": 11.0, "color": LIMIT.colour},
     "no strength left": {"marker": "X", "markersize": 7.5, "color": VERMILION},
     "unstable unloading": {"marker": "X", "markersize": 7.5, "color": VERMILION},
 }

@@ -13,15 +13,16 @@ from matplotlib.lines import Line2D
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, brief, is_one_of, refusal
-from seismass.media.axes import grid_lines, single
-from seismass.media.style import BLUE, GREEN, INK, PAPER, PURPLE, STYLE, VERMILION
+from seismass.media.axes import grid_lines, say, single
+from seismass.media.roles import BLUE, GREEN, INK, PAPER, PURPLE, YIELDS
+from seismass.media.style import STYLE
 from seismass.model.places import goods_names, spring_names
 from seismass.runs.response import EVENT_KINDS, Response
 
 MARKS: Final[dict[str, dict[str, Any]]] = {
-    "yield": {"marker": "^", "color": VERMILION, "markersize": 4.5},
-    "unload": {"marker": "v", "color": VERMILION, "markerfacecolor": PAPER, "markersize": 4.0},
-    "reload": {"marker": ">", "color": VERMILION, "markerfacecolor": PAPER, "markersize": 4.0},
+    "yield": {"marker": "^", "color": YIELDS.colour, "markersize": 4.5},
+    "unload": {"marker": "v", "color": YIELDS.colour, "markerfacecolor": PAPER, "markersize": 4.0},
+    "reload": {"marker": ">", "color": YIELDS.colour, "markerfacecolor": PAPER, "markersize": 4.0},
     "close": {"marker": "D", "color": INK, "markersize": 3.5},
     "open": {"marker": "D", "color": INK, "markerfacecolor": PAPER, "markersize": 3.5},
     "slip": {"marker": "o", "color": GREEN, "markerfacecolor": PAPER, "markersize": 3.8},
@@ -135,6 +136,9 @@ def events(response: Response, *, ax: Axes | None = None) -> Figure:
             if len(spans):
                 widths = [(start, end - start) for start, end in spans]
                 axes.broken_barh(widths, (springs + number - 1.28, 0.56), facecolor=GREEN, alpha=0.25, linewidth=0.0)
+        for row in range(len(rows)):
+            if not any(np.any(line.get_ydata() == row) for line in axes.lines):
+                say(axes, "does not yield" if row < springs else "does not slide", at=row)
         axes.set_yticks(range(len(rows)), rows)
         axes.set_ylim(-0.6, max(len(rows), 1) - 0.4)
         axes.set_xlim(0.0, response.end_time or 1.0)

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Final, Literal
 import numpy as np
 import polars as pl
 
-from seismass.base.values import FloatArray, content_hash, same_content
-from seismass.base.views import view
+from seismass.base.values import FloatArray, content_hash, same_content, short_repr
+from seismass.base.views import Card, view
 from seismass.pulses.wavelet import PERIOD_OF_SCALE
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ Kind = Literal["pulse", "ambiguous", "no pulse"]
 
 
 @dataclass(frozen=True, eq=False)
-class Candidate:
+class Candidate(Card):
     """One pulse taken out of a velocity, and how it is judged.
 
     Attributes
@@ -76,6 +76,7 @@ class Candidate:
     pulse: FloatArray
     residual: FloatArray
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 
@@ -111,7 +112,7 @@ class Candidate:
 
 
 @dataclass(frozen=True, eq=False)
-class PulseResult:
+class PulseResult(Card):
     """Whether a record or a pair is pulse-like, with every candidate that was looked at.
 
     Attributes
@@ -271,7 +272,7 @@ class PulseResult:
 
 
 @dataclass(frozen=True, eq=False)
-class OrientationScan:
+class OrientationScan(Card):
     """The class of one pair by orientation, each judged as one component by Baker (2007).
 
     Attributes

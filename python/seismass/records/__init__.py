@@ -1,6 +1,6 @@
 """Ground motion records: reading them, gathering them to suites and pairs, and the built-in synthetic suite."""
 
-from seismass.records.builtin import builtin_record, builtin_suite
+from seismass.records.builtin import builtin_pairs, builtin_record, builtin_suite
 from seismass.records.catalogue import catalogue
 from seismass.records.catalogue_report import CatalogueSearch, FoundFile
 from seismass.records.catalogue_search import find_catalogue
@@ -25,6 +25,7 @@ __all__ = [
     "RotD",
     "Suite",
     "SyntheticParameters",
+    "builtin_pairs",
     "builtin_record",
     "builtin_suite",
     "catalogue",

@@ -11,6 +11,8 @@ from typing import Final, Literal
 from seismass.base.errors import InvalidOption, RecordFormatError
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import brief, is_one_of, refusal
+from seismass.records.pair import Pair
+from seismass.records.pair_search import Pairs
 from seismass.records.read import read_record
 from seismass.records.record import Record
 from seismass.records.suite import Suite, read_suite
@@ -65,12 +67,27 @@ def builtin_suite(suite: BuiltinName = "eleven") -> Suite:
     return Suite(name, read_suite(data_directory() / "synthetic" / listed).records)
 
 
-@cache
+def builtin_pairs() -> Pairs:
+    """Return the forty synthetic motions with their second horizontal components, which none recorded either.
+
+    The second ones are those of `seismass.records.synthetic.second`: of the duration and content of the first, with a
+    correlation and spectra that scatter as those of recorded pairs.
+    """
+    name, _ = _SUITES["forty"]
+    seconds = _stored("forty_second.parquet", "second horizontal")
+    return Pairs(name, tuple(Pair(first, second) for first, second in zip(_forty(), seconds, strict=True)))
+
+
 def _forty() -> tuple[Record, ...]:
-    """The motions of the table of forty, read once per process."""
+    return _stored(_SUITES["forty"][1], "horizontal")
+
+
+@cache
+def _stored(table: str, component: str) -> tuple[Record, ...]:
+    """The motions of a table, read once per process."""
     import polars as pl
 
-    rows = pl.read_parquet(data_directory() / "synthetic" / _SUITES["forty"][1])
+    rows = pl.read_parquet(data_directory() / "synthetic" / table)
     return tuple(
         Record(
             acceleration=row["acceleration"] * (MICRO * STANDARD_GRAVITY),
@@ -78,7 +95,7 @@ def _forty() -> tuple[Record, ...]:
             name=row["name"],
             event="synthetic",
             station="none",
-            component="horizontal",
+            component=component,
             synthetic=True,
             remarks=(row["note"], row["parameters"]),
         )

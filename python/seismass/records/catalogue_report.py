@@ -9,7 +9,8 @@ from typing import Any, Literal
 
 import polars as pl
 
-from seismass.base.values import printable
+from seismass.base.values import printable, short_repr
+from seismass.base.views import Card
 from seismass.records.catalogue import RECORDINGS, SUBSTITUTES, TERMS, Component, Recording, catalogue, how_to_get
 
 Judged = Literal["header and content", "header", "content", "name"]
@@ -55,7 +56,7 @@ class FoundFile:
 
 
 @dataclass(frozen=True)
-class CatalogueSearch:
+class CatalogueSearch(Card):
     """Which of the seven records a folder holds.
 
     Attributes
@@ -71,6 +72,8 @@ class CatalogueSearch:
     folder: Path
     files: tuple[FoundFile, ...]
     looked_at: int
+
+    __repr__ = short_repr
 
     def table(self) -> pl.DataFrame:
         """Return one row per file found: what it is, points, dt (s), PGA (g), by what it was judged, and remarks."""

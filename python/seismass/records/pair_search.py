@@ -13,6 +13,7 @@ import polars as pl
 
 from seismass.base.errors import InvalidMotion, RecordFormatError
 from seismass.base.values import as_path, printable
+from seismass.base.views import Card
 from seismass.records.folder import files_below
 from seismass.records.formats.directions import azimuth_of
 from seismass.records.pair import Pair
@@ -31,7 +32,7 @@ _DIRECTION: Final = re.compile(
 
 
 @dataclass(frozen=True)
-class Pairs:
+class Pairs(Card):
     """Pairs found in a folder, in the order of their first files, and the files that are in none.
 
     Parameters

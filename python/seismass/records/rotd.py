@@ -22,6 +22,7 @@ from seismass.base.values import (
     refusal,
     same_content,
 )
+from seismass.base.views import Card
 from seismass.records.intensity import integrals, peak_displacement, peak_velocity
 from seismass.records.pair import Pair
 
@@ -33,7 +34,7 @@ ANGLES: Final = 180
 
 
 @dataclass(frozen=True, eq=False)
-class RotD:
+class RotD(Card):
     """Percentiles over directions, and the direction of the largest.
 
     Attributes

@@ -15,7 +15,18 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_array, as_flag, as_number, brief, content_hash, refusal, same_content
+from seismass.base.values import (
+    FloatArray,
+    as_array,
+    as_flag,
+    as_number,
+    brief,
+    content_hash,
+    refusal,
+    same_content,
+    short_repr,
+)
+from seismass.base.views import Card
 from seismass.media.result import finite_values
 from seismass.risk.hazard import HazardCurve, check_hazard, check_years
 
@@ -166,7 +177,7 @@ def _log_difference(low: FloatArray, high: FloatArray, log_ndtr: Any) -> FloatAr
 
 
 @dataclass(frozen=True, eq=False)
-class AnnualRate:
+class AnnualRate(Card):
     """Annual rate of exceeding a limit, with what the hazard curve leaves out.
 
     Attributes
@@ -200,6 +211,7 @@ class AnnualRate:
     hazard: HazardCurve = field(repr=False)
     remarks: tuple[str, ...] = field(repr=False)
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 

@@ -14,13 +14,14 @@ from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, Value, as_array, as_flag, as_positive, brief, frozen, refusal
+from seismass.base.views import Card
 
 OWNER: Final = "hazard curve"
 DESIGN_RATE: Final = 1.0 / 475.0
 """Annual rate of 10 % in 50 years, the usual design intensity: -50/ln(0.9) is 475 years."""
 
 
-class HazardCurve(Value):
+class HazardCurve(Value, Card):
     """Annual rate at which an intensity is exceeded at a site, a straight line in logarithms between its points.
 
     Between two points the rate is the power law rate = rate_i (Sa/Sa_i)^-k with the slope k of the segment, so that

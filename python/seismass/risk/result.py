@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import polars as pl
 
-from seismass.base.values import content_hash, same_content
+from seismass.base.values import content_hash, same_content, short_repr
 from seismass.base.views import view
 from seismass.effective_mass.curve import Kind
 from seismass.effective_mass.result import EffectiveMass
@@ -106,6 +106,7 @@ class RiskTargetedShare(Result):
     remarks: tuple[str, ...] = field(repr=False)
     metadata: dict[str, Any] = field(repr=False)
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 

@@ -167,8 +167,8 @@ def risk_remarks(search: RiskSearch, found: FoundShare, reason: str) -> tuple[st
         remarks.append(f"{len(found.roots)} shares give the same rate ({listed}); the largest counts")
     if found.kind == "one":
         remarks.append(
-            f"the real building exceeds the limit {rates.real / float(rates.model[-1]):.3g} times as often as with all "
-            f"goods attached"
+            f"with sliding goods the limit is exceeded {rates.real / float(rates.model[-1]):.3g} times as often as "
+            f"with all goods attached"
         )
     parts = rate_parts(search.capacities[:1], search.hazard, search.options.estimator, np.ones((1, motions)))
     if not search.options.extrapolate:
@@ -177,7 +177,7 @@ def risk_remarks(search: RiskSearch, found: FoundShare, reason: str) -> tuple[st
     outside = int((search.capacities[0] > search.hazard.sa_g[-1]).sum())
     if outside:
         remarks.append(
-            f"under {counted(outside, 'motion')} of {motions} the real building reaches the limit only where the "
+            f"under {counted(outside, 'motion')} of {motions} the building reaches the limit only where the "
             f"hazard curve has ended"
         )
     if motions < 7:

@@ -29,11 +29,13 @@ from seismass.base.values import (
 )
 from seismass.model.motion import HasMotion, Motion, MotionLike, as_motion, motion_names
 from seismass.model.scene import Scene
+from seismass.records.pair import Pair
 from seismass.runs.batch_tables import batch_table, heights_of_runs
 from seismass.runs.doubts import warn_of_doubts
 from seismass.runs.grid.columns import IndexArray
 from seismass.runs.grid.grid import Grid
-from seismass.runs.scene_runs import have_racks, scene_table
+from seismass.runs.plane_motion import MotionPair, PlaneMotion, is_motion_pair, motions_in_plane
+from seismass.runs.scene_runs import SceneRuns
 from seismass.runs.simulate import instruction_set
 
 DEFAULT_CHUNK: Final = 8192
@@ -45,13 +47,15 @@ MAX_ROWS: Final = 2**32 - 1
 MAX_THREADS: Final = _kernel.MAX_THREADS
 """Most threads of a batch, as the kernel has it: more than any machine has cores for."""
 
+MotionsLike: TypeAlias = MotionLike | Pair | Iterable[MotionLike | MotionPair]
+"""Motions of a batch: one or many; pairs, or tuples of two motions, are those of scenes in two directions."""
 Progress: TypeAlias = Callable[[int, int], object]
 """Called with (runs done, runs in all)."""
 
 
 def simulate_many(
     scenes: Scene | Sequence[Scene] | Grid,
-    motions: MotionLike | Iterable[MotionLike],
+    motions: MotionsLike,
     *,
     pairs: ArrayLike | None = None,
     runs: range | None = None,
@@ -65,8 +69,8 @@ def simulate_many(
     ----------
     scenes : Scene, sequence of Scene, or Grid
         The scenes, as objects or described by columns.
-    motions : Motion, Record or iterable of them
-        The motions.
+    motions : Motion, Record, Pair or iterable of them
+        The motions. A scene in two directions takes pairs, or tuples of two motions, as `simulate` does.
     pairs : array_like of int, shape (runs, 2), optional
         Rows of (number of scene, number of motion), both counted from 1, as the table counts them. By default every
         scene under every motion, the motion changing fastest. Equal runs of shear buildings are solved once. A grid has
@@ -90,11 +94,15 @@ def simulate_many(
         failure, else null), `end_time` (s), `collapsed_storey` (from 1, or null); lists per storey `peak_drift`,
         `peak_drift_time`, `peak_drift_ratio` (null without heights), `residual_drift`, `peak_floor_acceleration`,
         `peak_storey_shear`; `peak_base_shear`; lists per block `peak_slip`, `peak_slip_time`, `residual_slip`,
-        `slip_path`; numbers of `events`, `yields`, `slips`. SI units. Where a scene has racks, stops or a stiffness
-        matrix, lists per level of all racks, one rack after the other, `peak_rack_drift`, `peak_rack_acceleration`,
-        `peak_rack_shear`, `residual_rack_drift`, and lists per block `peak_contact_force`, `peak_contact_velocity`;
-        blocks are the goods on floors, then those of racks that may slide; a level that collapses counts on from the
-        storeys; the base shear includes the matrix's share.
+        `slip_path`; numbers of `events`, `yields`, `slips`. SI units. Where a scene has racks, stops, a stiffness
+        matrix or a sliding base, lists per level of all racks, one rack after the other, `peak_rack_drift`,
+        `peak_rack_acceleration`, `peak_rack_shear`, `residual_rack_drift`, lists per block `peak_contact_force`,
+        `peak_contact_velocity`, and `peak_base_slip`, `peak_base_acceleration`, `residual_base_slip`, `base_slip_path`
+        (null without a base); blocks are the goods on floors, then those of racks that may slide; a level that
+        collapses counts on from the storeys; the base shear includes the matrix's share. Where a scene has two
+        directions, these are lengths of vectors in its rows, and the larger of both directions for contacts; lists and
+        numbers in x and in y, with the sign that residuals have, stand in columns such as `peak_drift_x`, which are
+        null for scenes in one direction.
 
     Raises
     ------
@@ -132,7 +140,7 @@ def simulate_many(
 
 def solve_many(
     scenes: Scene | Sequence[Scene] | Grid,
-    motions: MotionLike | Iterable[MotionLike],
+    motions: MotionsLike,
     *,
     pairs: ArrayLike | None = None,
     runs: range | None = None,
@@ -150,7 +158,7 @@ def solve_many(
 
 def stream_many(
     scenes: Scene | Sequence[Scene] | Grid,
-    motions: MotionLike | Iterable[MotionLike],
+    motions: MotionsLike,
     *,
     pairs: ArrayLike | None = None,
     runs: range | None = None,
@@ -205,7 +213,7 @@ def stream_many(
 def write_many(
     path: str | os.PathLike[str],
     scenes: Scene | Sequence[Scene] | Grid,
-    motions: MotionLike | Iterable[MotionLike],
+    motions: MotionsLike,
     *,
     pairs: ArrayLike | None = None,
     runs: range | None = None,
@@ -318,15 +326,34 @@ def _one_table(stretch: range) -> range:
 
 
 def checked_motions(motions: Any) -> tuple[list[Any], list[Motion], list[str]]:
-    """Return motions as they were given, as the kernel takes them, and their names.
+    """Return motions in one direction as they were given, as the kernel takes them, and their names.
 
     Raises
     ------
     InvalidMotion
         One is neither a Motion nor a Record.
     """
-    given = [motions] if isinstance(motions, Motion | HasMotion) else list(_iterated(motions))
-    return given, _motions(given), motion_names(given)
+    given = _given(motions)
+    listed = [as_motion(motion, f"motion {number}", "batch") for number, motion in enumerate(given, start=1)]
+    return given, listed, motion_names(given)
+
+
+def _given(motions: Any) -> list[Any]:
+    if isinstance(motions, Motion | HasMotion | Pair):
+        return [motions]
+    if not isinstance(motions, Iterable):
+        raise refusal(InvalidMotion, "motions", "batch", "a list of Motions or Records", brief(motions))
+    return list(motions)
+
+
+def _in_any_plane(given: list[Any]) -> list[Motion | PlaneMotion]:
+    """Motions as they are solved: pairs as their two motions."""
+    return [
+        motions_in_plane(motion, f"motion {number}", "batch")
+        if is_motion_pair(motion)
+        else as_motion(motion, f"motion {number}", "batch")
+        for number, motion in enumerate(given, start=1)
+    ]
 
 
 def _batch(scenes: Any, motions: Any, pairs: ArrayLike | None) -> _Batch:
@@ -339,10 +366,10 @@ def _batch(scenes: Any, motions: Any, pairs: ArrayLike | None) -> _Batch:
         batch: _Batch = _GridBatch(scenes, chosen, names)
         scenes._check_motions(len(chosen))
     else:
-        listed = _listed_scenes(scenes)
-        _, chosen, names = checked_motions(motions)
-        wanted = None if pairs is None else _pairs(pairs, len(listed), len(chosen))
-        batch = _SceneBatch(listed, chosen, names, wanted)
+        listed, given = _listed_scenes(scenes), _given(motions)
+        wanted = None if pairs is None else _pairs(pairs, len(listed), len(given))
+        batch = _SceneBatch(SceneRuns.of(listed, _in_any_plane(given), motion_names(given)), wanted)
+        batch.check()
     if batch.total > MAX_RUNS:
         raise refusal(InvalidOption, "runs", "batch", f"at most {MAX_RUNS}", str(batch.total))
     return batch
@@ -352,26 +379,26 @@ def _batch(scenes: Any, motions: Any, pairs: ArrayLike | None) -> _Batch:
 class _SceneBatch:
     """Runs of scenes that exist as objects: those of `pairs`, or every scene under every motion."""
 
-    scenes: list[Scene]
-    motions: list[Motion]
-    names: list[str]
+    of: SceneRuns
     pairs: IndexArray | None
 
     @property
     def total(self) -> int:
-        return len(self.scenes) * len(self.motions) if self.pairs is None else len(self.pairs)
+        return len(self.of.scenes) * len(self.of.motions) if self.pairs is None else len(self.pairs)
+
+    def check(self) -> None:
+        """Refuse motions that do not suit their scenes; every scene is solved under every motion, or those of pairs."""
+        if self.of.plane or any(isinstance(motion, tuple) for motion in self.of.motions):
+            self.of.check(self._rows(range(self.total)))
 
     def _rows(self, runs: range) -> IndexArray:
         """Scene and motion of each run."""
         if self.pairs is not None:
             return self.pairs[runs.start : runs.stop]
-        return np.stack(np.divmod(np.arange(runs.start, runs.stop), max(len(self.motions), 1)), axis=1)
+        return np.stack(np.divmod(np.arange(runs.start, runs.stop), max(len(self.of.motions), 1)), axis=1)
 
     def solve(self, runs: range, options: _Options, progress: Progress | None) -> pl.DataFrame:
-        rows = self._rows(runs)
-        return scene_table(
-            self.scenes, self.motions, self.names, rows, racks=have_racks(self.scenes), **options, progress=progress
-        )
+        return self.of.table(self._rows(runs), **options, progress=progress)
 
 
 @dataclass(frozen=True, slots=True)
@@ -400,16 +427,6 @@ class _GridBatch:
         heights = [building.heights for building in self.grid.buildings]
         of_scene = heights_of_runs(heights, self.grid._building_of(scene), batch.storeys)
         return batch_table(batch, scene, motion, self.names, of_scene)
-
-
-def _iterated(values: Any) -> Iterable[Any]:
-    if not isinstance(values, Iterable):
-        raise refusal(InvalidMotion, "motions", "batch", "a list of Motions or Records", brief(values))
-    return values
-
-
-def _motions(given: list[Any]) -> list[Motion]:
-    return [as_motion(motion, f"motion {number}", "batch") for number, motion in enumerate(given, start=1)]
 
 
 def _listed_scenes(scenes: Any) -> list[Scene]:

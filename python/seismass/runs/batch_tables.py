@@ -91,29 +91,36 @@ def batch_table(
     return table.select(_COLUMNS)
 
 
-_OF_LEVELS: Final = ("peak_rack_drift", "peak_rack_acceleration", "peak_rack_shear", "residual_rack_drift")
-_OF_CONTACTS: Final = ("peak_contact_force", "peak_contact_velocity")
+OF_LEVELS: Final = ("peak_rack_drift", "peak_rack_acceleration", "peak_rack_shear", "residual_rack_drift")
+OF_CONTACTS: Final = ("peak_contact_force", "peak_contact_velocity")
+OF_BASES: Final = ("peak_base_slip", "peak_base_acceleration", "residual_base_slip", "base_slip_path")
+OF_RACKS: Final = (*OF_LEVELS, *OF_CONTACTS)
+"""Columns of racks and stops; those of bases have one number."""
 
 
 def rack_columns(table: pl.DataFrame, batch: _kernel.Batch, racks: _kernel.RackColumns | None) -> pl.DataFrame:
-    """Return the table of a batch with the columns of racks and stops.
+    """Return the table of a batch with the columns of racks, stops and sliding bases.
 
-    Lists per level of all racks, one rack after the other, and per block. Runs of the chain engine (None) have no
-    levels, and contacts of zero.
+    Lists per level of all racks, one rack after the other, and per block; numbers of the base, null without one. Runs
+    of the chain engine (None) have no levels, contacts of zero, and no base.
     """
     failed = pl.Series(batch.status == _kernel.Batch.status_names().index("failed"))
     if racks is None:
         levels = np.zeros(len(batch.status), dtype=np.uint32)
-        of_levels = {name: np.zeros(0) for name in _OF_LEVELS}
-        of_contacts = {name: np.zeros(int(batch.blocks.sum())) for name in _OF_CONTACTS}
+        of_levels = {name: np.zeros(0) for name in OF_LEVELS}
+        of_contacts = {name: np.zeros(int(batch.blocks.sum())) for name in OF_CONTACTS}
+        of_bases = {name: np.full(len(batch.status), np.nan) for name in OF_BASES}
     else:
         levels = racks.levels
-        of_levels = {name: getattr(racks, name) for name in _OF_LEVELS}
-        of_contacts = {name: getattr(racks, name) for name in _OF_CONTACTS}
+        of_levels = {name: getattr(racks, name) for name in OF_LEVELS}
+        of_contacts = {name: getattr(racks, name) for name in OF_CONTACTS}
+        of_bases = {name: getattr(racks, name) for name in OF_BASES}
         shear = pl.Series(racks.peak_base_shear).fill_nan(None)
         table = table.with_columns(peak_base_shear=pl.when(pl.col("status") != "failed").then(shear))
     columns = {**_lists(of_levels, levels, failed), **_lists(of_contacts, batch.blocks, failed)}
-    return table.with_columns(**columns)
+    return table.with_columns(
+        **columns, **{name: pl.Series(values).fill_nan(None) for name, values in of_bases.items()}
+    )
 
 
 def heights_of(scene: Scene) -> FloatArray | None:

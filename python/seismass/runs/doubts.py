@@ -9,6 +9,7 @@ from seismass.base.errors import DoubtfulInput, SeismassError
 from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
 from seismass.runs.grid.grid import Grid
+from seismass.runs.plane_motion import is_motion_pair
 
 MOST_LOOKED_AT: Final = 100
 """Scenes and motions of a batch that are looked at, from the first on."""
@@ -21,7 +22,7 @@ def warn_of_doubts(scenes: Any, motions: Any) -> None:
     ----------
     scenes : Scene, sequence of Scene, or Grid
         Of a grid the first scene is looked at.
-    motions : Motion, Record or iterable of them
+    motions : Motion, Record, Pair or iterable of them
         An iterator is not looked at, as it can be read but once.
 
     Warns
@@ -35,7 +36,9 @@ def warn_of_doubts(scenes: Any, motions: Any) -> None:
         others = f" (and {len(doubtful) - 1} more scenes)" if len(doubtful) > 1 else ""
         warnings.warn(f"scene {number}: {'; '.join(remarks)}{others}", DoubtfulInput, stacklevel=3)
     given = [motions] if hasattr(motions, "acceleration") else motions if hasattr(motions, "__len__") else ()
-    strong = motion_remarks([each for each in list(given)[:MOST_LOOKED_AT] if hasattr(each, "acceleration")])
+    first = list(given)[:MOST_LOOKED_AT]
+    alone = [each for one in first for each in (one if is_motion_pair(one) else (one,))]
+    strong = motion_remarks([each for each in alone if hasattr(each, "acceleration")])
     if strong:
         others = f" (and {len(strong) - 1} more motions)" if len(strong) > 1 else ""
         warnings.warn(f"{strong[0]}{others}", DoubtfulInput, stacklevel=3)

@@ -25,7 +25,11 @@ README: Final = "README.md"
 
 
 def write_opensees(
-    folder: str | os.PathLike[str], scenes: Mapping[str, Scene], motions: Iterable[MotionLike]
+    folder: str | os.PathLike[str],
+    scenes: Mapping[str, Scene],
+    motions: Iterable[MotionLike],
+    *,
+    documents: Mapping[str, str] | None = None,
 ) -> list[Path]:
     """Write models for OpenSeesPy, with the exact peaks beside them.
 
@@ -37,6 +41,8 @@ def write_opensees(
         Models by name: shear buildings with trilinear springs, blocks without wear and stops.
     motions : iterable of Motion or Record
         Horizontal ground motions.
+    documents : mapping of str to str, optional
+        Further files of the folder: text by name.
 
     Returns
     -------
@@ -84,7 +90,8 @@ def write_opensees(
         {"file": file, "dt": motion.dt, "samples": motion.samples} for file, motion in zip(files, given, strict=True)
     ]
     source = data_directory() / "opensees"
-    texts = {name: (source / name).read_text(encoding="utf-8") for name in (PROGRAM, README)}
+    texts = dict(documents or {})
+    texts |= {name: (source / name).read_text(encoding="utf-8") for name in (PROGRAM, README)}
     for file, motion in zip(files, given, strict=True):
         texts[file] = "".join(f"{value!r}\n" for value in motion.acceleration.tolist())
     texts[CONTENT] = json.dumps({"units": "kg, N, m, s", "models": models, "motions": listed}, indent=1) + "\n"

@@ -11,7 +11,7 @@ import polars as pl
 from seismass import _kernel
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, frozen, refusal
-from seismass.base.views import view
+from seismass.base.views import Card, view
 from seismass.media.result import finite_values
 from seismass.model.motion import Motion
 from seismass.model.plausibility import motion_remarks
@@ -37,7 +37,7 @@ _PAIRS: Final = (
 )
 
 
-class PlaneResponse:
+class PlaneResponse(Card):
     """What a run in two horizontal directions gives back. SI units; index 0 is storey 1, or block 1.
 
     Peaks are true extremes over continuous time, by direction and of the length of the vector: their last axis is
@@ -203,6 +203,16 @@ class PlaneResponse:
     def rack_drift(self) -> FloatArray:
         """Drift of rack levels (m), shape (rows, levels, 2)."""
         return self._pair("rack_drift")
+
+    @property
+    def rack_velocity(self) -> FloatArray:
+        """Velocity of rack levels relative to the ground (m/s), shape (rows, levels, 2)."""
+        return self._pair("rack_velocity")
+
+    @property
+    def rack_acceleration(self) -> FloatArray:
+        """Absolute acceleration of rack levels (m/s2), shape (rows, levels, 2)."""
+        return self._pair("rack_acceleration")
 
     @property
     def events(self) -> pl.DataFrame:

@@ -10,13 +10,14 @@ import polars as pl
 
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.values import brief, refusal, short
+from seismass.base.views import Card
 from seismass.model.scene import Scene
 
 MOST_SCENES: Final = 10**6
 """Most scenes of a product; each is an object, which a `Grid` does without."""
 
 
-class SceneProduct(Sequence[Scene]):
+class SceneProduct(Card, Sequence[Scene]):
     """Every combination of the values of axes, each made a scene by a function.
 
     It is a sequence of scenes, so that `simulate_many`, `stream_many` and `write_many` take it. A `Grid` holds columns
@@ -74,6 +75,10 @@ class SceneProduct(Sequence[Scene]):
             raise refusal(InvalidOption, "scenes", "scene product", f"at most {MOST_SCENES}", f"{total}")
         self._make = make
         self._scenes: dict[int, Scene] = {}
+
+    def __repr__(self) -> str:
+        listed = ", ".join(f"{len(values)} of {name}" for name, values in self.axes.items())
+        return f"SceneProduct({len(self)} scenes: {listed})"
 
     def __len__(self) -> int:
         return int(np.prod(self._shape))

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias, overload
-
-import numpy as np
+from typing import overload
 
 from seismass import _kernel
-from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
+from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.values import as_count, as_flag, brief, refusal
 from seismass.model.motion import Motion, MotionLike, as_motion
 from seismass.model.scene import Scene
-from seismass.records.pair import Pair
 from seismass.records.record import Record
+from seismass.runs.plane_motion import MotionPair, motions_in_plane
 from seismass.runs.plane_response import PlaneResponse
 from seismass.runs.response import Response
-
-MotionPair: TypeAlias = Pair | tuple[MotionLike, MotionLike]
-"""Motions in two directions: a pair of records, or two motions of one step."""
 
 
 @overload
@@ -100,7 +95,9 @@ def simulate(
     """
     if not isinstance(scene, Scene):
         raise refusal(InvalidScene, "scene", "simulate", "a Scene", brief(scene))
-    motions = motions_in_plane(motion) if scene.engine == "plane" else (as_motion(motion, "motion", "simulate"),)
+    motions: tuple[Motion, ...] = (
+        motions_in_plane(motion) if scene.engine == "plane" else (as_motion(motion, "motion", "simulate"),)
+    )
     if duration is not None:
         motions = tuple(each.with_duration(duration) for each in motions)
     chosen = motions[0]
@@ -121,33 +118,6 @@ def simulate(
     else:
         run = _kernel.simulate(scene._kernel, chosen._kernel, every, *flags)
     return Response(run, scene, chosen, motion if isinstance(motion, Record) else None)
-
-
-def motions_in_plane(pair: MotionPair | MotionLike) -> tuple[Motion, ...]:
-    """Return the motions in x, with the vertical one, and in y, equally long.
-
-    Raises
-    ------
-    InvalidMotion
-        It is no pair, steps differ, or the second has a vertical motion of its own.
-    """
-    vertical = None
-    if isinstance(pair, Pair):
-        x, y = pair.first.motion, pair.second.motion
-        vertical = None if pair.vertical is None else pair.vertical.acceleration
-    elif isinstance(pair, tuple | list) and len(pair) == 2:
-        x, y = (as_motion(each, "motion", "simulate") for each in pair)
-        vertical = x.vertical
-    else:
-        requirement = "a Pair, or two motions, for a scene in two directions"
-        raise refusal(InvalidMotion, "motion", "simulate", requirement, brief(pair))
-    if y.vertical is not None:
-        raise refusal(InvalidMotion, "vertical", "motion in y", "left out: it is that of the motion in x", "a motion")
-    if not np.isclose(y.dt, x.dt, rtol=1e-9, atol=0.0):
-        raise refusal(InvalidMotion, "dt", "motion in y", f"that of the motion in x, {x.dt:g} s", f"{y.dt:g} s")
-    count = max(x.samples, y.samples) if vertical is None else len(vertical)
-    of_x, of_y = (np.pad(each.acceleration, (0, max(0, count - each.samples)))[:count] for each in (x, y))
-    return Motion(of_x, x.dt, vertical), Motion(of_y, x.dt)
 
 
 def instruction_set() -> str:

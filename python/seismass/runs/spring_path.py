@@ -10,13 +10,14 @@ from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
 from seismass.base.forks import require_polars
-from seismass.base.values import FloatArray, as_array, as_count, brief, content_hash, refusal, same_content
+from seismass.base.values import FloatArray, as_array, as_count, brief, content_hash, refusal, same_content, short_repr
+from seismass.base.views import Card
 from seismass.model.building import Building
 from seismass.runs.response import EVENT_KINDS
 
 
 @dataclass(frozen=True, eq=False)
-class SpringPath:
+class SpringPath(Card):
     """What a spring did along a list of drifts.
 
     Attributes
@@ -40,6 +41,7 @@ class SpringPath:
     stored: FloatArray
     events: pl.DataFrame
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 

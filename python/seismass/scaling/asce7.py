@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any, Final
 
@@ -13,9 +13,11 @@ from seismass.base.values import FloatArray, as_flag, brief, frozen, refusal
 from seismass.design import vibration_modes
 from seismass.model.building import Building
 from seismass.model.motion import Motion
+from seismass.records.pair import Pair
 from seismass.scaling.result import ScalingResult
 from seismass.scaling.suite import SuiteSpectra, positive_number, positive_period, suite_spectra
 from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
+from seismass.spectra.motions import check_not_zero
 
 SHARE_7_16: Final = 0.9
 """Least mean over target, ASCE/SEI 7-16, 16.2.3.2."""
@@ -32,7 +34,7 @@ DIRECTIONS: Final = 180
 
 
 def scale_asce7_10(
-    records: Iterable[GroundMotion],
+    records: Iterable[GroundMotion | Pair],
     target: TargetSpectrum,
     period: float = 1.0,
     *,
@@ -46,8 +48,9 @@ def scale_asce7_10(
 
     Parameters
     ----------
-    records : iterable of Record or Motion
-        The suite; at least three motions, as the standard asks.
+    records : iterable of Record or Motion, or of Pair
+        The suite; at least three motions, as the standard asks. The spectrum of a pair is the geometric mean of those
+        of its components as they are; the factor is that of both.
     target : TargetSpectrum
         Design spectrum.
     period : float
@@ -79,9 +82,9 @@ def scale_asce7_10(
     Spectra 28:1205, in the logarithm: ln SF1_i = mean over T_j of ln A_t - ln A_i, then SF2 = max over T_j of A_t over
     the mean of SF1_i A_i.
     """
-    motions = as_motions(records, "scaling")
+    given = _given(records)
     suite = suite_spectra(
-        motions,
+        _first_components(given),
         target,
         period,
         damping=damping,
@@ -90,16 +93,50 @@ def scale_asce7_10(
         threads=threads,
         least=(3, "ASCE/SEI 7-10, 16.1.3"),
     )
+    if any(_is_pair(item) for item in given):
+        names = tuple(item.name or name for item, name in zip(given, suite.names, strict=True))
+        suite = replace(
+            suite, spectra=frozen(spectra_of(given, suite.periods, suite.damping, threads=threads)), names=names
+        )
     individual = suite.log_factors()
     common = suite.common_factor(individual, 1.0)
     if as_flag(between, "between", "scaling", InvalidOption):
-        common = max(common, 1.0 / _least_between(suite, motions, target, individual, threads))
+        common = max(common, 1.0 / _least_between(suite, given, target, individual, threads))
     return suite.result("ASCE 7-10", individual, common)
+
+
+def _given(records: Any) -> list[Any]:
+    """Motions and pairs as a list."""
+    single = hasattr(records, "acceleration") or not isinstance(records, Iterable)
+    return as_motions(records, "scaling") if single else list(records)
+
+
+def _is_pair(item: Any) -> bool:
+    return hasattr(item, "at_angles")
+
+
+def _first_components(given: list[Any]) -> list[Any]:
+    """Motions, and the first component of each pair."""
+    return [item.first if _is_pair(item) else item for item in given]
+
+
+def spectra_of(
+    given: list[Any], periods: FloatArray, damping: float = 0.05, *, threads: int | None = None
+) -> FloatArray:
+    """Return spectra of motions (m/s2, motions x periods); of a pair the geometric mean of its components'."""
+    if not any(_is_pair(item) for item in given):
+        alone: FloatArray = response_spectrum(given, periods, damping, threads=threads)
+        return alone
+    both = [_first_components(given), [item.second if _is_pair(item) else item for item in given]]
+    first, second = (response_spectrum(each, periods, damping, threads=threads) for each in both)
+    check_not_zero(second)
+    mean: FloatArray = np.sqrt(first * second)
+    return mean
 
 
 def _least_between(
     suite: SuiteSpectra,
-    motions: Sequence[GroundMotion],
+    given: list[Any],
     target: TargetSpectrum,
     individual: FloatArray,
     threads: int | None,
@@ -107,8 +144,10 @@ def _least_between(
     """Return the least ratio of the mean to the target over the range, of motions times their own factors."""
 
     def over(periods: FloatArray) -> FloatArray:
-        spectra = response_spectrum(motions, periods, suite.damping, threads=threads)
-        ratios: FloatArray = np.mean(individual[:, None] * spectra, axis=0) / target(periods)
+        ratios: FloatArray = np.mean(
+            individual[:, None] * spectra_of(given, periods, suite.damping, threads=threads), axis=0
+        )
+        ratios /= target(periods)
         return ratios
 
     first, last = suite.periods[0], suite.periods[-1]
@@ -181,10 +220,9 @@ def scale_asce7_16(
     if upper < 1.5:
         raise refusal(InvalidOption, "longest", "scaling", "at least 1.5 (ASCE/SEI 7-16, 16.2.3.1)", f"{upper:g}")
     lowest = np.inf if lowest_period is None else positive_number(lowest_period, "lowest_period")
-    single = hasattr(records, "acceleration") or not isinstance(records, Iterable)
-    given: list[Any] = as_motions(records, "scaling") if single else list(records)
-    pairs = [item for item in given if hasattr(item, "at_angles")]
-    motions = [item.first if hasattr(item, "at_angles") else item for item in given]
+    given = _given(records)
+    pairs = [item for item in given if _is_pair(item)]
+    motions = _first_components(given)
     suite = suite_spectra(
         motions,
         target,
@@ -228,7 +266,7 @@ def _of_pairs(suite: SuiteSpectra, given: list[Any], threads: int | None) -> Sui
     spectra, names = suite.spectra.copy(), list(suite.names)
     turns = np.arange(DIRECTIONS) * (180.0 / DIRECTIONS)
     for index, item in enumerate(given):
-        if hasattr(item, "at_angles"):
+        if _is_pair(item):
             directions = [Motion(row, item.dt) for row in item.at_angles(turns)]
             ordinates = response_spectrum(directions, suite.periods, suite.damping, threads=threads)
             spectra[index] = ordinates.max(axis=0)

@@ -10,12 +10,13 @@ import numpy as np
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, refusal
+from seismass.base.views import Card
 from seismass.design import vibration_modes
 from seismass.model.building import Building, of_storeys_alone
 
 
 @dataclass(frozen=True)
-class FirstModeOscillator:
+class FirstModeOscillator(Card):
     """D'' + 2 zeta w D' + F(D) = -a_g with a trilinear F, per unit mass.
 
     Parameters

@@ -11,7 +11,7 @@ import polars as pl
 
 from seismass.base.errors import InvalidOption, SimulationError
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_number, brief, frozen, is_one_of, refusal
+from seismass.base.values import FloatArray, as_number, brief, frozen, is_one_of, refusal, short_repr
 from seismass.model.building import Building
 from seismass.model.scene import Scene
 from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
@@ -65,6 +65,8 @@ class PushoverScaling(ScalingResult):
     deformations: FloatArray = field(default_factory=lambda: frozen([]))
     roots: tuple[FloatArray, ...] = ()
     second_mode_ratio: FloatArray | None = None
+
+    __repr__ = short_repr
 
     def diagnostics(self) -> pl.DataFrame:
         """Return those of `ScalingResult` with the deformation (m), over the target, and all factors found."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 import numpy as np
 import polars as pl
 
-from seismass.base.values import FloatArray, content_hash, frozen, same_content
+from seismass.base.values import FloatArray, content_hash, frozen, same_content, short_repr
 from seismass.base.views import view
 from seismass.media.result import Result, finite_values
 
@@ -77,6 +77,7 @@ class ScalingResult(Result):
     target_label: str = ""
     notes: tuple[str, ...] = ()
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 

@@ -11,7 +11,8 @@ import numpy as np
 import polars as pl
 
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import FloatArray, as_count, brief, content_hash, is_one_of, refusal, same_content
+from seismass.base.values import FloatArray, as_count, brief, content_hash, is_one_of, refusal, same_content, short_repr
+from seismass.base.views import Card
 from seismass.records import Record, Suite, read_suite
 from seismass.scaling.suite import SuiteSpectra, checked_range, suite_spectra
 from seismass.spectra import TargetSpectrum
@@ -23,7 +24,7 @@ _SEQUENCE: Final = re.compile(r"RSN\d+", re.IGNORECASE)
 
 
 @dataclass(frozen=True, eq=False)
-class Selection:
+class Selection(Card):
     """Records that were chosen, and the table of all candidates.
 
     Attributes
@@ -40,6 +41,7 @@ class Selection:
     suite: Suite
     table: pl.DataFrame
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
+from seismass.base.views import Card
 from seismass.model.motion import Motion
 from seismass.spectra import response_spectrum
 
@@ -25,7 +26,7 @@ _PERIODS: Final = np.geomspace(0.02, 20.0, 401)
 
 
 @dataclass(frozen=True, slots=True)
-class Base:
+class Base(Card):
     """The motion of what a block stands on.
 
     Attributes

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from seismass.base.errors import InvalidOption, SimulationError
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_array, as_count, as_number, content_hash, frozen, refusal, same_content
+from seismass.base.views import Card
 from seismass.model.building import Building
 from seismass.model.motion import motion_names
 from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
@@ -29,7 +30,7 @@ _MOST_STEPS: Final = 1000
 
 
 @dataclass(frozen=True, eq=False)
-class InelasticSpectrum:
+class InelasticSpectrum(Card):
     """Peaks of inelastic oscillators; arrays are motions by periods, or motions by levels by periods for a list.
 
     Attributes

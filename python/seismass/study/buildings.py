@@ -10,7 +10,8 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 import numpy as np
 
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray
+from seismass.base.values import FloatArray, short_repr
+from seismass.base.views import Card
 from seismass.design import SpectrumAnalysis, response_spectrum_analysis, vibration_modes
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import Building
@@ -36,7 +37,7 @@ KEYS: Final = (
 
 
 @dataclass(frozen=True, eq=False)
-class StudyBuilding:
+class StudyBuilding(Card):
     """One building of the grid with its models.
 
     Attributes
@@ -59,6 +60,8 @@ class StudyBuilding:
     design_mass: FloatArray
     yield_shear: FloatArray
     scenes: dict[Model, Scene]
+
+    __repr__ = short_repr
 
 
 def study_buildings(

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.kept import NOTHING_KEPT, KeptResults
-from seismass.base.values import FloatArray, brief, content_hash, printable, refusal, same_content
+from seismass.base.values import FloatArray, brief, content_hash, printable, refusal, same_content, short_repr
 from seismass.base.views import view
 from seismass.media.result import Result
 from seismass.model.motion import Motion
@@ -82,6 +82,7 @@ class StudyResult(Result):
     scaling: ScalingResult
     metadata: dict[str, Any] = field(repr=False)
 
+    __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
 

@@ -11,6 +11,7 @@ import numpy as np
 import polars as pl
 
 from seismass.base.kept import NOTHING_KEPT, KeptResults
+from seismass.base.values import short_repr
 from seismass.base.views import view
 from seismass.design import Combination
 from seismass.matching import match_suite
@@ -75,6 +76,8 @@ class Sensitivity(Result):
 
     table: pl.DataFrame
     metadata: dict[str, Any] = field(repr=False)
+
+    __repr__ = short_repr
 
     @property
     @view

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import polars as pl
 
 from seismass.base.errors import InvalidMotion
-from seismass.base.values import brief, refusal
+from seismass.base.values import brief, refusal, short_repr
 from seismass.base.views import view
 from seismass.media.result import Result
 from seismass.records import Suite, builtin_suite
@@ -77,6 +77,8 @@ class Validation(Result):
     section4: Section4
     platform: Platform
     claims: list[Claim]
+
+    __repr__ = short_repr
 
     def metadata(self) -> dict[str, Any]:
         """Return versions and motions, for files and pages."""

@@ -130,7 +130,8 @@ def _comparison(section4: Section4) -> Iterator[_Row]:
         "The model and two finite-element programs produce essentially the same time series of drift and slip.",
         ("reproduced" if same else "not reproduced") if finest.height else "not tested",
         f"Largest difference from the exact kernel over {finest.height} histories of {' and '.join(programs)}, with "
-        f"the stiffest friction spring: drift {drift:.1e} %, slip {slip:.1e} % of the largest.{missing}",
+        f"the stiffest friction spring: drift {_few_digits(drift)} %, slip {_few_digits(slip)} % of the largest."
+        f"{missing}",
         "stiffness of the springs that stand for friction; the difference is inversely proportional to it",
     )
     runs = section4.runs
@@ -160,6 +161,11 @@ def _comparison(section4: Section4) -> Iterator[_Row]:
         f"component: {by_component}. By second slope: {by_slope}.",
         "second slope r2, component and scale of the record; the paper states none",
     )
+
+
+def _few_digits(value: float) -> str:
+    """A small number with two digits, without a power of ten."""
+    return np.format_float_positional(value, precision=2, fractional=False, trim="-")
 
 
 def _ranges(runs: pl.DataFrame) -> str:
@@ -321,8 +327,9 @@ def _largest(yielding: pl.DataFrame, sensitivity: Sensitivity | None) -> _Row:
 
 def _less_sliding(first: pl.DataFrame) -> _Row:
     """What sliding does to first storeys, real over attached, at each R."""
-    by = first.with_columns(sliding=100.0 * (pl.col("ratio_sliding") - 1.0).abs())
-    means = by.group_by("R").agg(pl.col("sliding").mean()).sort("R")
+    change = 100.0 * (pl.col("ratio_sliding") - 1.0)
+    by = first.with_columns(sliding=change.abs(), change=change)
+    means = by.group_by("R").agg(pl.col("sliding").mean(), pl.col("change").mean()).sort("R")
     values = means["sliding"].to_list()
     falls = all(after < before for before, after in pairwise(values)) and len(values) > 1
     keys = ["occupancy", "mu", "storeys", "storey", "R"]
@@ -332,7 +339,7 @@ def _less_sliding(first: pl.DataFrame) -> _Row:
         f"R = {factor:g}: {less.filter(R=factor).height} of {rows.height}"
         for (factor,), rows in step.sort("R").group_by("R", maintain_order=True)
     )
-    text = ", ".join(f"{value:.1f} % at R = {factor:g}" for factor, value in means.rows())
+    text = ", ".join(f"{change:+.1f} % at R = {factor:g} (size {size:.1f} %)" for factor, size, change in means.rows())
     verdict: Verdict = "not reproduced"
     if falls:
         verdict = "reproduced" if step.height and less.height / step.height >= MOST else "depends"
@@ -340,7 +347,7 @@ def _less_sliding(first: pl.DataFrame) -> _Row:
         "section 5, conclusions",
         "With greater R and alpha floors accelerate less, goods slide less and act as if attached.",
         verdict,
-        f"Mean change of first-storey drift by sliding: {text}. With alpha it falls in {less.height} of {step.height} "
-        f"steps ({with_alpha}).",
+        f"Mean change of first-storey drift by sliding: {text}. Its size falls with alpha in {less.height} of "
+        f"{step.height} steps ({with_alpha}).",
         "R rather than alpha" if verdict == "depends" else "",
     )

@@ -15,6 +15,7 @@ import numpy as np
 import polars as pl
 
 from seismass.base.values import FloatArray
+from seismass.base.views import Card
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import Building
 from seismass.model.motion import Motion
@@ -40,7 +41,7 @@ ATTACHED_MU: Final = 1e3
 
 
 @dataclass(frozen=True, eq=False)
-class Band:
+class Band(Card):
     """Drift histories with one mass ratio, at the central period and amplitude.
 
     Attributes
@@ -67,7 +68,7 @@ class Band:
 
 
 @dataclass(frozen=True, eq=False)
-class Platform:
+class Platform(Card):
     """What the platform does over the ranges.
 
     Attributes

@@ -20,6 +20,7 @@ import polars as pl
 from seismass import _kernel
 from seismass.base.errors import SimulationError
 from seismass.base.values import FloatArray
+from seismass.base.views import Card
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import Building
 from seismass.model.motion import Motion
@@ -51,7 +52,7 @@ KEPT: Final = Path(__file__).parent / "opensees.parquet"
 
 
 @dataclass(frozen=True, eq=False)
-class Histories:
+class Histories(Card):
     """Response by one program.
 
     Attributes
@@ -81,7 +82,7 @@ class Histories:
 
 
 @dataclass(frozen=True, eq=False)
-class Section4:
+class Section4(Card):
     """What the section-4 building does.
 
     Attributes

@@ -8,6 +8,7 @@ use super::model::Model;
 use super::record::{GeneralSolution, Recorder};
 use super::series::{MAX_PHASE, Series};
 use super::state::State;
+use crate::model::Terms;
 use crate::real::Real;
 use crate::solve::{JudgeError, MAX_EVENTS, MAX_PIECES, drive};
 use crate::state::{Contact, Drive};
@@ -20,6 +21,37 @@ pub fn solve_general<R: Real>(
     scene: &GeneralScene,
     motion: &Motion,
     every: usize,
+) -> Result<GeneralSolution, JudgeError> {
+    solve_scaled(scene, motion, every, Scale::<R>::none())
+}
+
+/// Factors of the motion. In double-double they may differ from 1 by less than a double can.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Scale<R> {
+    /// Of the ground acceleration.
+    pub(crate) ground: R,
+    /// Of g + a_v, and so of all limits of friction.
+    pub(crate) contact: R,
+}
+
+impl<R: Real> Scale<R> {
+    /// The motion as it is.
+    pub(crate) fn none() -> Self {
+        Self { ground: R::of(1.0), contact: R::of(1.0) }
+    }
+
+    pub(super) fn drive(&self, motion: &Motion, sample: usize) -> Drive<R> {
+        let Drive { ground, contact } = drive(motion, sample);
+        Drive { ground: ground.map(|term: R| term * self.ground), contact: contact.map(|term: R| term * self.contact) }
+    }
+}
+
+/// As [`solve_general`], under the motion times factors.
+pub(crate) fn solve_scaled<R: Real>(
+    scene: &GeneralScene,
+    motion: &Motion,
+    every: usize,
+    scale: Scale<R>,
 ) -> Result<GeneralSolution, JudgeError> {
     if every == 0 {
         return Err(JudgeError::NoDecimation);
@@ -36,7 +68,7 @@ pub fn solve_general<R: Real>(
         state: State::new(scene, &model),
         at_stop: R::of(MAX_PHASE / model.frequency_bound(true).max(f64::MIN_POSITIVE)),
         model,
-        drive: drive(motion, 0),
+        drive: scale.drive(motion, 0),
         airborne: false,
         piece: dt / R::of(pieces as f64),
         start: R::zero(),
@@ -44,10 +76,12 @@ pub fn solve_general<R: Real>(
         parted: R::zero(),
     };
     run.begin();
-    let mut recorder = Recorder::new(&run.model, &run.state, &run.drive, every);
+    let acceleration = |p| run.state.acceleration(&run.model, Some(p), &run.drive, R::zero(), Terms::Signed);
+    let acceleration = (0..run.model.mass.len()).map(acceleration).collect();
+    let mut recorder = Recorder::new(&run.model, &run.state, acceleration, every);
     let mut status = GeneralStatus::Completed;
     'run: for i in 0..samples - 1 {
-        run.drive = drive(motion, i);
+        run.drive = scale.drive(motion, i);
         run.start = R::of(i as f64) * dt;
         for piece in 0..pieces {
             let ends = [piece, piece + 1].map(|p| dt * R::of(p as f64) / R::of(pieces as f64));
@@ -113,7 +147,7 @@ impl<R: Real> Run<R> {
             let length = if is_short { self.at_stop } else { rest };
             let mut series = Series::new(&self.model, &self.state, &self.drive, tau, length);
             let event = self.machines().first_event(&series);
-            if let Some((place, _)) = event {
+            if let Some((place, ..)) = event {
                 series.shrink(place);
             }
             // An instant is no stretch of time: the regimes passed through at it have no peaks.
@@ -121,12 +155,13 @@ impl<R: Real> Run<R> {
                 recorder.stretch(&self.model, &self.state, &series, self.start + tau);
             }
             series.advance(&mut self.state);
+            series.add_paths(&mut self.state);
             tau = tau + series.length;
             match event {
                 None if is_short => continue,
                 None => return Ok(None),
-                Some((_, Guard::Collapse { node })) => return Ok(Some((node, (self.start + tau).to_f64()))),
-                Some((_, guard)) => self.machines().carry_out(guard, &series, tau),
+                Some((.., Guard::Collapse { node })) => return Ok(Some((node, (self.start + tau).to_f64()))),
+                Some((.., guard)) => self.machines().carry_out(guard, &series, tau),
             }
             events += 1;
             if events == MAX_EVENTS {

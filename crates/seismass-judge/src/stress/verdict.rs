@@ -25,6 +25,8 @@ pub enum Verdict {
     },
     /// The judge, with its input changed in the last digits or not, has the kernel's events, and moves as far as the
     /// kernel is from it with its input changed in the last digits once more, or by its own rounding in double precision.
+    /// Or, for the general engine, a change of the motion in the last digits has been found with which the judge comes to
+    /// its events and numbers from the first sample to the last, where differences grow until all events are others.
     Sensitive {
         /// The change, in units of the last digit; 0 where it is the judge's own rounding.
         digits: f64,

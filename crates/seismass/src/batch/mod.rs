@@ -21,7 +21,7 @@ use crate::scene::{Motion, Options, Scene};
 use crate::step::cache::RegimeCache;
 use crate::threads::{Control, in_pool};
 
-pub use crate::batch::general::simulate_general_each;
+pub use crate::batch::general::{simulate_general_each, simulate_plane_each};
 pub use crate::batch::plan::Run;
 
 /// Solves `runs` on `threads` threads (default: all cores).

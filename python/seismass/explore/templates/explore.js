@@ -344,7 +344,7 @@
   // ---- what is shown --------------------------------------------------------------------------------------------------
   function colours() {
     const style = getComputedStyle(root);
-    return Object.fromEntries(["paper", "ink", "soft", "line", "real", "model", "other", "yield"].map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+    return Object.fromEntries(["paper", "ink", "soft", "line", "slide", "code", "attached", "bare", "yield"].map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
   }
   let time = 0;
   let putDots = () => {};

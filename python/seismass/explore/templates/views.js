@@ -61,7 +61,7 @@ function fractionWords(found, corner) {
     short: `Over the built-in motions: effective fraction of the goods ${fixed(found.value, 2)}, 90 % interval ${fixed(found.low, 2)} to ${fixed(found.high, 2)}.`,
     long:
       `Effective fraction ${fixed(found.value, 3)} (90 % interval over the built-in motions ${fixed(found.low, 2)} to ${fixed(found.high, 2)}); ` +
-      `${found.kind}: ${KIND_WORDS[found.kind]}. By the rule, ${rule}.`,
+      `${KIND_WORDS[found.kind].replace(/^./, (letter) => letter.toUpperCase())}. By the rule, ${rule}.`,
   };
 }
 
@@ -158,7 +158,8 @@ function evenTicks(most) {
   return [[-round, `${MINUS}${words}`], [0, "0"], [round, words]];
 }
 // Returns what puts the dots where a row of the histories is, over the loops that stay as they are.
-function drawLoops(canvas, colours, { scene, real, beside }) {
+function drawLoops(canvas, colours, { state, scene, real, beside }) {
+  const besides = colours[{ code: "code", full: "attached", none: "bare" }[state.beside]];
   const chart = chartOf(canvas, colours);
   if (chart.width === 0) return () => {};
   const n = scene.storeys;
@@ -169,8 +170,8 @@ function drawLoops(canvas, colours, { scene, real, beside }) {
   const spread = (list, by) => (list.length ? list.reduce((most, value) => Math.max(most, Math.abs(value)), 0) * by : 0);
   const drift = Math.max(spread(real.drift, 1000), other ? spread(other.drift, 1000) : 0, 1e-6) * 1.05;
   const force = Math.max(spread(real.force, 1 / weight), other ? spread(other.force, 1 / weight) : 0, 1e-6) * 1.05;
-  const entries = [{ words: "goods slide", colour: colours.real }];
-  if (other) entries.push({ words: beside.words, colour: colours.model, thick: 1.2, dash: [4, 2] });
+  const entries = [{ words: "goods slide", colour: colours.slide }];
+  if (other) entries.push({ words: beside.words, colour: besides, thick: 1.2, dash: [4, 2] });
   const keyEnd = chart.key(entries, 46, 14, chart.width);
   const [left, gap, foot] = [56, 16, 38];
   const wide = (chart.width - left - 8 - gap * (columns - 1)) / columns;
@@ -185,7 +186,7 @@ function drawLoops(canvas, colours, { scene, real, beside }) {
       title: `storey ${i + 1}`, xTitle: last ? "drift (mm)" : "", yTitle: column ? "" : "shear / W",
       xTicks: last ? evenTicks(drift) : [], yTicks: column ? [] : evenTicks(force),
     });
-    for (const [run, colour, options] of [[other, colours.model, { width: 1, dash: [4, 2] }], [real, colours.real, { width: 1.2 }]]) {
+    for (const [run, colour, options] of [[other, besides, { width: 1, dash: [4, 2] }], [real, colours.slide, { width: 1.2 }]]) {
       if (!run) continue;
       const rows = Math.min(run.rows, run.drift.length / n);
       panel.line(Array.from({ length: rows }, (_, row) => [1000 * run.drift[row * n + i], run.force[row * n + i] / weight]), { colour, ...options });
@@ -210,11 +211,11 @@ function drawProfile(canvas, colours, { state, scene, real, code, full }) {
   if (chart.width === 0) return;
   const n = scene.storeys;
   const per = 100 / state.height;
-  const lines = [{ words: "goods slide", run: real, colour: colours.real, dash: [], thick: 3 }];
+  const lines = [{ words: "goods slide", run: real, colour: colours.slide, dash: [], thick: 3 }];
   if (real.blocks.length) {
     lines.push(
-      { words: `${fixed(100 * state.counted, 0)} % attached (code)`, run: code, colour: colours.model, dash: [6, 3], thick: 2 },
-      { words: "all attached", run: full, colour: colours.other, dash: [2, 3], thick: 2 },
+      { words: `${fixed(100 * state.counted, 0)} % attached (code)`, run: code, colour: colours.code, dash: [6, 3], thick: 2 },
+      { words: "all attached", run: full, colour: colours.attached, dash: [2, 3], thick: 2 },
     );
   }
   const keyEnd = chart.key(lines, 46, 14, chart.width);
@@ -248,19 +249,19 @@ function drawCurve(canvas, colours, found, state) {
   const [least, most] = [Math.min(...all), Math.max(...all)];
   const margin = 0.06 * (most - least) || 0.1;
   const keyEnd = chart.key([
-    { words: "mean over the suite", colour: colours.real },
-    { words: "90 % of resamples", colour: colours.real, fill: 0.25 },
+    { words: "mean over the suite", colour: colours.slide },
+    { words: "90 % of resamples", colour: colours.slide, fill: 0.25 },
     { words: "effective fraction", colour: colours.yield },
-    { words: "code", colour: colours.model, dash: [4, 3] },
+    { words: "code", colour: colours.code, dash: [4, 3] },
   ], 52, 14, chart.width);
   box.top = keyEnd + 4;
   const panel = chart.panel(box, [0, 1], [least - margin, most + margin], { xTitle: "share of the goods attached as mass", yTitle: "slide / model" });
   const points = (values) => Array.from(found.shares, (share, i) => [share, values[i]]);
-  panel.area(points(low), points(high), colours.real, 0.22);
+  panel.area(points(low), points(high), colours.slide, 0.22);
   panel.line([[0, 1], [1, 1]], { colour: colours.ink, width: 1 });
-  panel.line([[state.counted, least - margin], [state.counted, most + margin]], { colour: colours.model, width: 1.5, dash: [4, 3] });
+  panel.line([[state.counted, least - margin], [state.counted, most + margin]], { colour: colours.code, width: 1.5, dash: [4, 3] });
   panel.line([[found.value, least - margin], [found.value, most + margin]], { colour: colours.yield, width: 1.5 });
-  panel.line(points(ratios), { colour: colours.real, width: 2 });
+  panel.line(points(ratios), { colour: colours.slide, width: 2 });
   panel.dot(found.value, found.realMean / found.modelMean, colours.yield);
   const at = (share) => fixed(ratios[Math.round(100 * share)], 2);
   canvas.setAttribute("aria-label", `Drift with sliding goods over that of the model is ${at(0)} with nothing attached, ${at(state.counted)} with the share of the code and ${at(1)} with all; it is 1 at the effective fraction ${fixed(found.value, 3)}.`);
@@ -274,7 +275,7 @@ function drawRule(canvas, colours, found, bins, corner, state) {
     { words: "p = 1, to be safe", colour: colours.ink, dash: [4, 3] },
     { words: "other buildings, median, 16 to 84 %", colour: colours.soft, fill: 0.35 },
     { words: "this case", colour: colours.yield },
-    { words: "code", colour: colours.model, dash: [4, 3] },
+    { words: "code", colour: colours.code, dash: [4, 3] },
   ], 46, 14, chart.width);
   const most = 2;
   const box = { left: 46, top: keyEnd + 6, right: chart.width - 16, bottom: chart.height - 40 };
@@ -291,7 +292,7 @@ function drawRule(canvas, colours, found, bins, corner, state) {
     panel.line(curve(rule.safe), { colour: colours.ink, width: 1.3, dash: [4, 3] });
     panel.line(curve(rule.best), { colour: colours.ink, width: 1.6 });
   }
-  panel.line([[0, state.counted], [most, state.counted]], { colour: colours.model, width: 1.3, dash: [4, 3] });
+  panel.line([[0, state.counted], [most, state.counted]], { colour: colours.code, width: 1.3, dash: [4, 3] });
   if (rule === null) {
     canvas.setAttribute("aria-label", "Effective fraction against eta: there are no goods, or they are being solved.");
     return;

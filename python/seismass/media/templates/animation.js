@@ -95,11 +95,13 @@
   let colours = {};
   const readColours = () => {
     const style = getComputedStyle(root);
-    for (const name of ["paper", "ink", "soft", "line", "real", "model", "other", "yield", "slab"]) {
+    for (const name of ["paper", "ink", "soft", "line", "slide", "code", "attached", "bare", "yield", "slab"]) {
       colours[name] = style.getPropertyValue("--" + name).trim();
     }
   };
-  const colourOf = (run) => (run.attached === null ? colours.real : colours.model);
+  // Of the run whose goods slide, and of models: with none, all, or the code's share of the goods attached.
+  const roleOf = ({ attached }) => (attached === null ? "slide" : attached === 0 ? "bare" : attached === 1 ? "attached" : "code");
+  const colourOf = (run) => colours[roleOf(run)];
   const font = (size, weight = "") => `${weight} ${size}px system-ui, "DejaVu Sans", sans-serif`.trim();
 
   function sized(canvas) {
@@ -390,13 +392,13 @@
       const unit = data.known ? "% of height" : "mm";
       const curves = runs.map((run, i) => ({
         values: run.drift, columns: storeys, column: data.storey, rows: run.rows, scale: wide,
-        colour: colourOf(run), dash: i ? [5, 2] : [], label: run.attached === null ? "real" : "model",
+        colour: colourOf(run), dash: i ? [5, 2] : [], label: run.attached === null ? "goods slide" : "model",
       }));
       const title = `drift of storey ${data.storey + 1} (${unit})`;
       panels.push({ title, ends: rangeOf(curves), digits: data.known ? 2 : 1, curves, marks: marksOf("yield", data.storey + 1) });
     }
     const reach = (curve) => Math.max(...rangeOf([curve]).map(Math.abs));
-    const hues = [colours.real, colours.other, colours.yield, colours.ink, colours.model];
+    const hues = [colours.slide, colours.code, colours.attached, colours.ink, colours.yield];
     const mostOf = (all) => {
       const most = all.map((curve) => [reach(curve), curve]).sort(([a], [b]) => b - a).slice(0, mostCurves);
       const curves = all.filter((curve) => most.some(([, other]) => other === curve));

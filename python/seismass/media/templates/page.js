@@ -14,7 +14,13 @@
     };
     heads.forEach((head, column) => {
       const isNumber = head.classList.contains("number");
-      head.querySelector("button").addEventListener("click", () => {
+      const button = document.createElement("button");
+      const printed = document.createElement("span");
+      button.type = "button";
+      printed.className = "printed";
+      button.textContent = printed.textContent = head.textContent;
+      head.replaceChildren(button, printed);
+      button.addEventListener("click", () => {
         const next = { ascending: "descending", descending: null }[head.getAttribute("aria-sort")];
         const order = next === undefined ? "ascending" : next;
         heads.forEach((other) => other.removeAttribute("aria-sort"));
@@ -48,8 +54,19 @@
     });
   }
 
-  for (const holder of document.querySelectorAll(".table")) {
+  for (const holder of document.querySelectorAll(".long-table")) {
     sortable(holder.querySelector("table"));
     filterable(holder);
   }
+
+  // What does not scroll is no stop of the Tab key.
+  const holders = document.querySelectorAll(".scroll");
+  function stops() {
+    for (const holder of holders) {
+      if (holder.scrollWidth > holder.clientWidth) holder.tabIndex = 0;
+      else holder.removeAttribute("tabindex");
+    }
+  }
+  stops();
+  window.addEventListener("resize", stops);
 })();

@@ -8,12 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seismass.base.files import written_whole
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.records.builtin import MICRO
 from seismass.records.record import Record
 from seismass.records.synthetic.scenarios import SCENARIOS, generate_scenario
+from seismass.records.synthetic.second import generate_second, seed_of
 from seismass.records.synthetic.seven import RECIPES, Recipe, generate
 from seismass.records.synthetic.site import SITE_RECIPES, SiteRecipe, generate_site
 
@@ -79,17 +81,35 @@ def forty_table() -> pl.DataFrame:
     rows = []
     for scenario in SCENARIOS:
         record = generate_scenario(scenario)
-        samples = np.rint(record.acceleration / (MICRO * STANDARD_GRAVITY)).astype(np.int32)
+        samples = _stored(record)
         row = {name: getattr(scenario, name) for name in ("name", "seed", "magnitude", "distance", "site", "note")}
         rows.append({**row, "parameters": record.remarks[1], "dt": record.dt, "acceleration": samples})
     return pl.DataFrame(rows, schema_overrides={"acceleration": pl.List(pl.Int32)})
 
 
+def seconds_table() -> pl.DataFrame:
+    """Make the second components of the forty: a row each, with the name of the first and its samples as of that."""
+    import polars as pl
+
+    rows = []
+    for scenario in SCENARIOS:
+        record = generate_second(scenario)
+        about = {"name": record.name, "first": scenario.name, "seed": seed_of(scenario), "note": record.remarks[0]}
+        rows.append({**about, "parameters": record.remarks[1], "dt": record.dt, "acceleration": _stored(record)})
+    return pl.DataFrame(rows, schema_overrides={"acceleration": pl.List(pl.Int32)})
+
+
+def _stored(record: Record) -> NDArray[np.int32]:
+    """Samples as whole numbers of 1e-6 g."""
+    return np.rint(record.acceleration / (MICRO * STANDARD_GRAVITY)).astype(np.int32)
+
+
 def write_suite(directory: Path) -> None:
-    """Write every motion as an .AT2 file, the lists that name them in order, and the table of the forty."""
+    """Write every motion as an .AT2 file, the lists that name them, and the tables of the forty and their seconds."""
     directory.mkdir(parents=True, exist_ok=True)
     for recipe in ALL_RECIPES:
         write_motion(directory, recipe)
     for name, recipes in LISTS.items():
         write_list(directory / name, recipes)
-    forty_table().write_parquet(directory / "forty.parquet", compression="zstd", compression_level=19)
+    for name, table in (("forty.parquet", forty_table()), ("forty_second.parquet", seconds_table())):
+        table.write_parquet(directory / name, compression="zstd", compression_level=19)

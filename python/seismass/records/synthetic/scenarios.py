@@ -113,7 +113,7 @@ class Scenario:
         log_period = np.log(MATCHED_PERIODS)
         beyond = np.maximum(log_period, 0.0) * (LONG_PERIOD_SPREAD * fall - LONG_PERIOD_FALL)
         target: Array = two_period_shape(MATCHED_PERIODS, corner) * np.exp(
-            math.log(LEVEL) + LEVEL_SPREAD * level + _wander(source, log_period) + beyond
+            math.log(LEVEL) + LEVEL_SPREAD * level + WANDER_SPREAD * wander_of(source, log_period) + beyond
         )
         return parameters, target, source
 
@@ -128,9 +128,25 @@ SCENARIOS: Final = tuple(
 
 def generate_scenario(scenario: Scenario) -> Record:
     """Make one motion; the same on every machine to rounding, its random numbers being those of `random.Random`."""
-    parameters, target, source = scenario.drawn
-    time = sample_times(math.ceil((QUIET + parameters.intensity_end + 1.0 / parameters.corner) / STEP) + 1, STEP)
-    process = filtered_noise(parameters, normals(source, len(time)), STEP, start=-QUIET)
+    parameters, target, _ = scenario.drawn
+    record = made_of(parameters, target, noise_of(scenario))
+    return record.replace(name=scenario.name, remarks=(scenario.note, *record.remarks))
+
+
+def noise_of(scenario: Scenario) -> Array:
+    """Return the white noise of a motion, one standard normal number for each of its samples."""
+    parameters, _, source = scenario.drawn
+    # The source goes on where the parameters left it, and stays there for the next who asks.
+    state = source.getstate()
+    noise = normals(source, math.ceil((QUIET + parameters.intensity_end + 1.0 / parameters.corner) / STEP) + 1)
+    source.setstate(state)
+    return noise
+
+
+def made_of(parameters: SyntheticParameters, target: Array, noise: Array) -> Record:
+    """Make a motion of noise: filtered, modulated, brought near its target (m/s2, at the matched periods)."""
+    time = sample_times(len(noise), STEP)
+    process = filtered_noise(parameters, noise, STEP, start=-QUIET)
     process = process * parameters.standard_deviation(time - QUIET)
     for _ in range(CORRECTIONS):
         motion = high_passed(process, STEP, parameters.corner)
@@ -140,12 +156,11 @@ def generate_scenario(scenario: Scenario) -> Record:
     return Record(
         acceleration=at_rest_in_the_end(motion, STEP),
         dt=STEP,
-        name=scenario.name,
         event="synthetic",
         station="none",
         component="horizontal",
         synthetic=True,
-        remarks=(scenario.note, parameters_text(parameters)),
+        remarks=(parameters_text(parameters),),
     )
 
 
@@ -156,10 +171,10 @@ def two_period_shape(period: Array, corner: float) -> Array:
     return shape
 
 
-def _wander(source: random.Random, log_period: Array) -> Array:
-    """Return normal numbers at knots of ln T under a Gaussian bell, divided by its standard deviation, times spread."""
+def wander_of(source: random.Random, log_period: Array) -> Array:
+    """Return normal numbers at knots of ln T under a Gaussian bell, divided by its standard deviation."""
     margin = 3.0 * WANDER_LENGTH
     knots = np.arange(log_period[0] - margin, log_period[-1] + margin, 0.5 * WANDER_LENGTH)
     weights = np.exp(-(((log_period[:, None] - knots) / WANDER_LENGTH) ** 2))
     wander: Array = np.sum(weights * normals(source, len(knots)), axis=1) / np.sqrt(np.sum(weights**2, axis=1))
-    return WANDER_SPREAD * wander
+    return wander

@@ -13,6 +13,7 @@ from seismass import _kernel
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.forks import require_polars
 from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, is_one_of, refusal, same_content
+from seismass.base.views import Card
 from seismass.model.block import Block
 from seismass.model.building import Building, chain_kernel
 from seismass.model.scene import Scene
@@ -47,7 +48,7 @@ MAX_SCENES: Final = 2**53
 _CHECKED_AT_ONCE: Final = 2**16
 
 
-class Grid:
+class Grid(Card):
     """Scenes that differ in building, blocks and intensity, described by columns: a million need no million objects.
 
     A column is one value for all scenes, a list with one value per scene, or, for what blocks or storeys have, a table

@@ -10,8 +10,7 @@ from PIL import ImageDraw, ImageFont
 FINER: Final = 2
 """Frames are drawn so many times as large, and reduced, which smooths their edges."""
 PAPER, INK, SOFT, LINE = "#ffffff", "#1c1c1c", "#595959", "#c8c8c8"
-REAL, MODEL, YIELD, SLAB = "#0072b2", "#b34700", "#a4276f", "#6b6b6b"
-PALE_YIELD, PALE_REAL = "#e9c4d8", "#bcdcee"
+SLAB, PALE_YIELD, PALE_SLIDE = "#6b6b6b", "#e9c4d8", "#bcdcee"
 
 Point: TypeAlias = tuple[float, float]
 Box: TypeAlias = tuple[float, float, float, float]

@@ -11,19 +11,17 @@ from PIL import Image, ImageDraw
 from seismass.animation.shown import GROUND_HEIGHT, Run
 from seismass.animation.standing import Good, standing_goods
 from seismass.base.values import FloatArray
+from seismass.media.roles import ATTACHED, BARE, CODE, SLIDE, YIELDS, Role
 from seismass.model.places import rack_levels
 from seismass.show.animation.canvas import (
     FINER,
     INK,
     LINE,
-    MODEL,
-    PALE_REAL,
+    PALE_SLIDE,
     PALE_YIELD,
     PAPER,
-    REAL,
     SLAB,
     SOFT,
-    YIELD,
     Box,
     Canvas,
     Point,
@@ -42,9 +40,10 @@ FLASH: Final = 0.35
 MOST_CURVES: Final = 4
 """Most blocks whose slips are drawn."""
 
-CURVES: Final = (REAL, "#00765a", YIELD, INK)
+CURVES: Final = (SLIDE.text, CODE.text, ATTACHED.text, INK)
+"""Colours of blocks, of floors and of levels, in their order."""
 
-_COLOUR_AND_NAME: Final = {True: (REAL, "real"), False: (MODEL, "model")}
+ROLES: Final = (SLIDE, CODE, ATTACHED, BARE, YIELDS)
 
 Curve: TypeAlias = tuple[FloatArray, str, str]
 """Values at the rows, colour and name."""
@@ -52,6 +51,18 @@ Curve: TypeAlias = tuple[FloatArray, str, str]
 _STATES: Final = {"yield": True, "unload": False, "reload": False, "slip": True, "reverse": True, "stick": False}
 """State that begins with an event: of a storey whether it yields, of a block whether it slides."""
 _OF_STOREY: Final = frozenset({"yield", "unload", "reload"})
+
+
+def _role(run: Run) -> Role:
+    """Role of a run: goods slide, or none, all, or the code's share of them attached."""
+    if run.attached is None:
+        return SLIDE
+    return {0.0: BARE, 1.0: ATTACHED}.get(run.attached, CODE)
+
+
+def _name(run: Run) -> str:
+    """What a history calls a run."""
+    return SLIDE.name if run.attached is None else "model"
 
 
 class Sizes(NamedTuple):
@@ -102,7 +113,7 @@ class Picture(Canvas):
         frame = self.frame(0.5 * self.duration)
         draw = ImageDraw.Draw(frame)
         for place, colour in enumerate(
-            (PAPER, INK, SOFT, LINE, REAL, MODEL, YIELD, SLAB, PALE_YIELD, PALE_REAL, *CURVES)
+            (PAPER, INK, SOFT, LINE, *(role.text for role in ROLES), SLAB, PALE_YIELD, PALE_SLIDE, *CURVES)
         ):
             draw.rectangle((20 * place, 0, 20 * place + 19, 39), fill=colour)
         return frame
@@ -153,7 +164,7 @@ class Picture(Canvas):
         scale = (BUILDINGS - top - 24.0) / total
         middle, ground = left + 0.5 * width, BUILDINGS - 24.0
         half = min(0.27 * width, max((0.42 if storeys else 1.5) * total * scale, 40.0))
-        colour = REAL if run.attached is None else MODEL
+        colour = _role(run).text
         self._text(draw, (middle, 4), run.label[:1].upper() + run.label[1:], colour, 14, "ma")
         self._text(draw, (middle, 23), run.what, SOFT, 12, "ma")
         if storeys:
@@ -178,7 +189,7 @@ class Picture(Canvas):
                 curve = _column((xs[storey] + side, ys[storey]), (xs[storey + 1] + side, ys[storey + 1]))
                 if yields and age < flash:
                     self._line(draw, curve, PALE_YIELD, thin + 12.0)
-                self._line(draw, curve, YIELD if yields else colour, 2.0 * thin + 1.0 if yields else thin)
+                self._line(draw, curve, YIELDS.text if yields else colour, 2.0 * thin + 1.0 if yields else thin)
         if scene.building is not None and scene.building.stiffness_matrix is not None:
             wall = [(x - 0.97 * half, y) for x, y in zip(xs, ys, strict=True)]
             self._line(draw, wall, SLAB, 2.0 * thin + 2.0)
@@ -243,7 +254,7 @@ class Picture(Canvas):
     ) -> None:
         """A rack with its goods; `which` is its number and that of its lowest level among the springs."""
         (place, first), (home, base, wide, high) = which, frame
-        colour, each = REAL if run.attached is None else MODEL, high / (len(drifts) + 0.72)
+        colour, each = _role(run).text, high / (len(drifts) + 0.72)
         fine, enlarged = min(2.2, max(1.0, 0.6 * sizes.thin)), self._shown.factor * sizes.scale
         xs = [home, *(home + enlarged * np.cumsum(drifts)).tolist()]
         ys = [base - each * level for level in range(len(drifts) + 1)]
@@ -253,7 +264,7 @@ class Picture(Canvas):
                 post = [(xs[level] + side, ys[level]), (xs[level + 1] + side, ys[level + 1])]
                 if yields and age < sizes.flash:
                     self._line(draw, post, PALE_YIELD, fine + 8.0)
-                self._line(draw, post, YIELD if yields else colour, 2.0 * fine + 1.0 if yields else fine)
+                self._line(draw, post, YIELDS.text if yields else colour, 2.0 * fine + 1.0 if yields else fine)
             self._box(
                 draw, (xs[level + 1] - 0.5 * wide, ys[level + 1], xs[level + 1] + 0.5 * wide, ys[level + 1] + 2), SLAB
             )
@@ -283,7 +294,7 @@ class Picture(Canvas):
     ) -> None:
         """Goods at their first place: they slide, are fixed, or a share of them is part of the floor."""
         (block, slip), (home, base, wide, high) = which, box
-        colour = REAL if run.attached is None else MODEL
+        colour = _role(run).text
         whole = (home - 0.5 * wide, base - high, home + 0.5 * wide, base)
         if run.attached is not None:
             self._box(draw, whole, None, colour)
@@ -296,7 +307,7 @@ class Picture(Canvas):
         x, enlarged = home + self._shown.factor * sizes.scale * slip, self._shown.factor * sizes.scale
         moved = (x - 0.5 * wide, base - high, x + 0.5 * wide, base)
         if slides and age < sizes.flash:
-            self._box(draw, (moved[0] - 5, moved[1] - 5, moved[2] + 5, moved[3]), PALE_REAL)
+            self._box(draw, (moved[0] - 5, moved[1] - 5, moved[2] + 5, moved[3]), PALE_SLIDE)
         self._line(draw, [(home, base + 1), (home, base + 6)], INK, 1.5)
         self._box(draw, moved, colour if slides else PAPER, colour)
         self._line(draw, [(x, base), (x, base - min(6.0, high))], PAPER if slides else colour, 1.5)
@@ -350,7 +361,11 @@ class Picture(Canvas):
         panels: list[tuple[str, list[Curve]]] = [("ground acceleration (g)", [(larger, INK, "")])]
         if scene.storeys:
             drifts = [
-                (1e3 * run.response.drift[: run.rows, shown.storey], *_COLOUR_AND_NAME[run.attached is None])
+                (
+                    1e3 * run.response.drift[: run.rows, shown.storey],
+                    _role(run).text,
+                    SLIDE.name if run.attached is None else "model",
+                )
                 for run in shown.runs
             ]
             panels.append((f"drift of storey {shown.storey + 1} (mm)", drifts))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from markupsafe import Markup
 
+from seismass.media.isolate import sentence_html
 from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
 from seismass.show.assessment.tables import AssessmentTables
 
@@ -17,17 +18,20 @@ def box_class(result: AssessmentTables) -> str:
 def answer_lines(result: AssessmentTables) -> list[Markup]:
     """Return the lines of the box."""
     document, answer = result.document, result.answer
+    names = result.storey_names
     lines = [Markup('<strong class="warn">{}</strong>').format(doubt) for doubt in document["doubt_lines"]]
-    lines.append(Markup("<strong>{}</strong>").format(_sentence(document["statement"])))
+    lines.append(Markup("<strong>{}</strong>").format(sentence_html(_sentence(document["statement"]), names)))
     if answer is not None:
         pair = zip(answer["analyses"], answer["pair"], strict=True)
-        lines += [Markup("<strong>Analysis {}: {}.</strong>").format(one["number"], words) for one, words in pair]
-        lines.append(Markup("Governs: {}.").format("; ".join(answer["governs"])))
-        lines.append(Markup("Goods present: {}.").format(answer["goods"]))
-        lines += [Markup("Why: {}.").format(answer["why"]), Markup("{}").format(_sentence(answer["design"]))]
-    lines.append(Markup("{}").format(_sentence(document["on_motions"])))
+        lines += [
+            Markup("<strong>{}</strong>").format(sentence_html(f"Analysis {one['number']}: {words}."))
+            for one, words in pair
+        ]
+        said = (f"Governs: {'; '.join(answer['governs'])}.", f"Why: {answer['why']}.", _sentence(answer["design"]))
+        lines += [sentence_html(line, names) for line in (said[0], f"Goods present: {answer['goods']}.", *said[1:])]
+    lines.append(sentence_html(_sentence(document["on_motions"])))
     if result.effective:
-        lines.append(Markup("{}").format(_code_sentence(result)))
+        lines.append(sentence_html(_code_sentence(result)))
     lines.append(_verdicts(result))
     return lines
 
@@ -46,13 +50,22 @@ def _code_sentence(result: AssessmentTables) -> str:
     )
 
 
+def _single_motions(result: AssessmentTables) -> str:
+    """Under how many motions a drift is above the limit all the same."""
+    above = result.storeys["motions_above_limit"].drop_nulls().to_numpy()
+    motions = len(result.document["suite"]["motions"])
+    return f"; under up to {above.max()} of {motions} a drift is above the limit" if above.size and above.max() else ""
+
+
 def _verdicts(result: AssessmentTables) -> Markup:
     """How many checks are met; those without a value are told apart."""
     count = result.checks.height
     failed = result.checks.filter(met=False).height
     missing = result.checks["met"].null_count()
     if not failed + missing:
-        return Markup('<span class="good">All checks are met.</span>')
+        return Markup('<span class="good">All {} checks are met, in the mean over the motions{}.</span>').format(
+            count, _single_motions(result)
+        )
     said = [f"{failed} of {count} checks are not met"] * bool(failed)
     said += [f"{missing} of {count} have no value, since runs collapse"] * bool(missing)
     return Markup('<span class="warn">{}.</span>').format("; ".join(said))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import matplotlib as mpl
 import numpy as np
@@ -14,65 +14,83 @@ from matplotlib.lines import Line2D
 
 from seismass.assessment.models import ADVISED, ATTACHED, BARE, CODE, NAMES, REAL, REAL_HIGH, REAL_LOW
 from seismass.assessment.result import Assessment, shown_figures
+from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.media.result import named_figure
-from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
+from seismass.media.roles import ADVISED as ADVISED_ROLE
+from seismass.media.roles import BARE as BARE_ROLE
+from seismass.media.roles import EFFECTIVE, GREY, INK, LAMBDA, LIMIT, MODELS, MU, OVER_MODEL, SHARE, SPECTRUM, TARGET
+from seismass.media.style import PERIOD_TICKS, STYLE, plain, shortened
 from seismass.model.codes import AS_STATED, MARK, NOT_CHECKED, VERIFIED
 from seismass.show.assessment.tables import AssessmentTables, Fraction, assessment_tables
 from seismass.show.effective_mass.figures import STORAGE_CODES, marked_legend
 
-PURPLE: Final = "#CC79A7"
-DASH: Final = (0, (5, 2))
-DOT: Final = (0, (1, 1.5))
-DASH_DOT: Final = (0, (6, 1.5, 1, 1.5))
-
-FRICTION_LOOKS: Final[dict[str, tuple[str, Any, str, str]]] = {
-    REAL: (BLUE, "-", "o", "as stated"),
-    REAL_HIGH: (VERMILION, DASH, "^", "upper bound"),
-    REAL_LOW: (GREEN, DASH_DOT, "v", "lower bound"),
-}
-"""Colour, line, marker and name of each friction."""
-MODEL_LOOKS: Final[dict[str, tuple[str, Any, str]]] = {
-    REAL: (BLUE, "-", "o"),
-    ADVISED: (VERMILION, DASH, "s"),
-    CODE: (PURPLE, DASH_DOT, "D"),
-    ATTACHED: (INK, DOT, "^"),
-    BARE: (GREY, (0, (8, 2)), "v"),
-}
-"""Colour, line and marker of each model."""
+FRICTION_NAMES: Final = {REAL: "as stated", REAL_HIGH: "upper bound", REAL_LOW: "lower bound"}
+"""What each friction is called, in the order of drawing."""
+DRAWN_MODELS: Final = (REAL, ADVISED, CODE, ATTACHED, BARE)
+"""Models of the figure of drifts, in the order of drawing."""
 
 
-def assessment_figures(result: AssessmentTables) -> dict[str, Figure]:
+class Size(NamedTuple):
+    """How wide a figure is, and how long the texts in it may be.
+
+    Attributes
+    ----------
+    width : float
+        Width (inches).
+    label, caption, name : int
+        Characters of a line of a label, of a line of the caption, and of the name of a storey.
+    columns : int
+        Columns of the legend.
+    """
+
+    width: float
+    label: int
+    caption: int
+    name: int
+    columns: int
+
+
+PAPER_SIZE: Final = Size(6.8, 88, 110, 24, 2)
+PHONE_SIZE: Final = Size(3.4, 44, 54, 12, 1)
+
+
+def assessment_figures(result: AssessmentTables, size: Size = PAPER_SIZE) -> dict[str, Figure]:
     """Return the figures of an assessment that have something to show, by name."""
     fractions = any(np.isfinite(one.value) for one in result.effective.values())
-    return {name: _drawn(result, name) for name in shown_figures(fractions, result.storeys, result.slip)}
+    return {name: _drawn(result, name, size) for name in shown_figures(fractions, result.storeys, result.slip)}
 
 
 def assessment_figure(result: Assessment, name: str | None = None) -> Figure:
     """Return a figure by its name."""
-    return _drawn(assessment_tables(result), named_figure(result, name))
+    return _drawn(assessment_tables(result), named_figure(result, name), PAPER_SIZE)
 
 
-def _drawn(result: AssessmentTables, name: str) -> Figure:
-    draw = {"effective_fraction": fraction_figure, "drift": drift_figure, "slip": slip_figure}
+def _drawn(result: AssessmentTables, name: str, size: Size) -> Figure:
+    draw = {
+        "effective_fraction": fraction_figure,
+        "drift": drift_figure,
+        "slip": slip_figure,
+        "spectrum": spectrum_figure,
+    }
     with mpl.rc_context(STYLE):
-        figure = draw[name](result)
+        figure = draw[name](result, size)
         # Lay out once, not again for every file.
         figure.draw_without_rendering()
         figure.set_layout_engine("none")
     return figure
 
 
-def fraction_figure(result: AssessmentTables) -> Figure:
+def fraction_figure(result: AssessmentTables, size: Size) -> Figure:
     """Mean largest drift with sliding goods over that of the model, against the share attached."""
-    figure = Figure(figsize=(6.8, 5.9), layout="constrained")
+    figure = Figure(figsize=(size.width, 5.9), layout="constrained")
     axes = figure.add_subplot()
     low, high = result.mu_factors
-    factors = {REAL: "", REAL_HIGH: rf", {high:g} $\mu$", REAL_LOW: rf", {low:g} $\mu$"}
+    factors = {REAL: "", REAL_HIGH: f", {high:g} {MU}", REAL_LOW: f", {low:g} {MU}"}
     for model, effective in result.effective.items():
         if not np.isfinite(effective.value):
             continue
-        colour, line, marker, name = FRICTION_LOOKS[model]
+        role, friction = MODELS[model], FRICTION_NAMES[model]
         curve = effective.curve.filter(pl.col("storey") == 0).sort("fraction")
         share = curve["fraction"].to_numpy()
         # A model that collapses drifts without limit, of which there is no ratio to draw.
@@ -82,20 +100,24 @@ def fraction_figure(result: AssessmentTables) -> Figure:
         )
         if model == REAL and curve["ratio_low"].null_count() == 0:
             label = f"{100.0 * effective.confidence:g} % interval over the motions, friction as stated"
-            axes.fill_between(share, lowest, highest, color=colour, alpha=0.15, linewidth=0.0, label=label)
-        label = rf"friction {name}{factors[model]}: $\lambda_{{eff}}$ = {_value(effective)}"
-        axes.plot(share, ratio, color=colour, linestyle=line, linewidth=1.7, label=label, marker=marker, markevery=[])
+            axes.fill_between(
+                share, lowest, highest, color=role.colour, alpha=0.15, linewidth=0.0, label=_wrapped(label, size)
+            )
+        label = _wrapped(f"friction {friction}{factors[model]}: {EFFECTIVE} {_value(effective)}", size)
+        axes.plot(share, ratio, **role.look, linewidth=1.7, label=label, marker=role.marker, markevery=[])
         at = effective.real / effective.model
-        axes.plot([effective.value], [at], color=colour, marker=marker, markersize=7.5, clip_on=False, zorder=5)
+        axes.plot(
+            [effective.value], [at], color=role.colour, marker=role.marker, markersize=7.5, clip_on=False, zorder=5
+        )
     axes.axhline(1.0, color=INK, linewidth=0.9)
     axes.set_xlim(0.0, 1.0)
-    _mark_shares(axes, result)
-    axes.set_xlabel(r"share $\lambda$ of the goods present that is attached as mass")
-    axes.set_ylabel("largest storey drift, mean over the motions:\ngoods slide / model (above 1: the model is unsafe)")
+    _mark_shares(axes, result, size)
+    axes.set_xlabel(SHARE)
+    axes.set_ylabel(f"{OVER_MODEL}, mean largest drift\n(above 1: the model is unsafe)")
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     figure.legend(loc="outside upper center", ncols=1, frameon=False)
     shown = STORAGE_CODES if result.code["use"] == "storage" else {}
-    figure.supxlabel(f"{_caption(result)}{marked_legend(shown)}", fontsize=7.5)
+    figure.supxlabel(f"{_caption(result, size)}{marked_legend(shown)}", fontsize=7.5)
     return figure
 
 
@@ -105,38 +127,39 @@ def _value(effective: Fraction) -> str:
     return f"{effective.value:.2f} [{effective.interval[0]:.2f}, {effective.interval[1]:.2f}]"
 
 
-def _mark_shares(axes: Axes, result: AssessmentTables) -> None:
+def _mark_shares(axes: Axes, result: AssessmentTables, size: Size) -> None:
     """Mark the advised share and the code's, and name those of other codes at the upper edge."""
     code, present = result.code, result.present_share
     if result.advised is not None:
         label = f"advised: {result.advised:.2f} of the goods present"
-        axes.axvline(result.advised, color=INK, linestyle=DASH, linewidth=1.2, label=label)
+        axes.axvline(result.advised, **ADVISED_ROLE.look, linewidth=1.2, label=label)
     if code["share_of_design_live_load"] <= present:
         label = (
-            f"{_plain(code['code'])}: {code['share_of_design_live_load']:.3g} of the design live load{_unchecked(code)}"
+            f"{plain(code['code'])}: {code['share_of_design_live_load'] / present:.2f} of the goods present "
+            f"({code['share_of_design_live_load']:.3g} of the design live load{_unchecked(code)})"
         )
-        axes.axvline(
-            code["share_of_design_live_load"] / present, color=PURPLE, linestyle=DASH_DOT, linewidth=1.4, label=label
-        )
+        at = code["share_of_design_live_load"] / present
+        axes.axvline(at, **MODELS[CODE].look, linewidth=1.4, label=_wrapped(label, size))
     if code["use"] != "storage":
         return
     marks = {name: share / present for name, share in STORAGE_CODES.items() if share <= present}
     upper = axes.secondary_xaxis("top")
-    names = [f"{name} {STORAGE_CODES[name]:g}" for name in marks]
+    names = [f"{name} {share:.2f}" for name, share in marks.items()]
     upper.set_xticks(list(marks.values()), names, rotation=35.0, ha="left", fontsize=7.0)
 
 
-def drift_figure(result: AssessmentTables) -> Figure:
+def drift_figure(result: AssessmentTables, size: Size) -> Figure:
     """Mean peak drift of each storey by model, with 16 and 84 % over the motions, beside the limit."""
     storeys, limit, names = result.storeys, result.drift_limit, result.storey_names
     scale = 1e3 if limit is None else 1e2
-    models = [model for model in MODEL_LOOKS if model in set(storeys.drop_nulls("mean")["model"])]
-    figure = Figure(figsize=(6.8, 2.2 + 0.85 * len(names)), layout="constrained")
+    models = [model for model in DRAWN_MODELS if model in set(storeys.drop_nulls("mean")["model"])]
+    figure = Figure(figsize=(size.width, 2.2 + 0.85 * len(names)), layout="constrained")
     axes = figure.add_subplot()
     spacing = 0.15
     handles = []
     for number, model in enumerate(models):
-        colour, line, marker = MODEL_LOOKS[model]
+        role = MODELS[model]
+        colour, line, marker = role.colour, role.line, role.marker
         rows = storeys.filter(pl.col("model") == model).sort("storey")
         mean, low, high = (scale * rows[name].cast(pl.Float64).to_numpy() for name in ("mean", "p16", "p84"))
         height = rows["storey"].to_numpy() + spacing * (0.5 * (len(models) - 1) - number)
@@ -163,38 +186,39 @@ def drift_figure(result: AssessmentTables) -> Figure:
                 linewidth=1.2,
                 marker=marker,
                 markersize=5.5,
-                label=_model_label(result, model),
+                label=_wrapped(_model_label(result, model), size),
             )
         )
     if limit is not None:
-        axes.axvline(scale * limit, color=INK, linewidth=1.4)
-        handles.append(Line2D([], [], color=INK, linewidth=1.4, label=f"limit, {scale * limit:g} %"))
+        axes.axvline(scale * limit, **LIMIT.look, linewidth=1.4)
+        handles.append(Line2D([], [], **LIMIT.look, linewidth=1.4, label=f"{LIMIT.name}, {scale * limit:g} %"))
     axes.set_xlim(0.0, None)
     axes.set_ylim(0.5, len(names) + 0.5)
     labels = [f"{number} {name}".strip() for number, name in enumerate(names, start=1)]
-    axes.set_yticks(range(1, len(names) + 1), [_plain(label) for label in labels])
+    axes.set_yticks(range(1, len(names) + 1), [shortened(plain(label), size.name) for label in labels])
     axes.set_ylabel("storey")
     unit = "mm" if limit is None else "% of the height"
-    axes.set_xlabel(f"peak storey drift, {unit}: mean over the motions, and from 16 to 84 % of them")
+    axes.set_xlabel(f"peak storey drift, {unit}\n(mean over the motions, and from 16 to 84 % of them)")
     axes.grid(axis="x", color=GREY, alpha=0.25, linewidth=0.5)
     for edge in np.arange(1.5, len(names)):
         axes.axhline(edge, color=GREY, alpha=0.35, linewidth=0.6)
-    figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
-    figure.supxlabel(_caption(result), fontsize=7.5)
+    figure.legend(handles=handles, loc="outside upper center", ncols=size.columns, frameon=False)
+    figure.supxlabel(_caption(result, size), fontsize=7.5)
     return figure
 
 
-def slip_figure(result: AssessmentTables) -> Figure:
+def slip_figure(result: AssessmentTables, size: Size) -> Figure:
     """Peak and residual slip of the goods of each floor, by friction, with their scatter over the motions."""
     slip = result.slip
     kinds = list(dict.fromkeys(slip.sort("floor", maintain_order=True).select("floor", "goods").iter_rows()))
-    models = [model for model in FRICTION_LOOKS if model in set(slip["model"])]
-    figure = Figure(figsize=(6.8, 2.1 + 0.75 * len(kinds)), layout="constrained")
+    models = [model for model in FRICTION_NAMES if model in set(slip["model"])]
+    figure = Figure(figsize=(size.width, 2.1 + 0.75 * len(kinds)), layout="constrained")
     axes = figure.add_subplot()
     places = {kind: number for number, kind in enumerate(kinds, start=1)}
     handles = []
     for number, model in enumerate(models):
-        colour, _, marker, name = FRICTION_LOOKS[model]
+        role, name = MODELS[model], FRICTION_NAMES[model]
+        colour, marker = role.colour, role.marker
         rows = slip.filter(pl.col("model") == model).sort("floor", maintain_order=True)
         offset = 0.22 * (0.5 * (len(models) - 1) - number)
         height = np.array([places[kind] + offset for kind in rows.select("floor", "goods").iter_rows()])
@@ -218,7 +242,7 @@ def slip_figure(result: AssessmentTables) -> Figure:
             markerfacecolor="white",
         )
         mu = rows["mu_s"].unique().to_list()
-        value = rf", $\mu_s$ = {mu[0]:.3g}" if len(mu) == 1 else ""
+        value = f", {MU}_s = {mu[0]:.3g}" if len(mu) == 1 else ""
         handles.append(Line2D([], [], color=colour, linewidth=1.5, marker=marker, label=f"friction {name}{value}"))
     handles += [
         Line2D([], [], color=GREY, linewidth=1.5, marker="o", label="peak: mean, and 16 to 84 % of the motions"),
@@ -227,7 +251,7 @@ def slip_figure(result: AssessmentTables) -> Figure:
     ]
     names = result.storey_names
     labels = [" ".join(part for part in (str(floor), names[floor - 1], goods) if part) for floor, goods in kinds]
-    axes.set_yticks(range(1, len(kinds) + 1), [_plain(label) for label in labels])
+    axes.set_yticks(range(1, len(kinds) + 1), [shortened(plain(label), size.name) for label in labels])
     axes.set_ylim(0.5, len(kinds) + 0.5)
     axes.set_xlim(left=0.0)
     if not slip["peak_max"].max():
@@ -239,8 +263,44 @@ def slip_figure(result: AssessmentTables) -> Figure:
     axes.grid(axis="x", color=GREY, alpha=0.25, linewidth=0.5)
     for edge in np.arange(1.5, len(kinds)):
         axes.axhline(edge, color=GREY, alpha=0.35, linewidth=0.6)
-    figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
-    figure.supxlabel(_caption(result), fontsize=7.5)
+    figure.legend(handles=handles, loc="outside upper center", ncols=size.columns, frameon=False)
+    figure.supxlabel(_caption(result, size), fontsize=7.5)
+    return figure
+
+
+def spectrum_figure(result: AssessmentTables, size: Size) -> Figure:
+    """Mean and scatter of the spectra of the scaled motions beside the site spectrum, with the range of scaling."""
+    table = result.spectra
+    period = table["period"].to_numpy()
+    figure = Figure(figsize=(size.width, 4.4), layout="constrained")
+    axes = figure.add_subplot()
+    low, mean, high = (table[name].to_numpy() / STANDARD_GRAVITY for name in ("p16", "mean", "p84"))
+    motions = len(result.document["suite"]["motions"])
+    axes.fill_between(period, low, high, color=SPECTRUM.colour, alpha=0.2, linewidth=0.0, label="16 to 84 % of them")
+    axes.plot(period, mean, **SPECTRUM.look, linewidth=2.0, label=f"mean of {motions} motions, scaled")
+    if table["target"].null_count() < table.height:
+        wanted = table["target"].cast(pl.Float64).fill_null(np.nan).to_numpy() / STANDARD_GRAVITY
+        axes.plot(period, wanted, **TARGET.look, linewidth=1.8, label=_wrapped("site spectrum", size))
+    given = result.document["input"]
+    bare, attached = given["period_bare"], given["period_attached"]
+    axes.axvline(bare, **BARE_ROLE.look, linewidth=1.1, label=f"first period {bare:.3g} s, {BARE_ROLE.name}")
+    role = MODELS[ATTACHED]
+    axes.axvline(attached, **role.look, linewidth=1.3, label=f"first period {attached:.3g} s, {role.name}")
+    if result.document["scaling"] is not None:
+        first, last = result.document["scaling"]["periods"]
+        text = f"range of scaling, {first:.2g} to {last:.2g} s"
+        axes.axvspan(first, last, color=GREY, alpha=0.12, linewidth=0.0, label=text)
+    axes.set_xscale("log")
+    axes.set_xlim(period[0], period[-1])
+    axes.set_ylim(0.0, None)
+    ticks = [tick for tick in PERIOD_TICKS if period[0] <= tick <= period[-1]]
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.minorticks_off()
+    axes.set_xlabel("period (s)")
+    axes.set_ylabel("pseudo-acceleration, 5 % damping (g)")
+    axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
+    figure.legend(loc="outside upper center", ncols=size.columns, frameon=False)
+    figure.supxlabel(_caption(result, size), fontsize=7.5)
     return figure
 
 
@@ -251,25 +311,23 @@ def _unchecked(code: dict[str, Any]) -> str:
 
 def _model_label(result: AssessmentTables, model: str) -> str:
     if model == ADVISED and result.advised is not None:
-        return rf"advised, $\lambda$ = {result.advised:.2f} of the goods"
+        return f"{ADVISED_ROLE.name} (analysis 1): {LAMBDA} = {result.advised:.2f} of the goods"
     if model == CODE:
         code = result.code
-        return f"{_plain(code['code'])}, {code['share_of_design_live_load']:.3g} of the live load{_unchecked(code)}"
-    return {REAL: "goods slide, friction as stated", ATTACHED: "all goods attached", BARE: "no goods attached"}.get(
-        model, NAMES[model]
-    )
+        return f"{plain(code['code'])}, {code['share_of_design_live_load']:.3g} of the live load{_unchecked(code)}"
+    added = {REAL: ", friction as stated", BARE: " (analysis 2)"}.get(model, "")
+    return f"{NAMES[model]}{added}"
 
 
-def _caption(result: AssessmentTables) -> str:
+def _wrapped(text: str, size: Size) -> str:
+    return textwrap.fill(text, size.label)
+
+
+def _caption(result: AssessmentTables, size: Size) -> str:
     document = result.document
     suite = document["suite"]
     kind = " (synthetic, none recorded)" if suite["synthetic"] == len(suite["motions"]) else ""
     lines = [f"{document['name']};  {len(suite['motions'])} motions{kind}"]
     if document["target"] is not None and result.scaling is not None:
         lines.append(f"scaled to {document['target']['label']}")
-    return _plain("\n".join(textwrap.fill(line, 110) for line in lines))
-
-
-def _plain(text: str) -> str:
-    """Return a text of the user's in which matplotlib finds no formula."""
-    return text.replace("$", r"\$")
+    return plain("\n".join(textwrap.fill(line, size.caption) for line in lines))

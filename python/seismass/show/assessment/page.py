@@ -1,39 +1,57 @@
-"""The page of an assessment, for the calculation folder: answer, input, checks, result, advice, limits, provenance."""
+"""The page of an assessment, for the calculation folder: the sheet for the file, input, method, results, provenance."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, Final
+from typing import Final
 
 import polars as pl
 from markupsafe import Markup
 
 from seismass.assessment.models import ADVISED, BARE, NAMES, REAL, REAL_HIGH, REAL_LOW
-from seismass.base.units import STANDARD_GRAVITY
 from seismass.effective_mass.estimate import RULE, RULE_IN_WORDS, SAFE_RULE
 from seismass.effective_mass.result import KIND_TEXTS
 from seismass.effective_mass.rules import BY_HAND
+from seismass.media.isolate import sentence_html
+from seismass.media.live_address import PAGE as LIVE_PAGE
 from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
+from seismass.media.page_lists import bullets_html, long_html
+from seismass.media.roles import EFFECTIVE, ETA, LAMBDA, MU, OMEGA, OVER_MODEL, lettered
 from seismass.media.svg import short_svg
 from seismass.media.text_table import number_text
-from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
-from seismass.show.assessment.box import answer_lines, box_class
+from seismass.show.animation.html import element_html
+from seismass.show.assessment.live import own_case
+from seismass.show.assessment.page_input import input_html
+from seismass.show.assessment.sheet import NOT_COVERED, sheet_html, signed_percent
 from seismass.show.assessment.tables import AssessmentTables, Fraction
-from seismass.show.study.page import bullets_html, long_html
 
 LIMITS: Final = (
-    "Shear buildings in one direction: no torsion, no flexible floors, no foundation.",
-    "Rigid goods that slide by Coulomb friction; goods that rock, topple, strike or deform are not covered.",
-    "Trilinear storeys without loss of strength but by P-Delta; Omega, r2 and r3 decide about large drifts.",
+    "Shear buildings, in each direction by themselves: no torsion, no flexible floors, no foundation.",
+    NOT_COVERED,
+    f"Trilinear storeys without loss of strength but by P-Delta; {OMEGA}, r2 and r3 decide about large drifts.",
     "The interval of a fraction resamples these motions, and is 0.05 wider at each end for another suite.",
     "This page checks drift and stability of a model. It replaces neither the design of members nor the judgement of "
     "the engineer who signs it.",
 )
 """What the page does not cover."""
+METHOD: Final = (
+    "Model: a shear building with a trilinear spring in each storey; goods are rigid blocks that stick and slide with "
+    "Coulomb friction. Runs go exactly from event to event (yielding, sliding, sticking), without a time step.",
+    "Motions: scaled so that the mean of their 5 % spectra is not below that of the site from 0.2 T to 1.5 T.",
+    f"Share: models with a share {LAMBDA} of the goods attached as mass are solved under the same motions. The "
+    f"{EFFECTIVE} is that share at which the largest storey drift, mean over the motions, is that with goods that "
+    "slide; at friction as stated and at its bounds.",
+    f"Answer: {LAMBDA} is the largest of these fractions, rounded up to a multiple of 0.05. A second analysis has no "
+    "goods. The larger drift of each storey counts.",
+    "Checks: the mean peak drift of each storey, and P d/(V h) at mean peaks, beside their limits.",
+)
+"""How the numbers came about."""
 
 
-def building_page(result: AssessmentTables, drawings: Mapping[str, str]) -> str:
+def building_page(
+    result: AssessmentTables, drawings: Mapping[str, str], for_phones: Mapping[str, str] | None = None
+) -> str:
     """Return the page as HTML.
 
     Parameters
@@ -42,6 +60,8 @@ def building_page(result: AssessmentTables, drawings: Mapping[str, str]) -> str:
         The assessment, as its folder holds it.
     drawings : mapping of str to str
         SVG texts of its figures, by name.
+    for_phones : mapping of str to str, optional
+        The same for narrow screens.
 
     Returns
     -------
@@ -49,22 +69,53 @@ def building_page(result: AssessmentTables, drawings: Mapping[str, str]) -> str:
         A page that needs nothing but itself; equal tables give equal pages.
     """
     document = result.document
+    pictures = _Pictures(drawings, for_phones or {})
+    names = names_of(result)
+
+    def listed(lines: list[str]) -> Markup:
+        return bullets_html(sentence_html(line, names) for line in lines)
+
     sections = [
-        Section("Input as understood", _input(result)),
+        Section("Input as understood", input_html(result)),
+        Section("Method", [bullets_html(METHOD)]),
+        Section("Effective fraction", _fractions(result, pictures)),
+        Section("Drifts", _drifts(result, pictures)),
+        *([Section("Slip of the goods", _slip(result, pictures))] if result.slip.height else []),
+        Section("In an analysis", [listed(document["advice"]), *_analysis(result)]),
         Section("Checks", [_checks(result)]),
-        Section("Effective fraction", _fractions(result, drawings)),
-        Section("Drifts", _drifts(result, drawings)),
-        *([Section("Slip of the goods", _slip(result, drawings))] if result.slip.height else []),
-        Section("In an analysis", [bullets_html(document["advice"]), *_masses(result)]),
-        Section("Remarks", [bullets_html(document["remarks"] or ["None."])]),
-        Section("Assumptions", [bullets_html(document["assumptions"])]),
-        Section("Limits of this page", [bullets_html(list(LIMITS))]),
+        Section("Motions", _motions(result, pictures)),
+        Section("The building in motion", _in_motion(result)),
+        Section("Remarks", [listed(document["remarks"] or ["None."])]),
+        Section("Assumptions", [listed(document["assumptions"])]),
+        Section("Limits of this page", [bullets_html(LIMITS)]),
         Section("Provenance", _provenance(result)),
     ]
-    lead = [Markup('<div class="{}">{}</div>').format(box_class(result), text_html(*answer_lines(result)))]
     version = f"seismass {document['metadata']['package_version']}"
     subtitle = "; ".join(part for part in (document["note"], version) if part)
-    return page_html(document["name"] or "Building", sections, subtitle=subtitle, lead=lead)
+    title = document["name"] or "Building"
+    description = f"{title}: how much of its live load acts as mass in an earthquake, drifts, stability and slips."
+    return page_html(title, sections, subtitle=subtitle, description=description, lead=[sheet_html(result)])
+
+
+def names_of(result: AssessmentTables) -> list[str]:
+    """Return the names of the user's that sentences may contain."""
+    document = result.document
+    goods = [kind["name"] for kind in document["input"]["goods"]]
+    return [document["name"], document["suite"]["name"], *result.storey_names, *goods, *document["suite"]["motions"]]
+
+
+class _Pictures:
+    """Drawings by name, as figures of the page, each with the one for phones."""
+
+    def __init__(self, drawings: Mapping[str, str], for_phones: Mapping[str, str]) -> None:
+        self._drawings, self._for_phones = drawings, for_phones
+
+    def figure(self, name: str, caption: str, alt: str) -> Markup:
+        """Return one figure; nothing where there is no such drawing."""
+        if name not in self._drawings:
+            return Markup("")
+        narrow = short_svg(self._for_phones[name]) if name in self._for_phones else None
+        return figure_html(short_svg(self._drawings[name]), caption, alt, narrow=narrow)
 
 
 def _number(value: float | None, digits: int = 2) -> str:
@@ -77,101 +128,32 @@ def _interval(fraction: Fraction) -> str:
     return f"{_number(fraction.interval[0])} to {_number(fraction.interval[1])}"
 
 
-def _input(result: AssessmentTables) -> list[Markup]:
-    given, code, document = result.document["input"], result.code, result.document
-    rule = given["design"]
-    facts = {
-        "Weight of the building": f"{1e-3 * given['weight']:.0f} kN",
-        "Weight of the goods present": f"{1e-3 * given['weight_of_goods']:.0f} kN, "
-        f"{100.0 * result.present_share:.0f} % of the design live load",
-        "First period": f"{given['period_bare']:.3f} s without goods, {given['period_attached']:.3f} s with all "
-        "attached",
-        "Damping": f"{100.0 * given['damping']:g} % in the modes of the building without goods",
-        "Strength": "as stated"
-        if rule is None
-        else f"V_y = V_e/R, R = {rule['R']:g}, {rule['combination'].upper()}, with {rule['fraction']:g} of the design "
-        "live load",
-        "P-Delta": "with the weight of building and goods" if given["p_delta"] else "none",
-        "Bounds of friction": "{:g} and {:g} times mu".format(*given["mu_factors"]),
-        "Code": f"{code['code']}, {code['use']}: {code['share_of_design_live_load']:.3g} of the design live load"
-        + "".join(f"; {code[name]}" for name in ("clause", "status", "note") if code[name])
-        + ("" if code["status"] in (VERIFIED, AS_STATED) else f"; {NOT_CHECKED}"),
-        "Site spectrum": "none" if document["target"] is None else document["target"]["label"],
-        "Motions": f"{document['suite']['name']}: {', '.join(document['suite']['motions'])}",
-    }
-    if given["file"]:
-        facts = {"File": given["file"], **facts}
-    storeys = pl.DataFrame(given["storeys"], infer_schema_length=None).drop("live_load", "bolted", "goods")
-    names = {
-        "height": "height (m)",
-        "mass": "mass (t)",
-        "stiffness": "stiffness (kN/mm)",
-        "yield_shear": "V_y (kN)",
-        "overstrength": "Omega",
-        "second_slope": "r2",
-        "third_slope": "r3",
-        "code_fraction": "code's fraction",
-        "code_exception": "why",
-    }
-    thousandth = dict.fromkeys(("mass", "yield_shear"), _thousandth)
-    formats: dict[str, Any] = {**thousandth, "stiffness": lambda value: f"{1e-6 * value:.1f}"}
-    unused = [name for name in ("name", "code_exception") if not any(storeys[name])]
-    caption = "Storeys, from the ground up; the code's fraction is that of the design live load of the floor."
-    return [
-        facts_html(facts),
-        table_html(
-            storeys.drop(unused),
-            caption,
-            headers={name: header for name, header in names.items() if name not in unused},
-            formats=formats,
-        ),
-        *_goods(given["goods"]),
-    ]
-
-
-def _goods(rows: list[dict[str, Any]]) -> list[Markup]:
-    """Goods of each kind on each floor."""
-    if not rows:
-        return []
-    goods = pl.DataFrame(rows, infer_schema_length=None).select(
-        "floor",
-        "name",
-        pl.col("live_load") * STANDARD_GRAVITY,
-        "occupied",
-        "presence",
-        pl.when("attached").then(pl.lit("bolted")).otherwise("contact").alias("contact"),
-        "mu_s",
-        "mu_k",
-    )
-    unused = [name for name in ("name", "contact") if not any(goods[name])]
-    return [
-        table_html(
-            goods.drop(unused).rename({} if "name" in unused else {"name": "goods"}),
-            "Goods, kind by kind. Bolted ones are part of the mass of their floor.",
-            headers={
-                "live_load": "design live load (kN)",
-                "occupied": "present",
-                "presence": "how that is known",
-            },
-            formats={"live_load": _thousandth, "occupied": ".2f", "presence": long_html, "mu_s": ".3g", "mu_k": ".3g"},
-        )
-    ]
-
-
-def _thousandth(value: float) -> str:
-    return f"{1e-3 * value:.0f}"
-
-
 def _checks(result: AssessmentTables) -> Markup:
-    table = result.checks.with_columns(
-        model=pl.col("model").replace_strict(NAMES, default=pl.col("model"), return_dtype=pl.String),
-        met=pl.col("met").cast(pl.String).replace_strict({"true": "met", "false": "not met"}, default="no value"),
-    )
+    rows = []
+    for row in result.checks.iter_rows(named=True):
+        in_percent = row["check"] == "mean drift ratio"
+        scale, form, unit = (1e2, ".2f", " %") if in_percent else (1.0, ".3g", "")
+        margin = "\N{EN DASH}"
+        if row["value"] is not None and row["limit"]:
+            margin = signed_percent(100.0 * (1.0 - row["value"] / row["limit"]))
+        rows.append(
+            {
+                "check": row["check"],
+                "model": NAMES.get(row["model"], row["model"]),
+                "storey": row["storey"],
+                "value": None if row["value"] is None else f"{scale * row['value']:{form}}{unit}",
+                "limit": f"{scale * row['limit']:g}{unit}",
+                "margin": margin,
+                "met": {True: "met", False: "not met", None: "no value"}[row["met"]],
+                "source": row["source"],
+            }
+        )
+    schema = {"storey": pl.UInt32, "value": pl.String, "source": pl.String}
     return table_html(
-        table.select("check", "model", "storey", "value", "limit", "met", "source"),
+        pl.DataFrame(rows, schema_overrides=schema),
         "Largest value over the storeys beside its limit. Drift and stability are those of the means over the motions.",
         headers={"met": "verdict", "source": "limit by"},
-        formats={"met": _verdict, "value": ".4g", "limit": ".4g", "source": long_html},
+        formats={"met": _verdict, "source": long_html},
     )
 
 
@@ -180,11 +162,7 @@ def _verdict(text: str) -> Markup:
     return Markup('<span class="{}">{}</span>').format(looks.get(text, ""), text)
 
 
-def _figure(drawings: Mapping[str, str], name: str, caption: str, alt: str) -> Markup:
-    return figure_html(short_svg(drawings[name]), caption, alt) if name in drawings else Markup("")
-
-
-def _fractions(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Markup]:
+def _fractions(result: AssessmentTables, pictures: _Pictures) -> list[Markup]:
     if not result.effective:
         return [text_html("There are no goods on the floors.")]
     low, high = result.mu_factors
@@ -194,7 +172,7 @@ def _fractions(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Ma
             "friction": words[model],
             "value": "no value" if math.isnan(one.value) else f"{one.value:.2f}",
             "interval": _interval(one) + ("" if one.statistic == "mean" else f", by the {one.statistic}"),
-            "kind": f"{one.kind}: {KIND_TEXTS[one.kind]}",
+            "kind": KIND_TEXTS[one.kind],
             "eta": one.eta,
             "estimate": one.estimate,
             "conservative": one.conservative,
@@ -205,10 +183,9 @@ def _fractions(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Ma
     real = result.effective[REAL]
     rule = real.by_hand
     return [
-        _figure(
-            drawings,
+        pictures.figure(
             "effective_fraction",
-            "Mean largest drift with sliding goods over that of the model, against the share of the goods attached.",
+            f"Mean largest drift, {OVER_MODEL}, against the share {LAMBDA} of the goods attached.",
             f"The curve for friction as stated crosses one at a share of {_number(real.value)}."
             if math.isfinite(real.value)
             else "For friction as stated there is no share.",
@@ -216,16 +193,18 @@ def _fractions(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Ma
         table_html(
             pl.DataFrame(rows),
             f"Effective fraction of the goods present by friction; C1 = {real.base_shear_coefficient:.4f} is the mean "
-            f"peak base shear of the runs with all goods attached over the weight of all, eta = mu_k/C1; without a run "
-            f"C1 = {rule.base_shear_coefficient:.4f} and eta = {rule.eta:.3f}. {RULE_IN_WORDS}: here p = "
-            f"{rule.exponent:.2f}, T = {rule.period:.3g} s, T_c = {rule.corner_period:.3g} s, h_g/h_m = "
+            f"peak base shear of the runs with all goods attached over the weight of all, {ETA} = {MU}_k/C1; without "
+            f"a run C1 = {rule.base_shear_coefficient:.4f} and {ETA} = {rule.eta:.3f}. {lettered(RULE_IN_WORDS)}: here "
+            f"p = {rule.exponent:.2f}, T = {rule.period:.3g} s, T_c = {rule.corner_period:.3g} s, h_g/h_m = "
             f"{rule.height_ratio:.2f}.",
             headers={
-                "value": "effective fraction",
+                "value": EFFECTIVE,
+                "kind": "what that is",
                 "interval": f"{100.0 * real.confidence:g} % interval",
-                "estimate": RULE,
-                "conservative": f"{SAFE_RULE}, conservative",
-                "by_hand": BY_HAND,
+                "eta": ETA,
+                "estimate": lettered(RULE),
+                "conservative": f"{lettered(SAFE_RULE)}, conservative",
+                "by_hand": lettered(BY_HAND),
             },
             formats={
                 "kind": long_html,
@@ -235,7 +214,7 @@ def _fractions(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Ma
     ]
 
 
-def _drifts(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Markup]:
+def _drifts(result: AssessmentTables, pictures: _Pictures) -> list[Markup]:
     ratio = result.drift_limit is not None
     scale, unit = (1e2, "%") if ratio else (1e3, "mm")
     names = {name: f"{name} ({unit})" for name in ("mean", "p16", "median", "p84", "max")}
@@ -256,8 +235,7 @@ def _drifts(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Marku
         said = f"The largest mean is {scale * row['mean']:.2f} {unit}, storey {row['storey']}, {NAMES[row['model']]}."
     return [
         *([_governing(result, scale, unit)] if result.answer is not None else []),
-        _figure(
-            drawings,
+        pictures.figure(
             "drift",
             "Mean peak drift of each storey by model, with 16 to 84 % of the motions"
             + (", beside the limit." if ratio else "."),
@@ -281,9 +259,9 @@ def _governing(result: AssessmentTables, scale: float, unit: str) -> Markup:
     headers = {
         ADVISED: f"analysis 1 ({unit})",
         BARE: f"analysis 2 ({unit})",
-        REAL: f"goods slide, mu as stated ({unit})",
-        REAL_HIGH: f"mu x {high:g} ({unit})",
-        REAL_LOW: f"mu x {low:g} ({unit})",
+        REAL: f"goods slide, {MU} as stated ({unit})",
+        REAL_HIGH: f"{high:g} {MU} ({unit})",
+        REAL_LOW: f"{low:g} {MU} ({unit})",
         "governing": f"governs ({unit})",
         "limit": f"limit ({unit})",
         "governed_by": "governed by",
@@ -297,15 +275,18 @@ def _governing(result: AssessmentTables, scale: float, unit: str) -> Markup:
         table,
         "Mean peak drift of each storey in both analyses and with goods that slide; the largest governs.",
         headers={name: headers[name] for name in shown},
-        formats=dict.fromkeys(drifts, lambda value: f"{scale * value:.2f}"),
+        formats={
+            **dict.fromkeys(drifts, lambda value: f"{scale * value:.2f}"),
+            **({"governed_by": sentence_html} if "governed_by" in shown else {}),
+        },
     )
 
 
-def _masses(result: AssessmentTables) -> list[Markup]:
+def _analysis(result: AssessmentTables) -> list[Markup]:
     """What to type into another program."""
     if result.answer is None:
         return []
-    table = result.masses
+    table = result.analysis
     if not any(table["name"]):
         table = table.drop("name")
     return [
@@ -314,16 +295,16 @@ def _masses(result: AssessmentTables) -> list[Markup]:
             "Mass of each floor in both analyses, for another program, and the multiplier of the design live load in "
             "its mass source.",
             headers={
-                "mass_1": "analysis 1: mass (t)",
-                "weight_1": "weight (kN)",
+                "mass_1_t": "analysis 1: mass (t)",
+                "weight_1_kn": "weight (kN)",
                 "multiplier_1": "multiplier of the live load",
-                "mass_2": "analysis 2: mass (t)",
-                "weight_2": "weight (kN)",
+                "mass_2_t": "analysis 2: mass (t)",
+                "weight_2_kn": "weight (kN)",
                 "multiplier_2": "multiplier",
             },
             formats={
-                **dict.fromkeys(("mass_1", "mass_2"), lambda value: f"{1e-3 * value:.1f}"),
-                **dict.fromkeys(("weight_1", "weight_2"), _thousandth),
+                **dict.fromkeys(("mass_1_t", "mass_2_t"), ".1f"),
+                **dict.fromkeys(("weight_1_kn", "weight_2_kn"), ".0f"),
                 "multiplier_1": ".2f",
                 "multiplier_2": ".2f",
             },
@@ -331,7 +312,7 @@ def _masses(result: AssessmentTables) -> list[Markup]:
     ]
 
 
-def _slip(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Markup]:
+def _slip(result: AssessmentTables, pictures: _Pictures) -> list[Markup]:
     names = {
         "peak_mean": "peak, mean (mm)",
         "peak_median": "median (mm)",
@@ -344,8 +325,7 @@ def _slip(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Markup]
     table = result.slip.select("friction", "floor", "name", "goods", "mu_s", "mu_k", "motions_that_slide", *names)
     table = table.drop([name for name in ("name", "goods") if not any(table[name])])
     return [
-        _figure(
-            drawings,
+        pictures.figure(
             "slip",
             "Slip of the goods of each floor by friction: what aisles and edges must allow for.",
             f"The largest slip of any motion is {1e3 * float(largest.max()) if largest.size else 0.0:.0f} mm.",
@@ -353,29 +333,34 @@ def _slip(result: AssessmentTables, drawings: Mapping[str, str]) -> list[Markup]
         table_html(
             table,
             "Peak and residual slip over the motions.",
-            headers={**names, "motions_that_slide": "motions in which goods slide"},
+            headers={
+                **names,
+                "motions_that_slide": "motions in which goods slide",
+                "mu_s": f"{MU}_s",
+                "mu_k": f"{MU}_k",
+            },
             formats={**dict.fromkeys(names, lambda value: f"{1e3 * value:.1f}"), "mu_s": ".3g", "mu_k": ".3g"},
         ),
     ]
 
 
-def _provenance(result: AssessmentTables) -> list[Markup]:
-    about = result.document["metadata"]
-    facts = {
-        "Program": f"seismass {about['package_version']}",
-        "Instruction set": str(about["instructions"]),
-        "Version of the tables": str(about["schema_version"]),
-        "Inputs (SHA-256)": about["inputs_sha256"],
-        "Bootstrap": f"{about['resamples']} resamples, seed {about['seed']}",
-        "Runs": f"{result.runs.filter(storey=1).height} of {len(result.document['collapses'])} models under "
-        f"{about['motions']} motions",
-    }
-    parts = [facts_html(facts)]
+def _motions(result: AssessmentTables, pictures: _Pictures) -> list[Markup]:
+    given, target = result.document["input"], result.document["target"]
+    site = "" if target is None else " beside the site spectrum"
+    parts = [
+        text_html(sentence_html(f"The answer stands {result.document['on_motions']}.")),
+        pictures.figure(
+            "spectrum",
+            f"Spectra of the motions as they load the building{site}; first periods without goods and with all.",
+            f"Mean and scatter of the spectra of the motions{site}; first periods {given['period_bare']:.3g} and "
+            f"{given['period_attached']:.3g} s.",
+        ),
+    ]
     if result.scaling is not None:
         parts.append(
             table_html(
                 result.scaling,
-                "Scaling factors.",
+                "Scaling factors: that of each motion is its own times the common one.",
                 headers={
                     "motion": "number",
                     "record": "motion",
@@ -386,3 +371,56 @@ def _provenance(result: AssessmentTables) -> list[Markup]:
             )
         )
     return parts
+
+
+def _in_motion(result: AssessmentTables) -> list[Markup]:
+    """The building under one motion, and the way to the live page."""
+    parts = []
+    if result.animation is not None:
+        about = result.animation["about"]
+        beside = (
+            f", beside a model with {100.0 * about['fraction']:.0f} % of the goods present attached, the code's share"
+        )
+        parts += [
+            text_html(
+                sentence_html(
+                    f"Under {about['motion']}, motion {about['number']}, scaled by {about['factor']:.3g} to a peak of "
+                    f"{about['peak_g']:.2f} g: the motion with the median drift of those under which goods slide"
+                    f"{beside if result.effective else ''}.",
+                    names_of(result),
+                )
+            ),
+            element_html(result.animation["element"]),
+        ]
+    return [*parts, *_live(result)]
+
+
+def _live(result: AssessmentTables) -> list[Markup]:
+    case, reasons, differences = own_case(result)
+    if case is None:
+        return [text_html(f"The live page cannot show this building: {'; '.join(reasons)}.")]
+    link = Markup(
+        '<a class="live" href="{page}#{address}">Open it in the live page</a> ({page} in the folder of this page, '
+        "which <code>seismass building</code> writes where the package carries the kernel for browsers). There:"
+    ).format(page=LIVE_PAGE, address=case.address)
+    return [text_html(link), bullets_html(f"{lettered(line)}." for line in differences)]
+
+
+def _provenance(result: AssessmentTables) -> list[Markup]:
+    about = result.document["metadata"]
+    runs, models = result.runs.filter(storey=1).height, len(result.document["collapses"])
+    return [
+        facts_html(
+            {
+                "Program": f"seismass {about['package_version']}",
+                "Runs": f"{runs}: {models} models under {about['motions']} motions each, beside those of the fractions",
+                "Intervals": f"{100.0 * about['confidence']:g} %, by {about['resamples']} resamples of the motions "
+                f"(bootstrap, random seed {about['seed']})",
+                "Damping of the models": str(about["damping"]),
+                "Inputs, SHA-256": about["inputs_sha256"],
+                "Processor instructions": f"{about['instructions']}; with the same ones numbers are the same bits on "
+                "every machine",
+                "Format of the tables": f"version {about['schema_version']}",
+            }
+        )
+    ]

@@ -10,17 +10,23 @@ from typing import Any, Final
 
 import polars as pl
 
+from seismass.animation import animate
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.base.errors import InvalidOption
 from seismass.base.files import read_file, read_table
+from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import brief, refusal
 from seismass.effective_mass import ByHand
 from seismass.effective_mass.curve import Kind
 from seismass.media.folder import as_written
+from seismass.model.scene import Scene
+from seismass.show.animation.html import element_content
 
 DOCUMENT: Final = "assessment.json"
 """File by which a folder is known as that of an assessment."""
-NEEDED: Final = ("storeys", "governing", "masses", "slip", "runs", "checks")
+NEEDED: Final = ("storeys", "governing", "analysis", "slip", "runs", "checks", "spectra")
+ANIMATION: Final = "animation.json"
+"""File of what the animation shows."""
 
 
 @dataclass(frozen=True)
@@ -53,23 +59,27 @@ class AssessmentTables:
     ----------
     document : dict
         What assessment.json holds.
-    storeys, governing, masses, slip, runs, checks : polars.DataFrame
+    storeys, governing, analysis, slip, runs, checks, spectra : polars.DataFrame
         Tables of the assessment.
     scaling : polars.DataFrame or None
         Factors of the motions.
     effective : dict of str to Fraction
         Effective fractions by friction, with their curves.
+    animation : dict or None
+        What the animation of the building shows, where it was made.
     """
 
     document: dict[str, Any]
     storeys: pl.DataFrame = field(repr=False)
     governing: pl.DataFrame = field(repr=False)
-    masses: pl.DataFrame = field(repr=False)
+    analysis: pl.DataFrame = field(repr=False)
     slip: pl.DataFrame = field(repr=False)
     runs: pl.DataFrame = field(repr=False)
     checks: pl.DataFrame = field(repr=False)
+    spectra: pl.DataFrame = field(repr=False)
     scaling: pl.DataFrame | None = field(repr=False)
     effective: dict[str, Fraction] = field(repr=False)
+    animation: dict[str, Any] | None = field(repr=False)
 
     @property
     def answer(self) -> dict[str, Any] | None:
@@ -111,9 +121,18 @@ class AssessmentTables:
         return [row["name"] for row in self.document["input"]["storeys"]]
 
 
-def assessment_tables(result: Assessment) -> AssessmentTables:
-    """Return what a folder of the assessment holds."""
-    return _made(json.loads(result.to_json()), result.tables)
+def assessment_tables(result: Assessment, *, animated: bool = False) -> AssessmentTables:
+    """Return what a folder of the assessment holds; the animation, which is solved for, only where it is asked for.
+
+    In two directions there is none in a page.
+    """
+    shown = _animation(result) if animated and result.example.scene.other_direction is False else None
+    return _made(json.loads(result.to_json()), result.tables, shown)
+
+
+def _is_animated(scene: Scene) -> bool:
+    """Whether an animation can show a scene: one direction, on firm ground."""
+    return scene.base is None and scene.other_direction is False
 
 
 def read_assessment_tables(folder: Path) -> AssessmentTables:
@@ -143,10 +162,32 @@ def read_assessment_tables(folder: Path) -> AssessmentTables:
         except pl.exceptions.PolarsError as error:
             raise refusal(InvalidOption, "content", path.name, "a Parquet table", f"{error}") from None
     with as_written(folder):
-        return _made(document, tables)
+        path = folder / ANIMATION
+        return _made(document, tables, json.loads(read_file(path)) if path.exists() else None)
 
 
-def _made(document: dict[str, Any], tables: dict[str, pl.DataFrame]) -> AssessmentTables:
+def _animation(result: Assessment) -> dict[str, Any] | None:
+    """The building under the motion in the middle, beside the model with the code's share, as values of JSON."""
+    shown, building = result.example, result.building
+    if not _is_animated(shown.scene):
+        return None
+    share = building.code_share / building.present_share if building.present_share > 0.0 else 0.0
+    fraction = min(1.0, share)
+    animation = animate(shown.scene, shown.motion, fraction=fraction, title=building.name)
+    about = {
+        "motion": result.suite["motions"][shown.number - 1],
+        "number": shown.number,
+        "factor": shown.factor,
+        "peak_g": float(abs(shown.motion.acceleration).max()) / STANDARD_GRAVITY,
+        "fraction": fraction,
+    }
+    content: dict[str, Any] = json.loads(json.dumps({"about": about, "element": element_content(animation)}))
+    return content
+
+
+def _made(
+    document: dict[str, Any], tables: dict[str, pl.DataFrame], animation: dict[str, Any] | None
+) -> AssessmentTables:
     effective = {
         model: _fraction(values, tables["curve"].filter(model=model)) for model, values in document["effective"].items()
     }
@@ -154,10 +195,12 @@ def _made(document: dict[str, Any], tables: dict[str, pl.DataFrame]) -> Assessme
         document=document,
         storeys=tables["storeys"],
         governing=tables["governing"],
-        masses=tables["masses"],
+        analysis=tables["analysis"],
         slip=tables["slip"],
         runs=tables["runs"],
         checks=tables["checks"],
+        spectra=tables["spectra"],
+        animation=animation,
         scaling=tables.get("scaling"),
         effective=effective,
     )

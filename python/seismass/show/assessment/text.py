@@ -7,7 +7,7 @@ from typing import Any, Final
 
 import polars as pl
 
-from seismass.assessment.answer import floor_masses
+from seismass.assessment.answer import analysis_table
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, REAL, REAL_HIGH, REAL_LOW
 from seismass.assessment.result import Assessment
 from seismass.effective_mass import ByHand
@@ -32,7 +32,7 @@ def assessment_text(result: Assessment) -> str:
     if building.heights is not None:
         lines += ["", *_stability(result)]
     if result.answer.analyses:
-        lines += ["", *_masses(result)]
+        lines += ["", *_analysis(result)]
     if result.slip.height:
         lines += ["", *_slips(result)]
     lines += ["", *_motions(result), "", "In an analysis", *_bullets(result.advice)]
@@ -168,19 +168,19 @@ def _range(low: float | None, high: float | None, scale: float) -> str:
     return f"from {scale * low:.2f}" if high is None else f"{scale * low:.2f}-{scale * high:.2f}"
 
 
-def _masses(result: Assessment) -> list[str]:
+def _analysis(result: Assessment) -> list[str]:
     """What to type into another program, floor by floor."""
     lines = ["For another program: mass of each floor, and multiplier of the design live load in the mass source"]
     rows = [["floor", "analysis 1: t", "kN", "multiplier", "analysis 2: t", "kN", "multiplier"]]
-    for row in floor_masses(result.answer, result.building).iter_rows(named=True):
+    for row in analysis_table(result.answer, result.building).iter_rows(named=True):
         rows.append(
             [
                 f"{row['floor']} {row['name']}".rstrip()[:18],
-                f"{1e-3 * row['mass_1']:.1f}",
-                f"{1e-3 * row['weight_1']:.0f}",
+                f"{row['mass_1_t']:.1f}",
+                f"{row['weight_1_kn']:.0f}",
                 f"{row['multiplier_1']:.2f}",
-                f"{1e-3 * row['mass_2']:.1f}",
-                f"{1e-3 * row['weight_2']:.0f}",
+                f"{row['mass_2_t']:.1f}",
+                f"{row['weight_2_kn']:.0f}",
                 f"{row['multiplier_2']:.2f}",
             ]
         )

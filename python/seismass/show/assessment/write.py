@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -10,7 +11,13 @@ from seismass.base.errors import InvalidOption
 from seismass.base.files import written_whole
 from seismass.base.values import as_path
 from seismass.media.folder import PAGE, as_written, check_out, write_folder
-from seismass.show.assessment.tables import DOCUMENT, AssessmentTables, assessment_tables, read_assessment_tables
+from seismass.show.assessment.tables import (
+    ANIMATION,
+    DOCUMENT,
+    AssessmentTables,
+    assessment_tables,
+    read_assessment_tables,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -18,9 +25,9 @@ if TYPE_CHECKING:
     from seismass.assessment.result import Assessment
     from seismass.runs.batch import Progress
 
-FIGURES: Final = ("effective_fraction", "drift", "slip")
+FIGURES: Final = ("effective_fraction", "drift", "slip", "spectrum")
 """Names of all figures; those of an earlier assessment that are not written again are removed."""
-TABLES: Final = ("storeys", "governing", "masses", "slip", "runs", "checks", "curve", "scaling")
+TABLES: Final = ("storeys", "governing", "analysis", "slip", "runs", "checks", "spectra", "curve", "scaling")
 """Names of all tables, likewise."""
 
 
@@ -44,10 +51,13 @@ def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figu
     documents = {"assessment.txt": result.text + "\n", DOCUMENT: result.to_json() + "\n"}
     drawn: dict[str, Figure] = {}
     if figures:
-        drawn, drawings = _drawn(tables := assessment_tables(result))
+        tables = assessment_tables(result, animated=True)
+        if tables.animation is not None:
+            documents[ANIMATION] = json.dumps(tables.animation) + "\n"
+        drawn, drawings = _drawn(tables)
         documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
         documents[PAGE] = _page(tables, drawings)
-    ours = {PAGE} | {f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")}
+    ours = {PAGE, ANIMATION} | {f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")}
     ours |= {f"{name}.{kind}" for name in TABLES for kind in ("parquet", "csv")}
     return write_folder(
         out,
@@ -96,6 +106,8 @@ def _drawn(tables: AssessmentTables, progress: Progress | None = None) -> tuple[
 
 
 def _page(tables: AssessmentTables, drawings: dict[str, str]) -> str:
+    from seismass.media.svg import figure_svgs
+    from seismass.show.assessment.figures import PHONE_SIZE, assessment_figures
     from seismass.show.assessment.page import building_page
 
-    return building_page(tables, drawings)
+    return building_page(tables, drawings, figure_svgs(assessment_figures(tables, PHONE_SIZE)))

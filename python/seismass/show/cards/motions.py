@@ -9,6 +9,7 @@ import numpy as np
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import counted
 from seismass.media.card import card, curve, history, rows, stroke, svg, text
+from seismass.media.text_table import column_texts
 
 if TYPE_CHECKING:
     from seismass.records.record import Record
@@ -24,16 +25,16 @@ LONGEST: Final = 4.0
 def suite_html(suite: Suite) -> str:
     """Return a card of a suite: a row and a small curve for each record."""
     shown = suite.records[:MOST_ROWS]
-    body = [
-        (
-            record.name or "(unnamed)",
-            ", ".join(part for part in (record.event, record.station) if part),
-            f"{record.pga_g:.3f} g",
-            f"{record.duration:.4g} s",
-            f"{record.dt:g} s",
-        )
+    labels = [
+        (record.name or "(unnamed)", ", ".join(part for part in (record.event, record.station) if part))
         for record in shown
     ]
+    columns = [
+        column_texts([record.pga_g for record in shown], unit=" g"),
+        column_texts([record.duration for record in shown], digits=4, unit=" s"),
+        column_texts([record.dt for record in shown], digits=2, unit=" s"),
+    ]
+    body = [(*label, *cells) for label, *cells in zip(labels, *columns, strict=True)]
     table = rows(("record", "event, station", "PGA", "duration", "step"), body, markup=[_curve(one) for one in shown])
     notes = [f"and {len(suite) - MOST_ROWS} more records"] if len(suite) > MOST_ROWS else []
     if suite.excluded:

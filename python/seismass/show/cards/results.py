@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from html import escape
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
-from seismass.media.card import COLOUR, SECOND, card, history, line, rows, stroke, svg, text
+from seismass.media.card import COLOUR, SECOND, card, history, line, pre, rows, stroke, svg, text
 from seismass.media.result import Result
+from seismass.media.text_table import column_texts
 from seismass.model.places import floor_name, goods_names, spring_names
+from seismass.show.rack_text import base_line
 
 if TYPE_CHECKING:
     from seismass.effective_mass.result import EffectiveMass
@@ -32,7 +33,8 @@ def response_html(response: Response) -> str:
     motion = response.record.name if response.record is not None else repr(response.motion)
     about = ", ".join(part for part in (scene.name, motion) if part)
     facts = [(name, str(count)) for name, count in response.counts.items() if count]
-    tables = (_storeys(response), _racks(response), _blocks(response))
+    base = line(base_line(scene, response)) if scene.base is not None else ""
+    tables = (_storeys(response), base, _racks(response), _blocks(response))
     return card(f"Response, {ended}", about, _largest(response), *tables, facts=facts)
 
 
@@ -62,17 +64,14 @@ def _storeys(response: Response) -> str:
     if not len(drift):
         return ""
     residual, acceleration = response.residual_drift, response.peak_floor_acceleration / STANDARD_GRAVITY
-    order = range(len(drift)) if len(drift) <= MOST_ROWS else np.sort(np.argsort(-drift, kind="stable")[:MOST_ROWS])
-    body = [
-        (
-            f"storey {number + 1}",
-            f"{1e3 * drift[number]:.4g} mm",
-            *([] if ratio is None else [f"{100.0 * ratio[number]:.3g} %"]),
-            f"{1e3 * residual[number]:.3g} mm",
-            f"{acceleration[number]:.3g} g",
-        )
-        for number in order
+    order = np.sort(np.argsort(-drift, kind="stable")[:MOST_ROWS])
+    columns = [
+        column_texts(drift[order].tolist(), digits=4, scale=1e3, unit=" mm"),
+        *([] if ratio is None else [column_texts(ratio[order].tolist(), scale=100.0, unit=" %")]),
+        column_texts(residual[order].tolist(), scale=1e3, unit=" mm"),
+        column_texts(acceleration[order].tolist(), unit=" g"),
     ]
+    body = list(zip([f"storey {number + 1}" for number in order], *columns, strict=True))
     over = [] if ratio is None else ["over height"]
     left_out = line(f"the {MOST_ROWS} that drift most of {len(drift)}") if len(drift) > MOST_ROWS else ""
     return rows(("", "peak drift", *over, "residual", "acceleration above"), body) + left_out
@@ -80,35 +79,28 @@ def _storeys(response: Response) -> str:
 
 def _racks(response: Response) -> str:
     """Peaks of each rack: of the level that drifts most, and the largest acceleration of any."""
-    body = []
-    for number, drift in enumerate(response.peak_rack_drift):
-        level = int(np.argmax(drift))
-        body.append(
-            (
-                f"rack {number + 1}, {floor_name(response.scene.racks[number].floor)}",
-                f"{1e3 * drift[level]:.4g} mm",
-                str(level + 1),
-                f"{response.peak_rack_acceleration[number].max() / STANDARD_GRAVITY:.3g} g",
-            )
-        )
-    return rows(("", "peak drift", "of level", "acceleration"), body) if body else ""
+    racks = response.scene.racks
+    if not racks:
+        return ""
+    drifts = column_texts([float(drift.max()) for drift in response.peak_rack_drift], digits=4, scale=1e3, unit=" mm")
+    peaks = [float(peak.max()) / STANDARD_GRAVITY for peak in response.peak_rack_acceleration]
+    levels = [str(int(np.argmax(drift)) + 1) for drift in response.peak_rack_drift]
+    names = [f"rack {number}, {floor_name(rack.floor)}" for number, rack in enumerate(racks, start=1)]
+    body = list(zip(names, drifts, levels, column_texts(peaks, unit=" g"), strict=True))
+    return rows(("", "peak drift", "of level", "acceleration"), body)
 
 
 def _blocks(response: Response) -> str:
     slip, path, places = response.peak_slip, response.slip_path, goods_names(response.scene)
     if not len(slip):
         return ""
-    order = range(len(slip)) if len(slip) <= MOST_ROWS else np.sort(np.argsort(-slip, kind="stable")[:MOST_ROWS])
-    body = [
-        (
-            f"block {number + 1}",
-            places[number].removeprefix("floor "),
-            f"{1e3 * slip[number]:.4g} mm",
-            f"{1e3 * response.residual_slip[number]:.3g} mm",
-            f"{1e3 * path[number]:.4g} mm",
-        )
-        for number in order
+    order = np.sort(np.argsort(-slip, kind="stable")[:MOST_ROWS])
+    columns = [
+        column_texts(values[order].tolist(), digits=4, scale=1e3, unit=" mm")
+        for values in (slip, response.residual_slip, path)
     ]
+    labels = [(f"block {number + 1}", places[number].removeprefix("floor ")) for number in order]
+    body = [(*label, *cells) for label, *cells in zip(labels, *columns, strict=True)]
     left_out = line(f"the {MOST_ROWS} that slip most of {len(slip)}") if len(slip) > MOST_ROWS else ""
     return rows(("", "floor", "peak slip", "residual", "path"), body) + left_out
 
@@ -152,7 +144,6 @@ def effective_mass_html(result: EffectiveMass) -> str:
 
 
 def result_html(result: Result) -> str:
-    """Return a card of a result: its text, and the names of its tables and figures."""
+    """Return a card of a result: the first lines of its text, and the names of its tables and figures."""
     facts = [("tables", ", ".join(result.tables)), ("figures", ", ".join(result.figure_names))]
-    said = f'<pre style="margin:0.3em 0;overflow-x:auto;font-size:inherit">{escape(result.text)}</pre>'
-    return card(type(result).__name__, "", said, facts=facts)
+    return card(type(result).__name__, "", pre(result.text), facts=facts)

@@ -15,7 +15,21 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
 from seismass.effective_mass.result import EffectiveMass
 from seismass.media.result import named_figure
-from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
+from seismass.media.roles import (
+    ADVISED,
+    ATTACHED,
+    BARE,
+    EFFECTIVE,
+    ETA,
+    GREY,
+    INK,
+    OMEGA,
+    OVER_MODEL,
+    SHARE,
+    SLIDE,
+    lettered,
+)
+from seismass.media.style import STYLE
 from seismass.model.codes import MARK, NOT_CHECKED, code_fraction
 
 _MARKED: Final = {
@@ -52,7 +66,7 @@ def effective_mass_figure(
 
 
 def curve_figure(result: EffectiveMass, codes: Mapping[str, float] | None = None) -> Figure:
-    """Real over model drift against the share attached, with its bootstrap band, the answer and the codes' shares."""
+    """Drift with goods that slide over the model's, against the share attached, with its band, the answer and codes."""
     marks = STORAGE_CODES if codes is None else codes
     largest = result.curve.filter(pl.col("storey") == 0)
     share, ratio = largest["fraction"].to_numpy(), largest["ratio"].to_numpy()
@@ -62,20 +76,21 @@ def curve_figure(result: EffectiveMass, codes: Mapping[str, float] | None = None
         if largest["ratio_low"].null_count() == 0:
             low, high = largest["ratio_low"].to_numpy(), largest["ratio_high"].to_numpy()
             label = f"{100.0 * result.confidence:g} % interval over the records"
-            axes.fill_between(share, low, high, color=BLUE, alpha=0.18, linewidth=0.0, label=label)
-        axes.plot(share, ratio, color=BLUE, linewidth=2.0, label=f"real / model, {result.statistic} of largest drift")
+            axes.fill_between(share, low, high, color=SLIDE.colour, alpha=0.18, linewidth=0.0, label=label)
+        label = f"{OVER_MODEL}, {result.statistic} of the largest drift"
+        axes.plot(share, ratio, color=SLIDE.colour, linewidth=2.0, label=label)
         for name, (value, style) in {
             RULE: (result.estimate, (0, (1, 1))),
             SAFE_RULE: (result.conservative, (0, (5, 2, 1, 2))),
         }.items():
-            axes.axvline(value, color=GREEN, linewidth=1.3, linestyle=style, label=f"{name} = {value:.2f}")
+            axes.axvline(value, color=GREY, linewidth=1.3, linestyle=style, label=f"{lettered(name)} = {value:.2f}")
         if np.isfinite(result.value):
             _mark_answer(axes, result)
         axes.axhline(1.0, color=INK, linewidth=0.8)
         _ratio_axis(axes)
         axes.set_xlim(-0.01, 1.01)
-        axes.set_xlabel("share of the live load attached as mass")
-        axes.set_ylabel("real / model largest drift\n(above 1: the model is unsafe)")
+        axes.set_xlabel(SHARE)
+        axes.set_ylabel(f"{OVER_MODEL}, largest drift\n(above 1: the model is unsafe)")
         axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
         mark_codes(axes, marks)
         figure.legend(loc="outside upper center", ncols=2, frameon=False)
@@ -84,12 +99,12 @@ def curve_figure(result: EffectiveMass, codes: Mapping[str, float] | None = None
 
 
 def _mark_answer(axes: Axes, result: EffectiveMass) -> None:
-    text = f"effective fraction {result.value:.2f}"
+    text = f"{EFFECTIVE} {result.value:.2f}"
     if result.interval is not None:
         text += f" [{result.interval[0]:.2f}, {result.interval[1]:.2f}]"
-        axes.plot(result.interval, [1.0, 1.0], color=VERMILION, linewidth=3.0, solid_capstyle="butt", zorder=4)
+        axes.plot(result.interval, [1.0, 1.0], color=ADVISED.colour, linewidth=3.0, solid_capstyle="butt", zorder=4)
     ratio = result.real / result.model
-    axes.plot([result.value], [ratio], color=VERMILION, marker="D", markersize=7.0, linestyle="", label=text, zorder=5)
+    axes.plot([result.value], [ratio], **ADVISED.mark, markersize=7.0, label=text, zorder=5)
 
 
 def marked_legend(marks: Mapping[str, float]) -> str:
@@ -126,29 +141,29 @@ def _ratio_axis(axes: Axes) -> None:
 
 
 def storeys_figure(result: EffectiveMass) -> Figure:
-    """Real over model drift by storey: nothing attached, the effective fraction, everything, and the envelope."""
+    """Drift with goods that slide over models' by storey: none, the effective fraction, all, and the envelope."""
     storeys = result.storeys
     level = storeys["storey"].to_numpy()
     rows = [
-        ("ratio_at_0", "nothing attached", GREY, "s", (0, (1, 1))),
-        ("ratio", f"effective fraction {result.value:.2f}", VERMILION, "D", "-"),
-        ("ratio_at_1", "all attached", BLUE, "o", (0, (5, 2))),
-        ("envelope_ratio", "larger of effective fraction and nothing", GREEN, "^", (0, (5, 2, 1, 2))),
+        ("ratio_at_0", BARE.name, BARE, BARE.line),
+        ("ratio", f"{EFFECTIVE} {result.value:.2f}", ADVISED, ADVISED.line),
+        ("ratio_at_1", ATTACHED.name, ATTACHED, ATTACHED.line),
+        ("envelope_ratio", f"larger of {EFFECTIVE} and none", SLIDE, "-"),
     ]
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.4, 1.9 + 0.55 * len(level)), layout="constrained")
         axes = figure.add_subplot()
         axes.axvline(1.0, color=INK, linewidth=0.8)
-        for column, label, colour, marker, style in rows:
+        for column, label, role, style in rows:
             axes.plot(
                 storeys[column].to_numpy(),
                 level,
-                color=colour,
-                marker=marker,
+                color=role.colour,
+                marker=role.marker,
                 linestyle=style,
                 linewidth=1.4,
                 markersize=5.0,
-                markerfacecolor="white" if marker in "s^" else colour,
+                markerfacecolor="white" if role in (BARE, ATTACHED) else role.colour,
                 label=label,
             )
         low, high = axes.get_xlim()
@@ -157,9 +172,9 @@ def storeys_figure(result: EffectiveMass) -> Figure:
         axes.set_ylim(0.5, len(level) + 0.5)
         axes.set_yticks(level)
         axes.set_ylabel("storey")
-        axes.set_xlabel(f"real / model drift, {result.statistic} over the motions (shaded: the model is unsafe)")
+        axes.set_xlabel(f"{OVER_MODEL} drift, {result.statistic} over the motions (shaded: the model is unsafe)")
         axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
-        figure.legend(loc="outside upper center", ncols=2, frameon=False, title="share of the live load in the model")
+        figure.legend(loc="outside upper center", ncols=2, frameon=False, title="what the model has attached")
         figure.supxlabel(_caption(result), fontsize=7.5)
     return figure
 
@@ -172,9 +187,9 @@ def _caption(result: EffectiveMass) -> str:
         values = sorted(set(chosen[name]))
         return f"{values[0]:g}" if len(values) == 1 else f"{values[0]:g} to {values[-1]:g}"
 
-    damping = "C of the real building" if chosen["damping"] == "same" else "ratio in the model's own modes"
+    damping = "C of the building" if chosen["damping"] == "same" else "ratio in the model's own modes"
     return (
-        rf"{chosen['motions']} motions;  $\eta$ = {result.eta:.2f};  $\Omega$ = {listed('overstrength')}, $r_2$ = "
-        rf"{listed('second_slope')}, $r_3$ = {listed('third_slope')};  damping of the models: {damping};  "
+        f"{chosen['motions']} motions;  {ETA} = {result.eta:.2f};  {OMEGA} = {listed('overstrength')}, r2 = "
+        f"{listed('second_slope')}, r3 = {listed('third_slope')};  damping of the models: {damping};  "
         f"P-Delta {'on' if chosen['p_delta'] else 'off'}"
     )

@@ -8,7 +8,8 @@ from matplotlib.figure import Figure
 
 from seismass.effective_mass.live_load import LiveLoadUncertainty
 from seismass.media.result import named_figure
-from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
+from seismass.media.roles import ADVISED, GREY, INK, MU, SLIDE, SLIDE_HIGH, lettered
+from seismass.media.style import STYLE
 from seismass.show.effective_mass.figures import STORAGE_CODES, marked_legend
 
 
@@ -20,14 +21,16 @@ def uncertainty_figure(result: LiveLoadUncertainty, name: str | None = None) -> 
         upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.0, 1.2))
         share = np.sort(result.samples["share"].to_numpy())
         level = (np.arange(len(share)) + 0.5) / len(share)
-        upper.plot(share, level, color=BLUE, linewidth=2.0, label="samples of friction and occupancy")
-        upper.axvline(result.share, color=VERMILION, linewidth=1.8, label=f"equal expected drift {result.share:.2f}")
+        upper.plot(share, level, color=SLIDE.colour, linewidth=2.0, label="samples of friction and occupancy")
+        upper.axvline(
+            result.share, color=ADVISED.colour, linewidth=1.8, label=f"equal expected drift {result.share:.2f}"
+        )
         if result.interval is not None:
             label = f"its 90 % interval over the records, {result.interval[0]:.2f} to {result.interval[1]:.2f}"
-            upper.axvspan(*result.interval, color=VERMILION, alpha=0.15, linewidth=0.0, label=label)
+            upper.axvspan(*result.interval, color=ADVISED.colour, alpha=0.15, linewidth=0.0, label=label)
         upper.axvline(
             result.share_84,
-            color=GREEN,
+            color=SLIDE_HIGH.colour,
             linewidth=1.6,
             linestyle=(0, (5, 2)),
             label=f"84 % of samples {result.share_84:.2f}",
@@ -51,13 +54,13 @@ def uncertainty_figure(result: LiveLoadUncertainty, name: str | None = None) -> 
         rows = list(result.tornado.iter_rows(named=True))[::-1]
         for place, row in enumerate(rows):
             ends = (row["share_low"], row["share_high"])
-            lower.barh(place, ends[1] - ends[0], left=ends[0], height=0.5, color=BLUE, alpha=0.5)
+            lower.barh(place, ends[1] - ends[0], left=ends[0], height=0.5, color=SLIDE.colour, alpha=0.5)
             for end, value, side in ((ends[0], row["low"], "right"), (ends[1], row["high"], "left")):
                 outward = side if ends[0] <= ends[1] else {"right": "left", "left": "right"}[side]
                 text = f" {value:.2g} "
                 lower.annotate(text, (min(max(end, 0.04), 0.96), place), ha=outward, va="center", fontsize=8.0)
         lower.axvline(rows[0]["share_median"], color=INK, linewidth=0.9)
-        lower.set_yticks(range(len(rows)), [row["variable"] for row in rows])
+        lower.set_yticks(range(len(rows)), [lettered(row["variable"]) for row in rows])
         lower.set_ylim(-0.6, len(rows) - 0.4)
         lower.set_xlabel(
             "share of the design live load to attach as mass\n"
@@ -67,7 +70,8 @@ def uncertainty_figure(result: LiveLoadUncertainty, name: str | None = None) -> 
         figure.legend(*upper.get_legend_handles_labels(), loc="outside upper center", ncols=2, frameon=False)
         about = result.metadata
         figure.supxlabel(
-            f"{about['samples']} samples, {about['motions']} motions; mu {about['mu']}, occupancy {about['occupancy']}"
+            f"{about['samples']} samples, {about['motions']} motions; "
+            f"{MU} {about['mu']}, occupancy {about['occupancy']}"
             f"{marked_legend(STORAGE_CODES)}",
             fontsize=7.5,
         )

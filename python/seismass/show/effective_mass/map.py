@@ -14,14 +14,15 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLo
 from seismass.effective_mass.design_map import EffectiveMassMap
 from seismass.effective_mass.estimate import best_estimate, conservative_estimate
 from seismass.media.result import named_figure
-from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE
+from seismass.media.roles import ALPHA, EFFECTIVE, GREY, INK, LAMBDA, MU, OMEGA, SKY, SLIDE, lettered
+from seismass.media.style import STYLE
 from seismass.show.effective_mass.figures import STORAGE_CODES, marked_legend
 
 LONGEST_ETA: Final = 2.2
 """Largest eta that the figure shows; beyond it the fraction is 1."""
 _GROUPS: Final = (
-    ("p up to 1.8", 0.0, 1.8, "#56B4E9", "^"),
-    ("p up to 2.6", 1.8, 2.6, BLUE, "s"),
+    ("p up to 1.8", 0.0, 1.8, SKY, "^"),
+    ("p up to 2.6", 1.8, 2.6, SLIDE.colour, "s"),
     ("p above 2.6", 2.6, np.inf, GREY, "o"),
 )
 """Label, largest exponent of the rule in the group before and in this one, colour, marker."""
@@ -66,7 +67,7 @@ def collapse_figure(result: EffectiveMassMap) -> Figure:
                 label=f"{label}; curve: p = {power:.1f}",
             )
         safe = conservative_estimate(eta)
-        axes.plot(eta, safe, color=GREEN, linewidth=2.0, linestyle=(0, (5, 2)), zorder=4, label="conservative, p = 1")
+        axes.plot(eta, safe, color=INK, linewidth=2.0, linestyle=(0, (5, 2)), zorder=4, label="conservative, p = 1")
         for name, share in {"none: ASCE 7 ordinary": 0.0, **STORAGE_CODES, "all": 1.0}.items():
             axes.plot([0.985, 1.0], [share, share], transform=axes.get_yaxis_transform(), color=INK, linewidth=1.6)
             axes.annotate(
@@ -81,7 +82,7 @@ def collapse_figure(result: EffectiveMassMap) -> Figure:
         axes.set_xlabel(
             r"$\eta_h$ = $\mu_k$ / ($C_1$ ($h_g$/$h_m$)$^{1/2}$)   ($C_1$: mean peak base shear / full weight)"
         )
-        axes.set_ylabel("effective fraction of live load")
+        axes.set_ylabel(EFFECTIVE)
         axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
         legend = figure.legend(loc="outside upper center", ncols=2, frameon=False)
         for handle in legend.get_lines()[:-1]:
@@ -100,8 +101,10 @@ def rules_figure(result: EffectiveMassMap) -> Figure:
         axes = figure.add_subplot()
         axes.axvline(1.0, color=INK, linewidth=0.8)
         axes.axvspan(0.3, 1.0, color=GREY, alpha=0.12, linewidth=0.0)
-        axes.hlines(level, rules["low"].to_numpy(), rules["high"].to_numpy(), color=BLUE, linewidth=2.0)
-        axes.plot(rules["bias"].to_numpy(), level, color=BLUE, marker="o", linestyle="", markersize=6.0)
+        axes.hlines(level, rules["low"].to_numpy(), rules["high"].to_numpy(), color=SLIDE.colour, linewidth=2.0)
+        axes.plot(
+            rules["bias"].to_numpy(), level, color=SLIDE.colour, marker=SLIDE.marker, linestyle="", markersize=6.0
+        )
         for height, unsafe in zip(level, rules["unsafe"], strict=True):
             axes.annotate(
                 f"{100.0 * unsafe:.0f} %",
@@ -118,11 +121,11 @@ def rules_figure(result: EffectiveMassMap) -> Figure:
         axes.xaxis.set_minor_formatter(NullFormatter())
         axes.set_xlim(0.38, 2.6)
         axes.set_ylim(-0.6, rules.height - 0.4)
-        axes.set_yticks(level, rules["rule"].to_list())
+        axes.set_yticks(level, [lettered(rule) for rule in rules["rule"]])
         axes.set_xlabel(
-            "model / real, mean of the largest drift: geometric mean and 5 to 95 % of the\n"
+            "model / goods slide, mean of the largest drift: geometric mean and 5 to 95 % of the\n"
             "cases in which goods slide (shaded: the model drifts less;\n"
-            "unsafe: the real building drifts more than 1.05 times the model)"
+            "unsafe: with sliding goods the building drifts more than 1.05 times the model)"
         )
         axes.grid(axis="x", color=GREY, alpha=0.25, linewidth=0.5)
         figure.supxlabel(map_caption(result), fontsize=7.5)
@@ -163,7 +166,7 @@ def intensity_figure(result: EffectiveMassMap) -> Figure:
                     marker=marker,
                     markersize=3.5,
                     linewidth=1.1,
-                    label=rf"$\mu$ = {mu:g}",
+                    label=f"{MU} = {mu:g}",
                 )
             axes.set_title(f"R = {factor:g}")
             axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
@@ -172,11 +175,11 @@ def intensity_figure(result: EffectiveMassMap) -> Figure:
             axes.set_axis_off()
         handles, labels = grid[0][0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside upper center", ncols=min(len(mus), 6), frameon=False)
-        figure.supylabel("effective fraction of live load", fontsize=9.0)
+        figure.supylabel(EFFECTIVE, fontsize=9.0)
         figure.supxlabel(
             "intensity: factor of the scaled motions, strengths unchanged; "
             f"bands: {100.0 * confidence:g} % intervals over the records   ({storeys} storeys, {period:g} s, {roof} "
-            rf"roof, $\alpha$ = {load:g})" + "\n" + map_caption(result),
+            f"roof, {ALPHA} = {load:g})" + "\n" + map_caption(result),
             fontsize=7.5,
         )
     return figure
@@ -186,11 +189,11 @@ def map_caption(result: EffectiveMassMap) -> str:
     """Return one line on the motions and the parameters that the map depends on."""
     chosen, suite = result.metadata["parameters"], result.metadata["suite"]
     name = str(suite["name"]).replace("$", r"\$")
-    damping = "C of the real building" if chosen["model_damping"] == "same" else "that ratio in their own modes"
+    damping = "C of the building" if chosen["model_damping"] == "same" else "that ratio in their own modes"
     target = str(result.metadata["target"]["label"]).split(" (")[0].replace("$", r"\$")
     return (
         f"{len(suite['motions'])} motions ({name}) scaled to {target}, for T = {chosen['scaling_period']:g} s;\n"
-        rf"$V_y$ designed with $\lambda$ = {chosen['design_fraction']:g}; $\Omega$ = {chosen['overstrength']:g}, "
-        rf"$r_2$ = {chosen['second_slope']:g}, $r_3$ = {chosen['third_slope']:g}; damping "
+        f"V_y designed with {LAMBDA} = {chosen['design_fraction']:g}; {OMEGA} = {chosen['overstrength']:g}, "
+        f"r2 = {chosen['second_slope']:g}, r3 = {chosen['third_slope']:g}; damping "
         f"{100.0 * chosen['damping']:g} %, models with {damping}"
     )

@@ -37,7 +37,7 @@ def rules_text(rules: pl.DataFrame) -> list[str]:
     """Return the table of rules as lines."""
     where, exponents = RULE_IN_WORDS.split("; ")
     lines = [
-        "Largest drift of the model with the share of a rule, over that of the real building",
+        "Largest drift of the model with the share of a rule, over that with sliding goods",
         text_line(("rule", "mean", "log scatter", "5 to 95 %", "worst", "unsafe"), _RULES, indent=0),
     ]
     for row in rules.iter_rows(named=True):
@@ -46,7 +46,7 @@ def rules_text(rules: pl.DataFrame) -> list[str]:
         lines.append(text_line((row["rule"], *numbers, f"{100 * row['unsafe']:.0f} %"), _RULES, indent=0))
     return [
         *lines,
-        "mean: geometric; unsafe: share of cases in which the real building drifts more than 1.05 x the model",
+        "mean: geometric; unsafe: share of cases in which sliding goods drift more than 1.05 x the model",
         f"{where};",
         exponents,
     ]
@@ -58,7 +58,7 @@ def by_period_text(rules: pl.DataFrame) -> list[str]:
     widths = (-30, *(18 for _ in classes))
     names = ["from 0" if not low else f"from {low:g}" for low, _ in classes]
     lines = [
-        "By period of the bare building (s): mean, worst of model over real drift, unsafe cases",
+        "By period of the bare building (s): mean, worst of model over goods-slide drift, unsafe cases",
         text_line(("rule", *names), widths, indent=0),
         text_line(("cases", *(str(rules.filter(period_from=low)["cases"][0]) for low, _ in classes)), widths, indent=0),
     ]

@@ -18,9 +18,12 @@ from seismass.fragility.limits import LimitState
 from seismass.fragility.result import FragilityAnalysis
 from seismass.media.axes import grid_lines
 from seismass.media.result import named_figure
-from seismass.media.style import GREY, INK, PAPER, SERIES, STYLE, VERMILION, plain
+from seismass.media.roles import GREY, INK, LIMIT, MODELS, PAPER, SLIDE, model_name
+from seismass.media.style import SERIES, STYLE, plain
 
 _MARKERS: Final = ("o", "s", "^", "D", "v", "P")
+NEARLY_ONE: Final = 0.97
+"""Probability behind which a curve has nothing more to show."""
 _FRACTILE_LOOKS: Final[dict[str, Any]] = {"p16": (0, (1.2, 1.2)), "p50": "-", "p84": (0, (5, 2))}
 _FRACTILE_NAMES: Final = {"p16": "16 %", "p50": "median", "p84": "84 %"}
 
@@ -46,27 +49,55 @@ def fragility_figure(result: FragilityAnalysis) -> Figure:
         figure = Figure(figsize=(max(4.4 * columns, 6.4), 0.9 + 3.3 * rows), layout="constrained")
         panels = figure.subplots(rows, columns, squeeze=False).ravel()
         for axes, limit in zip(panels, result.limits, strict=False):
-            for model, look, marker in zip(result.models, cycle(SERIES), cycle(_MARKERS), strict=False):
+            for model, (look, marker) in _looks(result).items():
                 if (model, limit.name) in result.fits:
                     _curve(axes, result, limit, model, look, marker)
             axes.set_title(plain(limit.text))
             axes.set_ylim(-0.02, 1.02)
-            axes.set_xlim(left=0.0)
+            axes.set_xlim(0.0, _highest_drawn(result, limit))
             axes.set_xlabel(_intensity_label(result))
             axes.set_ylabel("probability of exceedance")
             grid_lines(axes)
         for axes in panels[count:]:
             axes.set_axis_off()
         handles: list[Any] = [
-            Line2D([], [], **look, marker=marker, markersize=4.0, label=plain(model))
-            for model, look, marker in zip(result.models, cycle(SERIES), cycle(_MARKERS), strict=False)
+            Line2D([], [], **look, marker=marker, markersize=4.0, label=plain(model_name(model)))
+            for model, (look, marker) in _looks(result).items()
         ]
         if any(len(fit.samples) for fit in result.fits.values()):
             share = f"{100.0 * result.metadata['confidence']:g} % interval"
             handles.append(Patch(facecolor=GREY, alpha=0.3, label=share))
-        figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
+        if count < len(panels):
+            panels[count].legend(handles=handles, loc="center", frameon=False)
+        else:
+            figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
         figure.supxlabel(_caption(result), fontsize=7.5)
     return figure
+
+
+def _highest_drawn(result: FragilityAnalysis, limit: LimitState) -> float | None:
+    """Intensity up to which curves are drawn: to where the last of them is nearly one, or all motions are beyond it."""
+    own = result.curves.filter(pl.col("limit") == limit.name)
+    if own.is_empty():
+        return None
+    known = [
+        rows.filter(pl.col("probability") >= NEARLY_ONE)["intensity"].min()
+        for _, rows in own.group_by("model", maintain_order=True)
+    ]
+    ends = [float(end) for end in known if isinstance(end, float)]
+    seen = [observed(result, limit, str(model))[0] for model in own["model"].unique(maintain_order=True)]
+    points = np.concatenate([at[np.isfinite(at)] for at in seen])
+    nearly = [1.15 * max(ends)] * bool(ends) + [1.25 * float(points.max(initial=0.0))] * bool(points.size)
+    return min(nearly) if nearly else None
+
+
+def _looks(result: FragilityAnalysis) -> dict[str, tuple[dict[str, Any], str]]:
+    """Line and marker of each model: those of its role, or the next of the series for a scene of the user's."""
+    looks = {}
+    for model, look, marker in zip(result.models, cycle(SERIES), cycle(_MARKERS), strict=False):
+        role = MODELS.get(model)
+        looks[model] = (look, marker) if role is None else (role.look, role.marker)
+    return looks
 
 
 def _curve(
@@ -146,27 +177,28 @@ def demand_figure(result: FragilityAnalysis, limit: LimitState) -> Figure:
                     value = own[name].fill_null(np.nan).to_numpy()
                     shown = np.where(np.isfinite(value), scale * value, np.nan)
                     at = np.append(0.0, own["level"].to_numpy())
-                    axes.plot(np.append(0.0, shown), at, color=SERIES[0]["color"], linestyle=style, linewidth=1.8)
+                    axes.plot(np.append(0.0, shown), at, color=SLIDE.colour, linestyle=style, linewidth=1.8)
             fallen = result.runs.filter(model=model, status="collapsed").height
-            axes.set_title(plain(model) if scaled or not fallen else f"{plain(model)}, {fallen} collapsed")
+            name = plain(model_name(model))
+            axes.set_title(name if scaled or not fallen else f"{name}, {fallen} collapsed")
             axes.set_xlabel(limit.label)
             grid_lines(axes)
         if limit.quantity != "collapse":
             bounds = [each.value for each in result.limits if each.column == column]
             for axes in panels:
                 for bound in bounds:
-                    axes.axvline(scale * bound, color=VERMILION, linestyle=(0, (8, 2)), linewidth=1.1)
+                    axes.axvline(scale * bound, color=LIMIT.colour, linestyle=LIMIT.line, linewidth=1.1)
             if scaled:
                 panels[0].set_xlim(0.0, 2.0 * scale * max(bounds) if max(bounds) > 0.0 else None)
                 panels[0].set_ylim(0.0, _highest_shown(result, column, 2.0 * max(bounds)))
         panels[0].set_ylabel(_intensity_label(result))
-        handles = [Line2D([], [], color=VERMILION, linestyle=(0, (8, 2)), label="limit")]
+        handles = [Line2D([], [], color=LIMIT.colour, linestyle=LIMIT.line, label=LIMIT.name)]
         if not scaled:
             handles.append(Line2D([], [], color=INK, linestyle="", marker="o", markersize=3.0, label="each motion"))
         else:
             handles.append(Line2D([], [], color=GREY, linewidth=0.8, label="each motion"))
             handles += [
-                Line2D([], [], color=SERIES[0]["color"], linestyle=style, label=_FRACTILE_NAMES[name])
+                Line2D([], [], color=SLIDE.colour, linestyle=style, label=_FRACTILE_NAMES[name])
                 for name, style in _FRACTILE_LOOKS.items()
             ]
             handles.append(Line2D([], [], color=INK, linestyle="", marker="x", markersize=4.5, label="before collapse"))
@@ -193,7 +225,7 @@ def _intensity_label(result: FragilityAnalysis) -> str:
 
 def _caption(result: FragilityAnalysis) -> str:
     """One line on what the curves depend on."""
-    method = {"hunt_fill": "hunt and fill", "stripes": "stripes", "cloud": "cloud"}[result.method]
+    method = {"hunt_fill": "incremental dynamic analysis", "stripes": "stripes", "cloud": "cloud"}[result.method]
     share = result.metadata.get("code_share")
     rule = "" if share is None else f";  code: {100.0 * share:g} % of the goods attached"
     return f"{method}, {result.motions.height} motions, whose scatter alone is shown{rule}"

@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from seismass.base.values import FloatArray
-from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION, plain
+from seismass.media.roles import BLUE, GREEN, GREY, INK, VERMILION
+from seismass.media.style import STYLE, plain
 from seismass.pulses.extraction import CENTIMETRES, cumulative_share
 from seismass.pulses.limits import ARRIVAL, LEAST_PGV, NO_PULSE_BELOW, PULSE_ABOVE
 from seismass.pulses.result import BAKER, Candidate, OrientationScan, PulseResult

@@ -15,7 +15,8 @@ from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.media.figure_file import CAPTION_CHARACTERS
-from seismass.media.style import BLUE, GREY, INK, STYLE, VERMILION, plain
+from seismass.media.roles import BLUE, GREY, INK, VERMILION
+from seismass.media.style import STYLE, plain
 from seismass.records.intensity import build_up, time_of_share
 from seismass.records.measures import drift_remarks
 

@@ -12,7 +12,8 @@ from matplotlib.lines import Line2D
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.media.result import named_figure
-from seismass.media.style import BLUE, GREEN, GREY, PERIOD_TICKS, VERMILION, plain
+from seismass.media.roles import BLUE, GREEN, GREY, VERMILION
+from seismass.media.style import PERIOD_TICKS, plain
 from seismass.scaling.result import ScalingResult
 from seismass.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 

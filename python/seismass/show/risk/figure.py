@@ -1,4 +1,4 @@
-"""Figure of a risk-targeted share: hazard with fragilities, and rates of the real building over those of models."""
+"""Figure of a risk-targeted share: hazard with fragilities, and rates with goods that slide over those of models."""
 
 from __future__ import annotations
 
@@ -17,7 +17,19 @@ from seismass.base.values import FloatArray
 from seismass.media.axes import grid_lines
 from seismass.media.figure_file import CAPTION_CHARACTERS
 from seismass.media.result import named_figure
-from seismass.media.style import BLUE, GREEN, GREY, INK, LAMBDA, ORANGE, STYLE, VERMILION, plain
+from seismass.media.roles import (
+    ADVISED,
+    ATTACHED,
+    CODE,
+    EFFECTIVE,
+    GREY,
+    HAZARD,
+    INK,
+    OVER_MODEL,
+    SHARE,
+    SLIDE,
+)
+from seismass.media.style import STYLE, plain
 from seismass.show.effective_mass.figures import STORAGE_CODES, mark_codes, marked_legend
 
 if TYPE_CHECKING:
@@ -43,11 +55,13 @@ def risk_figure(
 
 
 def _hazard(axes: Axes, result: RiskTargetedShare) -> None:
-    """Hazard on one axis, fragilities of real, code's and attached model on the other."""
+    """Hazard on one axis, fragilities of the building and of the models on the other."""
     from scipy.special import ndtr  # slow to import
 
     hazard = result.hazard
-    axes.plot(hazard.sa_g, hazard.annual_rate, color=INK, linewidth=1.6, marker=".", label="hazard")
+    axes.plot(
+        hazard.sa_g, hazard.annual_rate, color=HAZARD.colour, linewidth=1.6, marker=HAZARD.marker, label=HAZARD.name
+    )
     axes.set_xscale("log")
     axes.set_yscale("log")
     label = result.measure.label
@@ -57,18 +71,18 @@ def _hazard(axes: Axes, result: RiskTargetedShare) -> None:
     grid_lines(axes)
     other = axes.twinx()
     at = np.geomspace(hazard.sa_g[0], hazard.sa_g[-1], 401)
-    for model, share, look, name in (
-        ("real", None, {"color": VERMILION, "linestyle": "-"}, "goods slide"),
-        ("attached", result.code_share, {"color": GREEN, "linestyle": (0, (5, 2))}, f"code, {result.code_share:g}"),
-        ("attached", 1.0, {"color": BLUE, "linestyle": (0, (1.2, 1.2))}, "all attached"),
+    for model, share, role, name in (
+        ("real", None, SLIDE, SLIDE.name),
+        ("attached", result.code_share, CODE, f"{CODE.name}, {result.code_share:g}"),
+        ("attached", 1.0, ATTACHED, ATTACHED.name),
     ):
         own = pl.col("share").is_null() if share is None else pl.col("share") == share
         fit = result.fragilities.filter(own, model=model).row(0, named=True)
         capacities = result.capacities.filter(own, model=model)["capacity"].sort().to_numpy()
         if fit["dispersion"] > 0.0:
-            other.plot(at, ndtr(np.log(at / fit["median"]) / fit["dispersion"]), **look, linewidth=1.8, label=name)
+            other.plot(at, ndtr(np.log(at / fit["median"]) / fit["dispersion"]), **role.look, linewidth=1.8, label=name)
         levels: FloatArray = (np.arange(len(capacities)) + 0.5) / len(capacities)
-        other.plot(capacities, levels, color=look["color"], linestyle="", marker=".", markersize=4.0)
+        other.plot(capacities, levels, color=role.colour, linestyle="", marker=role.marker, markersize=3.5)
     other.set_ylim(0.0, 1.0)
     other.set_xlim(hazard.sa_g[0], hazard.sa_g[-1])
     other.set_ylabel(f"probability of {result.limit.text}")
@@ -77,7 +91,7 @@ def _hazard(axes: Axes, result: RiskTargetedShare) -> None:
 
 
 def _rates(axes: Axes, result: RiskTargetedShare, codes: Mapping[str, float]) -> None:
-    """Rate of the real building over that of models against the share, with its band, the answer and codes."""
+    """Rate with goods that slide over that of models against the share, with its band, the answer and codes."""
     curve = result.curve.drop_nulls("real_over_model")
     share, ratio = curve["fraction"].to_numpy(), curve["real_over_model"].to_numpy()
     banded = curve.drop_nulls("real_over_model_low")
@@ -87,30 +101,30 @@ def _rates(axes: Axes, result: RiskTargetedShare, codes: Mapping[str, float]) ->
             banded["fraction"],
             banded["real_over_model_low"],
             banded["real_over_model_high"],
-            color=BLUE,
+            color=SLIDE.colour,
             alpha=0.18,
             linewidth=0.0,
             label=f"{percent} interval over the motions",
         )
-    axes.plot(share, ratio, color=BLUE, linewidth=2.0, label="real / model, annual rate")
+    axes.plot(share, ratio, color=SLIDE.colour, linewidth=2.0, label=f"{OVER_MODEL}, annual rate")
     axes.axhline(1.0, color=INK, linewidth=0.8)
     text = f"risk-targeted share {result.value:.2f}"
     if result.interval is not None:
         text += f" [{result.interval[0]:.2f}, {result.interval[1]:.2f}]"
-        axes.plot(result.interval, [1.0, 1.0], color=VERMILION, linewidth=3.0, solid_capstyle="butt", zorder=4)
+        axes.plot(result.interval, [1.0, 1.0], color=ADVISED.colour, linewidth=3.0, solid_capstyle="butt", zorder=4)
     place = result.real / result.model
-    axes.plot([result.value], [place], color=VERMILION, marker="D", markersize=7.0, linestyle="", label=text, zorder=5)
+    axes.plot([result.value], [place], **ADVISED.mark, markersize=7.0, label=text, zorder=5)
     effective = result.effective
     if effective is not None and np.isfinite(effective.value):
-        label = f"effective fraction at the design intensity {effective.value:.2f}"
-        axes.axvline(effective.value, color=ORANGE, linewidth=1.3, linestyle=(0, (5, 2)), label=label)
+        label = f"{EFFECTIVE} at the design intensity {effective.value:.2f}"
+        axes.axvline(effective.value, color=ADVISED.colour, linewidth=1.3, linestyle=(0, (1, 2)), label=label)
     axes.set_yscale("log")
     axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set_xlim(-0.01, 1.01)
-    axes.set_xlabel(f"share {LAMBDA} of the live load attached as mass")
-    axes.set_ylabel("real / model annual rate\n(above 1: the model is unsafe)")
+    axes.set_xlabel(SHARE)
+    axes.set_ylabel(f"{OVER_MODEL}, annual rate\n(above 1: the model is unsafe)")
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     mark_codes(axes, codes)
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=1, frameon=False)
@@ -120,7 +134,7 @@ def _caption(result: RiskTargetedShare) -> str:
     about = result.metadata
     hazard = result.hazard.label or "hazard as given"
     tail = "hazard extrapolated beyond its ends" if about["extrapolate"] else "hazard cut at its ends"
-    damping = "C of the real building" if about["damping"] == "same" else "ratio in the model's own modes"
+    damping = "C of the building" if about["damping"] == "same" else "ratio in the model's own modes"
     return plain(
         f"{about['motions']} motions, scaled to all intensities; {result.estimator} fragilities; {hazard}, {tail}; "
         f"damping of the models: {damping}"

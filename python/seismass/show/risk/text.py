@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 from seismass.base.values import counted
 from seismass.effective_mass.curve import Kind
 from seismass.effective_mass.result import KIND_TEXTS as EFFECTIVE_KINDS
+from seismass.media.roles import model_name
 from seismass.media.text_table import interval_text, number_text, text_line
 from seismass.show.slip.text import remark_lines
 
@@ -16,16 +17,15 @@ if TYPE_CHECKING:
 
 KIND_TEXTS: Final[dict[Kind, str]] = {
     "stuck": "no goods slide up to the limit, so that all of them act as mass",
-    "root": "one share gives the annual rate of the real building",
-    "multiple": "several shares give the annual rate of the real building, the largest counts",
-    "zero": "no share gives a lower rate than the real building has, so that none needs to be attached",
-    "one": "even with all goods attached the model exceeds the limit less often than the real building",
+    "root": "one share gives the annual rate with sliding goods",
+    "multiple": "several shares give the annual rate with sliding goods, the largest counts",
+    "zero": "no share gives a lower rate than sliding goods do, so that none needs to be attached",
+    "one": "even with all goods attached the model exceeds the limit less often than with sliding goods",
 }
 """What each kind means."""
 _LABEL: Final = 21
 _RATES: Final = (-22, 34, 13, 26)
 _CHANGES: Final = (-30, 22, 10, 12, 16)
-_NAMES: Final = {"real": "goods slide", "code": "code", "attached": "all attached", "none": "none attached"}
 
 
 def risk_text(result: RiskTargetedShare) -> str:
@@ -35,7 +35,7 @@ def risk_text(result: RiskTargetedShare) -> str:
     motions = counted(about["motions"], "motion")
     lines = [
         f"risk-targeted share  {result.value:.3f}{_interval(result.interval, percent)}",
-        f"                     {result.kind}: {KIND_TEXTS[result.kind]}",
+        f"                     {KIND_TEXTS[result.kind]}",
         f"limit                {result.limit.text} under {motions}; {result.measure.label}, "
         f"{result.estimator} fragilities",
         f"hazard               {result.hazard.label or 'as given'}: {result.hazard.sa_g[0]:g} to "
@@ -50,10 +50,10 @@ def risk_text(result: RiskTargetedShare) -> str:
     lines += [
         "",
         f"Annual rate of exceeding the limit, with its {percent} interval over the motions",
-        text_line(("model", "rate (1/year)", "in 50 years", "real over model"), _RATES),
+        text_line(("model", "rate (1/year)", "in 50 years", "slide / model"), _RATES),
     ]
     for row in result.rates.iter_rows(named=True):
-        name = _NAMES[row["model"]] + (f", {row['share']:g}" if row["model"] == "code" else "")
+        name = model_name(row["model"]) + (f", {row['share']:g}" if row["model"] == "code" else "")
         rate = interval_text(row["rate"], row["rate_low"], row["rate_high"], ".3g")
         ratio = interval_text(row["real_over_model"], row["real_over_model_low"], row["real_over_model_high"], ".2f")
         ratio = "" if row["model"] == "real" else ratio
@@ -61,7 +61,7 @@ def risk_text(result: RiskTargetedShare) -> str:
     lines += [
         "",
         "What the share depends on",
-        text_line(("changed", "share", "kind", "real rate", "real over code"), _CHANGES),
+        text_line(("changed", "share", "kind", "slide rate", "slide / code"), _CHANGES),
     ]
     for row in result.sensitivity.iter_rows(named=True):
         name = f"{row['parameter']} {row['setting']}".strip()

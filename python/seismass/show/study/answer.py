@@ -78,6 +78,26 @@ def compared_rules(fractions: pl.DataFrame) -> list[Rule]:
     return rules
 
 
+def one_line(result: StudyFrames) -> str:
+    """Return what the study found in one sentence."""
+    summary = result.summary.filter(pl.col("underestimation_percent").is_finite())
+    yielding = summary.filter(pl.col("R") > 1.0)
+    shown = yielding if yielding.height else summary
+    if not shown.height:
+        return "No storey of the study has a result: runs collapsed or failed."
+    kind = "yielding" if yielding.height else "elastic"
+    first = shown.filter(storey=1)
+    means = ", ".join(
+        f"{percent(_number(rows['underestimation_percent'].mean()))} ({occupancy})"
+        for (occupancy,), rows in first.group_by("occupancy", maintain_order=True)
+    )
+    worst = percent(_number(shown["underestimation_percent"].max()))
+    return (
+        f"With the share of the live load that {result.metadata['code']['name']} counts as mass, drifts of first "
+        f"storeys of {kind} buildings are underestimated by {means} on average, and by up to {worst} in one storey."
+    )
+
+
 def answer(result: StudyFrames) -> list[Markup]:
     """Return the sentences, a paragraph for each thing that a reader wants to know."""
     summary = result.summary.filter(pl.col("underestimation_percent").is_finite())

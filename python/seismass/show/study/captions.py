@@ -11,7 +11,8 @@ from matplotlib.lines import Line2D
 
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.media.figure_file import CAPTION_CHARACTERS
-from seismass.media.style import BLUE, GREY, LAMBDA, PERIOD_TICKS, VERMILION, plain
+from seismass.media.roles import BLUE, GREY, LAMBDA, MU, OMEGA, VERMILION
+from seismass.media.style import PERIOD_TICKS, plain
 from seismass.study import motions_text
 
 LEAST_WIDTH: Final = 7.0
@@ -62,12 +63,12 @@ def suite_caption(result: StudyFrames, mu: float | None = None, *, inches: float
         "own": "modes of each model",
     }[chosen["damping_base"]]
     springs = (
-        f"Ω = {chosen['overstrength']:g}, r2 = {chosen['second_slope']:g}, r3 = {chosen['third_slope']:g}, "
+        f"{OMEGA} = {chosen['overstrength']:g}, r2 = {chosen['second_slope']:g}, r3 = {chosen['third_slope']:g}, "
         f"{'P-Delta' if chosen['p_delta'] else 'no P-Delta'}"
     )
     text = (
         f"{motions_text(suite)} ({plain(suite['name'])}), scaled for T = {chosen['scaling_period']:g} s; "
-        f"µ = {', '.join(f'{value:g}' for value in frictions)}; {springs}; "
+        f"{MU} = {', '.join(f'{value:g}' for value in frictions)}; {springs}; "
         f"damping {100.0 * chosen['damping']:g} % in the {damped}; target: {plain(result.metadata['target']['label'])}"
     )
     return textwrap.fill(text, int(CAPTION_CHARACTERS * inches))

@@ -10,28 +10,21 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass.media.style import ALPHA, BLUE, GREEN, GREY, LAMBDA, MU, VERMILION, plain
+from seismass.media.roles import ALPHA, ATTACHED, CODE, GREY, LAMBDA, MU, SLIDE
+from seismass.media.style import plain
 from seismass.show.study.captions import LEAST_WIDTH, StudyFrames, labels_of, occupancy_title, suite_caption
 from seismass.study import Model
 
 LOOKS: Final[dict[Model, dict[str, Any]]] = {
-    "code": {
-        "color": VERMILION,
-        "linestyle": (0, (4, 2)),
-        "linewidth": 1.5,
-        "marker": "s",
-        "markersize": 4.0,
-        "markerfacecolor": "white",
-    },
+    "code": {**CODE.look, "linewidth": 1.5, "marker": CODE.marker, "markersize": 4.0, "markerfacecolor": "white"},
     "attached": {
-        "color": GREEN,
-        "linestyle": (0, (1, 1)),
+        **ATTACHED.look,
         "linewidth": 1.6,
-        "marker": "^",
+        "marker": ATTACHED.marker,
         "markersize": 5.5,
         "markerfacecolor": "white",
     },
-    "real": {"color": BLUE, "linestyle": "-", "linewidth": 1.8, "marker": "o", "markersize": 3.5},
+    "real": {**SLIDE.look, "linewidth": 1.8, "marker": SLIDE.marker, "markersize": 3.5},
 }
 """How each model is drawn, in the order of drawing."""
 
@@ -65,15 +58,22 @@ def drift_figure(result: StudyFrames, factor: float, mu: float) -> Figure:
     behaviour = " (elastic)" if factor == 1.0 and not result.metadata["parameters"]["yield_at_r1"] else ""
     code = plain(result.metadata["code"]["name"])
     texts: dict[Model, str] = {
-        "real": "real: blocks may slide",
-        "attached": "attached: all of the block mass, none slides",
-        "code": f"code, {code}: {LAMBDA} of the block mass attached",
+        "real": SLIDE.name,
+        "attached": f"{ATTACHED.name}: none slide",
+        "code": f"{CODE.name}, {code}: {LAMBDA} of the goods attached",
     }
     handles = [Line2D([], [], label=text, **LOOKS[model]) for model, text in texts.items()]
     handles.append(
-        Line2D([], [], color=LOOKS["real"]["color"], linewidth=4.5, alpha=0.25, label="real: 16 to 84 % of the motions")
+        Line2D([], [], color=SLIDE.colour, linewidth=4.5, alpha=0.25, label=f"{SLIDE.name}: 16 to 84 % of the motions")
     )
-    handles.append(Line2D([], [], linestyle="", label="numbers: underestimation (real \N{EN DASH} code) / code, %"))
+    handles.append(
+        Line2D(
+            [],
+            [],
+            linestyle="",
+            label=f"numbers: underestimation ({SLIDE.name} \N{EN DASH} {CODE.name}) / {CODE.name}, %",
+        )
+    )
     friction = f", {MU} = {mu:g}" if result.summary["mu"].n_unique() > 1 else ""
     title = f"R = {label}{behaviour}{friction}"
     legend = figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False, title=title)
@@ -93,7 +93,7 @@ def _drift_profile(axes: Axes, storeys: pl.DataFrame) -> None:
     level = storeys["storey"].to_numpy()
     low, high = (1e3 * storeys[f"{name}_peak_drift_real"].cast(pl.Float64).to_numpy() for name in ("p16", "p84"))
     known = np.isfinite(low) & np.isfinite(high)
-    axes.hlines(level[known], low[known], high[known], color=LOOKS["real"]["color"], linewidth=4.5, alpha=0.25)
+    axes.hlines(level[known], low[known], high[known], color=SLIDE.colour, linewidth=4.5, alpha=0.25)
     for model, look in LOOKS.items():
         axes.plot(1e3 * storeys[f"mean_peak_drift_{model}"].to_numpy(), level, **look)
     for height, percent in zip(level, storeys["underestimation_percent"], strict=True):

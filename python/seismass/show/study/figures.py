@@ -10,7 +10,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from seismass.effective_mass.estimate import best_estimate, conservative_estimate
-from seismass.media.style import BLUE, ETA, GREEN, GREY, INK, ORANGE, PURPLE, SKY, STYLE, VERMILION, lay_out, plain
+from seismass.media.roles import BLOCK_COLOURS, EFFECTIVE, ETA, GREY, INK
+from seismass.media.style import STYLE, lay_out, plain
 from seismass.show.study.captions import StudyFrames, labels_of, spectrum_figure, suite_caption
 from seismass.show.study.drift import drift_figure
 from seismass.show.study.heat import heat_figure
@@ -61,6 +62,15 @@ def _has_goods(result: StudyFrames) -> bool:
     return result.responses["peak_slip"].null_count() < result.responses.height
 
 
+def phone_figures(result: StudyFrames) -> dict[str, Figure]:
+    """Return figures for narrow screens, by the name of that in whose place they stand."""
+    frictions = labels_of(result.summary["mu"])
+    mu, name = next(iter(frictions.items()))
+    behind = f"_mu{name}" if len(frictions) > 1 else ""
+    with mpl.rc_context(STYLE):
+        return {f"underestimation{behind}": lay_out(underestimation_figure(result, mu, narrow=True))}
+
+
 def page_figures(result: StudyTables) -> dict[str, Figure]:
     """Return the figures of the page of a study by name: those of the study, its sensitivity and its validations."""
     figures = study_figures(result)
@@ -83,11 +93,10 @@ def effective_figure(result: StudyFrames) -> Figure:
     table = result.fractions.drop_nulls("effective")
     figure = Figure(figsize=(6.4, 4.6), layout="constrained")
     axes = figure.add_subplot()
-    colours = (VERMILION, BLUE, GREEN, PURPLE, ORANGE, SKY)
     for position, (factor, label) in enumerate(labels_of(table["R"]).items()):
         here = table.filter(R=factor).unique(["eta", "effective"], maintain_order=True)
         eta, value = here["eta"].to_numpy() / np.sqrt(here["height_ratio"].to_numpy()), here["effective"].to_numpy()
-        colour = colours[position % len(colours)]
+        colour = BLOCK_COLOURS[position % len(BLOCK_COLOURS)]
         axes.vlines(eta, here["low"].to_numpy(), here["high"].to_numpy(), color=colour, linewidth=0.7, alpha=0.5)
         axes.plot(
             eta,
@@ -117,9 +126,9 @@ def effective_figure(result: StudyFrames) -> Figure:
     axes.set_xlim(0.0, end)
     axes.set_ylim(-0.03, 1.06)
     axes.set_xlabel(
-        f"{ETA}$_h$ = friction over base shear coefficient of the attached model over (h$_g$/h$_m$)$^{{1/2}}$"
+        f"{ETA}$_h$ = friction over base shear coefficient of the model with all attached over (h$_g$/h$_m$)$^{{1/2}}$"
     )
-    axes.set_ylabel("effective fraction of the live load")
+    axes.set_ylabel(EFFECTIVE)
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     figure.legend(loc="outside upper center", ncols=3, frameon=False)
     figure.supxlabel(suite_caption(result, inches=6.4), fontsize=7.5)

@@ -10,14 +10,14 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.figure import Figure
 
-from seismass.media.style import ALPHA, BLUE, GREY, INK, PAPER, VERMILION
+from seismass.media.roles import ALPHA, CODE, GREY, INK, PAPER, SLIDE
 from seismass.show.study.captions import LEAST_WIDTH, StudyFrames, labels_of, occupancy_title, suite_caption
 
 LARGEST: Final = 100.0
 """Underestimation (%) from which on colours are as strong as they get."""
 LEAST_ROWS: Final = 3
 """Rows of the height that a figure has at least."""
-_MAP: Final = LinearSegmentedColormap.from_list("underestimation", (BLUE, PAPER, VERMILION))
+_MAP: Final = LinearSegmentedColormap.from_list("underestimation", (SLIDE.colour, PAPER, CODE.colour))
 _STRONGEST: Final = 0.7
 """Share of a full colour on which numbers are still legible."""
 

@@ -1,4 +1,4 @@
-"""The page of a study: the answer first, then every figure and table, the paper's claims, assumptions, provenance."""
+"""The page of a study: its figure and one line first, then findings, figures and tables, validation, provenance."""
 
 from __future__ import annotations
 
@@ -6,28 +6,33 @@ from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
 import polars as pl
-from markupsafe import Markup, escape
+from markupsafe import Markup
 
-from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
-from seismass.media.svg import short_svg
-from seismass.show.animation.html import element_html
-from seismass.show.study.answer import SHORT, answer, compared_rules, percent, span
+from seismass.media.isolate import sentence_html
+from seismass.media.page import Section, facts_html, page_html, table_html, text_html
+from seismass.media.page_lists import bullets_html, long_html
+from seismass.media.roles import ALPHA, ATTACHED, CODE, ETA, MU, SLIDE, lettered
+from seismass.show.study.answer import SHORT, answer, compared_rules, one_line, percent, span
 from seismass.show.study.captions import labels_of
+from seismass.show.study.page_sections import (
+    Pictures,
+    claims_section,
+    example_section,
+    sensitivity_section,
+    validation_section,
+)
 from seismass.show.study.page_tables import fractions_table, slip_table, storeys_table
 from seismass.show.study.slip import slip_demand
 from seismass.show.study.tables import StudyTables
 from seismass.show.study.words import assumptions, provenance
 from seismass.study import motions_text
-from seismass.validation.three_storeys import PEAK_G
 
-VERDICT_CLASSES: Final = {"reproduced": "good", "not reproduced": "warn", "depends": "warn"}
-"""How verdicts on claims stand out."""
 _PAPER_FIGURES: Final = {
     factor: f" (the paper's Fig. {number})" for factor, number in ((1.0, 6), (2.0, 7), (4.0, 8), (6.0, 9))
 }
 
 
-def study_page(result: StudyTables, drawings: Mapping[str, str]) -> str:
+def study_page(result: StudyTables, drawings: Mapping[str, str], for_phones: Mapping[str, str] | None = None) -> str:
     """Return the page as HTML.
 
     Parameters
@@ -36,6 +41,8 @@ def study_page(result: StudyTables, drawings: Mapping[str, str]) -> str:
         The study, as its folder holds it.
     drawings : mapping of str to str
         SVG texts of `study_drawings`, by name.
+    for_phones : mapping of str to str, optional
+        Those that stand in their place on narrow screens.
 
     Returns
     -------
@@ -43,17 +50,18 @@ def study_page(result: StudyTables, drawings: Mapping[str, str]) -> str:
         A page that needs nothing but itself; equal tables give equal pages.
     """
     metadata = result.metadata
-    page = _Pictures(drawings)
+    page = Pictures(drawings, for_phones or {})
+    first, *others = page.named("underestimation")
     sections = [
-        Section("Ground motions", _motions(result, page)),
-        *_validation(result, page),
+        Section("Findings", [text_html(*(Markup(lettered(paragraph)) for paragraph in answer(result)))]),
+        Section("Underestimation", _underestimation(result, page, others)),
         Section("Drift demands", [text_html(_MODELS)], list(_drifts(result, page))),
-        Section("Underestimation", _underestimation(result, page)),
         Section("Effective fraction", _fraction(result, page)),
         *([Section("Slip of the goods", _slip(result, page))] if page.named("slip") else []),
-        *_sensitivity(result, page),
-        *_example(result),
-        *_claims(result),
+        *sensitivity_section(result, page),
+        *example_section(result),
+        *claims_section(result),
+        Section("Ground motions", _motions(result, page)),
         Section(
             "Tables",
             [],
@@ -63,47 +71,32 @@ def study_page(result: StudyTables, drawings: Mapping[str, str]) -> str:
                 Section("Slip of every building", [slip_table(slip_demand(result.responses))]),
             ],
         ),
-        Section("Assumptions", [bullets_html(assumptions(metadata)), *_remarks(metadata)]),
+        *validation_section(result, page),
+        Section("Assumptions", [bullets_html(map(sentence_html, assumptions(metadata))), *_remarks(metadata)]),
         Section("Provenance", [facts_html(provenance(metadata))]),
     ]
-    lead = [Markup('<div class="answer">{}</div>').format(text_html(*answer(result)))]
+    line = one_line(result)
+    lead = [
+        Markup('<p class="answer"><strong>{}</strong></p>').format(line),
+        page.figure(first, _UNDERESTIMATION, f"{line} Rings: what the model with all goods attached gives."),
+    ]
     subtitle = (
         f"{metadata['code']['name']} on {motions_text(metadata['suite'])} ({metadata['suite']['name']}); "
         f"seismass {metadata['package_version']}"
     )
-    return page_html("How much of the live load acts as mass: a study", sections, subtitle=subtitle, lead=lead)
+    title = "How much of the live load acts as mass: a study"
+    return page_html(title, sections, subtitle=subtitle, description=line, lead=lead)
 
 
 _MODELS: Final = (
-    "Each building is solved three times under each motion: with goods that may slide (real), with the code's share of "
-    "their mass attached to the floors (code), and with all of their mass attached (attached). The numbers at the "
-    "right are (real \N{EN DASH} code) / code of the mean peak drifts."
+    f"Each building is solved three times under each motion: with goods that may slide ({SLIDE.name}), with the code's "
+    f"share of their mass attached to the floors ({CODE.name}), and with all of it ({ATTACHED.name}). The numbers at "
+    f"the right are ({SLIDE.name} \N{EN DASH} {CODE.name}) / {CODE.name} of the mean peak drifts."
 )
-
-
-class _Pictures:
-    """Drawings by name, as figures of the page."""
-
-    def __init__(self, drawings: Mapping[str, str]) -> None:
-        self._drawings = drawings
-
-    def named(self, stem: str) -> list[str]:
-        """Return the names of the drawings of one kind, in their order."""
-        return [name for name in self._drawings if name == stem or name.startswith(f"{stem}_")]
-
-    def figure(self, name: str, caption: str, alt: str) -> Markup:
-        """Return one figure; nothing where there is no such drawing."""
-        return figure_html(short_svg(self._drawings[name]), caption, alt) if name in self._drawings else Markup("")
-
-
-def bullets_html(lines: list[str]) -> Markup:
-    """Return sentences as a list."""
-    return Markup("<ul>{}</ul>").format(Markup("").join(Markup("<li>{}</li>").format(line) for line in lines))
-
-
-def long_html(text: str) -> Markup:
-    """Return a text that keeps some width in a table, on a narrow screen too."""
-    return Markup('<span class="long">{}</span>').format(text)
+_UNDERESTIMATION: Final = (
+    "Underestimation of drift against R: the storey with the largest, and the range over the storeys of each building. "
+    "Rings: what the model with all goods attached gives over that of the code, where none of it is due to sliding."
+)
 
 
 def _remarks(metadata: dict[str, Any]) -> Iterator[Markup]:
@@ -111,7 +104,7 @@ def _remarks(metadata: dict[str, Any]) -> Iterator[Markup]:
         yield Markup('<div class="note"><p>Remarks on the inputs</p>{}</div>').format(bullets_html(metadata["remarks"]))
 
 
-def _motions(result: StudyTables, page: _Pictures) -> list[Markup]:
+def _motions(result: StudyTables, page: Pictures) -> list[Markup]:
     metadata = result.metadata
     factors = result.scaling.with_columns(
         pl.Series("name", [motion["record"] for motion in metadata["suite"]["motions"]]),
@@ -150,72 +143,7 @@ def _motions(result: StudyTables, page: _Pictures) -> list[Markup]:
     ]
 
 
-def _validation(result: StudyTables, page: _Pictures) -> Iterator[Section]:
-    if result.section4 is None or result.platform is None:
-        return
-    about = result.metadata["validation"]
-    differences = result.section4.differences.rename({"second_slope": "r2"})
-    parts = [
-        text_html(
-            f"The three-storey building of the paper's section 4, its record scaled to {PEAK_G:g} g; motion: "
-            f"{about['section4_motion']}. The exact kernel stands beside OpenSees, whose results are kept with the "
-            "package, and beside stiff springs in the place of friction."
-        )
-    ]
-    for name in page.named("section4"):
-        if name == "section4_sliding":
-            continue
-        component = name.removeprefix("section4_")
-        parts.append(
-            page.figure(
-                name,
-                f"Drift of the storeys and slip of the blocks by several programs, component {component} (the paper's "
-                "Fig. 5).",
-                f"Histories of drift and slip under component {component}: the programs lie on one another.",
-            )
-        )
-    parts += [
-        table_html(
-            differences,
-            "Largest difference of histories from those of the exact kernel, and that over the largest drift or slip.",
-            headers={
-                "drift_mm": "drift (mm)",
-                "drift_percent": "drift (%)",
-                "slip_mm": "slip (mm)",
-                "slip_percent": "slip (%)",
-            },
-            formats=dict.fromkeys(("drift_mm", "drift_percent", "slip_mm", "slip_percent"), ".2g"),
-        ),
-        page.figure(
-            "section4_sliding",
-            "Peak slip of each block against the second slope r2, which the paper does not state.",
-            "Where goods slide most depends on the second slope, the component and the peak of the record.",
-        ),
-    ]
-    robust = result.platform.robust
-    table = [
-        text_html(
-            f"The platform at 1:15 of the paper's Fig. 4; motion: {about['platform_motion']}, compressed in time. The "
-            "paper gives neither its period nor friction and damping: bands are over the ranges stated in the figure. "
-            f"The block slides in {robust['slides']} of {robust['runs']} runs and lowers the drift in "
-            f"{robust['below_attached']} of these."
-        )
-    ]
-    for name in page.named("platform"):
-        component = name.removeprefix("platform_")
-        table.append(
-            page.figure(
-                name,
-                f"Drift of the platform with two blocks, component {component} (the paper's Fig. 4): bands over "
-                "friction and damping, and peaks over the period.",
-                "Bands of drift histories of the platform for both mass ratios, with the central values and with the "
-                "block attached.",
-            )
-        )
-    yield Section("Validation", [], [Section("Three storeys", parts), Section("Shaking table", table)])
-
-
-def _drifts(result: StudyTables, page: _Pictures) -> Iterator[Section]:
+def _drifts(result: StudyTables, page: Pictures) -> Iterator[Section]:
     frictions, factors = labels_of(result.summary["mu"]), labels_of(result.summary["R"])
     for factor, label in factors.items():
         figures = []
@@ -227,23 +155,23 @@ def _drifts(result: StudyTables, page: _Pictures) -> Iterator[Section]:
             figures.append(
                 page.figure(
                     f"drift_R{label}{behind}",
-                    f"Mean peak drift of each storey, R = {label}, mu = {mu:g}{_PAPER_FIGURES.get(factor, '')}.",
-                    f"Drift by storey of real, code and attached models at R = {label}: underestimation {span}.",
+                    f"Mean peak drift of each storey, R = {label}, {MU} = {mu:g}{_PAPER_FIGURES.get(factor, '')}.",
+                    f"Drift by storey with sliding goods and of both models at R = {label}: underestimation {span}.",
                 )
             )
         yield Section(f"R = {label}", figures)
 
 
-def _underestimation(result: StudyTables, page: _Pictures) -> list[Markup]:
+def _underestimation(result: StudyTables, page: Pictures, others: list[str]) -> list[Markup]:
+    """What is not ahead of the contents: of further frictions, and the maps."""
     parts = [
         page.figure(
             name,
-            "Underestimation against R: the storey with the largest, and the range over the storeys of each building. "
-            "Rings: what the attached model gives over the code model, where none of it is due to sliding.",
+            _UNDERESTIMATION,
             f"The largest underestimation of a storey is {_extremes(result.summary)[1]}, the smallest "
-            f"{_extremes(result.summary)[0]}; rings of the attached model are beside the markers.",
+            f"{_extremes(result.summary)[0]}; rings of the model with all goods attached are beside the markers.",
         )
-        for name in page.named("underestimation")
+        for name in others
     ]
     parts += [
         page.figure(
@@ -258,7 +186,7 @@ def _underestimation(result: StudyTables, page: _Pictures) -> list[Markup]:
     return parts
 
 
-def _fraction(result: StudyTables, page: _Pictures) -> list[Markup]:
+def _fraction(result: StudyTables, page: Pictures) -> list[Markup]:
     fractions = result.fractions
     parts = []
     if "effective" in page.named("effective"):
@@ -267,7 +195,7 @@ def _fraction(result: StudyTables, page: _Pictures) -> list[Markup]:
                 "effective",
                 "Effective fraction of each building with its 90 % interval over the motions, the two estimates in "
                 "closed form, and the fractions of the code.",
-                f"Effective fractions against eta, {span(fractions['effective'])}, beside both estimates.",
+                f"Effective fractions against {ETA}, {span(fractions['effective'])}, beside both estimates.",
             )
         )
         rules = compared_rules(fractions)
@@ -289,13 +217,13 @@ def _fraction(result: StudyTables, page: _Pictures) -> list[Markup]:
     return parts
 
 
-def _slip(result: StudyTables, page: _Pictures) -> list[Markup]:
+def _slip(result: StudyTables, page: Pictures) -> list[Markup]:
     demand = slip_demand(result.responses)
     parts = [
         page.figure(
             name,
             "Largest peak slip of the goods on any floor: mean over the motions, and from 16 to 84 % of them.",
-            f"Mean largest slip of a building against R by alpha, at most {1e3 * _largest_slip(demand):.0f} mm.",
+            f"Mean largest slip of a building against R by {ALPHA}, at most {1e3 * _largest_slip(demand):.0f} mm.",
         )
         for name in page.named("slip")
     ]
@@ -311,91 +239,3 @@ def _extremes(summary: pl.DataFrame) -> tuple[str, str]:
 def _largest_slip(demand: pl.DataFrame) -> float:
     known = demand["mean"].drop_nulls().to_numpy()
     return float(known.max()) if known.size else 0.0
-
-
-def _sensitivity(result: StudyTables, page: _Pictures) -> Iterator[Section]:
-    table = result.sensitivity
-    if table is None:
-        return
-    keys = ["choice", "setting", "occupancy", *(["mu"] if table["mu"].n_unique() > 1 else [])]
-    names = {
-        "largest_percent": "largest",
-        "least_R_percent": "R least",
-        "most_R_percent": "R most",
-        "mass_percent": "by mass",
-        "sliding_percent": "by sliding",
-        "collapses": "collapsed runs",
-    }
-    as_is = table.filter(choice=table["choice"][0])["largest_percent"].drop_nulls()
-    low, high = (table["largest_percent"].drop_nulls().to_numpy() for _ in range(2))
-    said = f"from {low.min():+.0f} to {high.max():+.0f} %" if as_is.len() else "without a number"
-    yield Section(
-        "Sensitivity",
-        [
-            text_html("The study again with each choice that the paper leaves open changed alone."),
-            page.figure(
-                "sensitivity",
-                "Largest underestimation of a first storey under each choice.",
-                f"The largest underestimation of a first storey goes {said} over the choices.",
-            ),
-            table_html(
-                table.select(*keys, *names),
-                "Underestimation of first storeys under each choice. R least, R most: mean of those with the largest "
-                "alpha at the smallest and the largest R; by mass, by sliding: what the last one is made of.",
-                headers=names,
-                formats={name: percent for name in names if name.endswith("percent")},
-            ),
-        ],
-    )
-
-
-def _example(result: StudyTables) -> Iterator[Section]:
-    if result.animation is None:
-        return
-    about = result.animation["about"]
-    labels = about["labels"]
-    yield Section(
-        "Example",
-        [
-            text_html(
-                f"A building of the study with goods that slide, beside the model of the code: {labels['occupancy']}, "
-                f"{labels['storeys']} storeys, R = {labels['R']:g}, alpha = {labels['alpha']:g}, mu = "
-                f"{labels['mu']:g}, under {about['motion']} scaled to {about['peak_g']:.2f} g. It is the building with "
-                "the largest underestimation of a first storey among those whose goods slide, under the motion whose "
-                "underestimation is closest to that of the means."
-            ),
-            element_html(result.animation["element"]),
-        ],
-    )
-
-
-def _claims(result: StudyTables) -> Iterator[Section]:
-    table = result.claims
-    if table is None:
-        return
-    counts = table["verdict"].value_counts(sort=True).rows()
-    said = ", ".join(f"{count} {verdict}" for verdict, count in counts)
-    yield Section(
-        "Claims of the paper",
-        [
-            text_html(
-                "Claims of the paper's abstract, sections 4 and 5 and conclusions, with the numbers of this study: "
-                f"{said}. Verdicts follow from rules on the tables."
-            ),
-            table_html(
-                table.select("number", "claim", "verdict", "numbers", "depends_on", "source"),
-                "Each claim: whether it holds here, our numbers, and what the verdict depends on.",
-                headers={"number": "no.", "numbers": "our numbers", "depends_on": "depends on"},
-                formats={
-                    "verdict": _verdict,
-                    "number": "d",
-                    **dict.fromkeys(("claim", "numbers", "depends_on"), long_html),
-                },
-            ),
-        ],
-    )
-
-
-def _verdict(verdict: str) -> Markup:
-    kind = VERDICT_CLASSES.get(verdict)
-    return Markup('<span class="{}">{}</span>').format(kind, verdict) if kind else escape(verdict)

@@ -9,6 +9,7 @@ from markupsafe import Markup
 
 from seismass.effective_mass.estimate import RULE, RULE_IN_WORDS, SAFE_RULE
 from seismass.media.page import table_html
+from seismass.media.roles import ATTACHED, CODE, EFFECTIVE, ETA, SLIDE, lettered
 from seismass.show.study.answer import percent
 from seismass.show.study.tables import StudyTables
 
@@ -24,22 +25,22 @@ def storeys_table(result: StudyTables) -> Markup:
     """Return mean drifts of every storey by the three models, and the underestimation."""
     names = {
         "storey": "storey",
-        "mean_peak_drift_real": "real (mm)",
-        "mean_peak_drift_code": "code (mm)",
-        "mean_peak_drift_attached": "attached (mm)",
+        "mean_peak_drift_real": f"{SLIDE.name} (mm)",
+        "mean_peak_drift_code": f"{CODE.name} (mm)",
+        "mean_peak_drift_attached": f"{ATTACHED.name} (mm)",
         "underestimation_percent": "under-estimation",
         "p16_underestimation_percent": "16 %",
         "median_underestimation_percent": "median",
         "p84_underestimation_percent": "84 %",
-        "ratio_mass": "attached / code",
-        "ratio_sliding": "real / attached",
+        "ratio_mass": f"{ATTACHED.name} / {CODE.name}",
+        "ratio_sliding": f"{SLIDE.name} / {ATTACHED.name}",
     }
     table = result.summary.select(*shown_keys(result.summary), *names)
     millimetres = [name for name in names if name.startswith("mean_peak")]
     percents = [name for name in names if name.endswith("percent")]
     return table_html(
         table,
-        "Mean peak drift of every storey by the three models, and (real \N{EN DASH} code) / code: of the means, "
+        f"Mean peak drift of every storey, and ({SLIDE.name} \N{EN DASH} {CODE.name}) / {CODE.name}: of the means, "
         "and motion by motion.",
         headers=names,
         formats={
@@ -54,12 +55,12 @@ def fractions_table(fractions: pl.DataFrame) -> Markup:
     """Return C1, eta, the estimates and the effective fraction of every building."""
     names = {
         "base_shear_coefficient": "C1",
-        "eta": "eta",
+        "eta": ETA,
         "height_ratio": "h_g/h_m",
         "exponent": "p",
-        "estimate": RULE,
-        "conservative": SAFE_RULE,
-        "effective": "effective fraction",
+        "estimate": lettered(RULE),
+        "conservative": lettered(SAFE_RULE),
+        "effective": EFFECTIVE,
         "low": "5 %",
         "high": "95 %",
         "kind": "kind",
@@ -67,8 +68,9 @@ def fractions_table(fractions: pl.DataFrame) -> Markup:
     known = [name for name in names if fractions[name].null_count() < fractions.height]
     return table_html(
         fractions.select(*shown_keys(fractions), *known),
-        "Every building: mean peak base shear coefficient C1 of the attached model, eta = mu/C1, the estimates with "
-        f"{RULE_IN_WORDS}" + (", and the effective fraction with its interval." if "effective" in known else "."),
+        "Every building: mean peak base shear coefficient C1 with all attached, {ETA} = {MU}/C1, the estimates with "
+        f"{lettered(RULE_IN_WORDS)}"
+        + (", and the effective fraction with its interval." if "effective" in known else "."),
         headers={name: names[name] for name in known},
         formats={name: ".3f" if name.startswith("base") else ".2f" for name in known if name != "kind"},
     )

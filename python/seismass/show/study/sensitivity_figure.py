@@ -8,9 +8,9 @@ import polars as pl
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass.media.style import BLUE, GREEN, GREY, INK, PURPLE, VERMILION, plain
+from seismass.media.roles import BLOCK_COLOURS, GREY, INK, MU
+from seismass.media.style import plain
 
-_COLOURS: Final = (BLUE, VERMILION, GREEN, PURPLE)
 _MARKERS: Final = ("o", "D", "^", "s")
 
 
@@ -30,14 +30,14 @@ def sensitivity_figure(table: pl.DataFrame) -> Figure:
     axes = figure.add_subplot()
     handles = []
     for number, (occupancy, mu) in enumerate(groups):
-        colour, marker = _COLOURS[number % len(_COLOURS)], _MARKERS[number % len(_MARKERS)]
+        colour, marker = BLOCK_COLOURS[number % len(BLOCK_COLOURS)], _MARKERS[number % len(_MARKERS)]
         rows = table.filter(occupancy=occupancy, mu=mu).drop_nulls("largest_percent")
         heights = [place[key] for key in rows.select("choice", "setting").rows()]
         axes.plot(rows["largest_percent"], heights, color=colour, marker=marker, markersize=5.0, linestyle="")
         as_is = rows.filter(choice=settings[0][0])["largest_percent"]
         if as_is.len():
             axes.axvline(as_is[0], color=colour, linewidth=0.9, linestyle=(0, (4, 2)))
-        name = f"{occupancy}, mu = {mu:g}" if several else occupancy
+        name = f"{occupancy}, {MU} = {mu:g}" if several else occupancy
         handles.append(Line2D([], [], color=colour, marker=marker, markersize=5.0, linewidth=0.9, label=plain(name)))
     before = None
     for (choice, _), row in place.items():

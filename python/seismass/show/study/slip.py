@@ -7,7 +7,8 @@ import polars as pl
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass.media.style import ALPHA, GREY, plain
+from seismass.media.roles import ALPHA, GREY
+from seismass.media.style import plain
 from seismass.show.study.captions import LEAST_WIDTH, StudyFrames, labels_of, suite_caption
 from seismass.show.study.underestimation import ALPHA_SPACING, looks_of
 

@@ -55,22 +55,64 @@ def provenance(metadata: dict[str, Any]) -> dict[str, str]:
     counts = metadata["counts"]
     return {
         "Program": f"seismass {metadata['package_version']}",
-        "Instruction set": str(metadata["instructions"]),
-        "Version of the tables": str(metadata["schema_version"]),
-        "Inputs (SHA-256)": metadata["inputs_sha256"],
+        "Processor instructions": f"{metadata['instructions']}; the same bits wherever they are used",
+        "Format of the tables": f"version {metadata['schema_version']}",
+        "Inputs, SHA-256": metadata["inputs_sha256"],
         "Analyses": f"{counts['analyses']} of {counts['buildings']} buildings, {counts['distinct']} distinct: "
         f"{counts['completed']} completed, {counts['collapsed']} collapsed, {counts['failed']} failed",
-        **{name.replace("_", " "): _option(value) for name, value in metadata["parameters"].items()},
+        **dict(_option(name, value) for name, value in metadata["parameters"].items()),
     }
 
 
-def _option(value: Any) -> str:
-    """A parameter as a text: lists with commas, pairs with colons."""
+_PARAMETERS: Final = {
+    "buildings": "Buildings",
+    "response_modification": "Response modification factors R",
+    "mass_ratios": "Goods over floor mass, \N{GREEK SMALL LETTER ALPHA}",
+    "occupancies": "Share of the goods that the code counts",
+    "code": "Code",
+    "mu": "Friction, \N{GREEK SMALL LETTER MU}",
+    "overstrength": "Overstrength, \N{GREEK CAPITAL LETTER OMEGA}",
+    "second_slope": "Slope after the first yield over the initial one, r2",
+    "third_slope": "Slope after the second yield over the initial one, r3",
+    "damping": "Damping ratio",
+    "damping_base": "Damping",
+    "scaling_period": "Period for which motions are scaled",
+    "combination": "Combination of modes",
+    "yield_at_r1": "Buildings of R = 1",
+    "height": "Storey height",
+    "p_delta": "P-Delta",
+    "collapse_drift_ratio": "Collapse",
+}
+"""Parameters in words."""
+
+
+def _option(name: str, value: Any) -> tuple[str, str]:
+    """A parameter in words, its value with its unit."""
+    if name == "buildings":
+        text = ", ".join(f"{storeys} storeys, {period:g} s" for storeys, period in value)
+    elif name == "occupancies":
+        text = ", ".join(
+            f"{use} {design:g}" + ("" if design == analysis else f" in the design, {analysis:g} in the analysis")
+            for use, design, analysis in value
+        )
+    elif name == "damping_base":
+        text = DAMPING_TEXTS[value]
+    elif name == "yield_at_r1":
+        text = "yield at V_e" if value else "stay elastic"
+    elif name == "collapse_drift_ratio":
+        text = "only where P-Delta says so" if value is None else f"at a drift of {value:g} of the height"
+    elif name == "combination":
+        text = value.upper()
+    else:
+        text = _plain_option(value)
+    unit = {"scaling_period": " s", "height": " m"}.get(name, "")
+    return _PARAMETERS[name], f"{text}{unit}"
+
+
+def _plain_option(value: Any) -> str:
+    """Numbers with commas, yes or no, a text."""
     if isinstance(value, list | tuple):
-        nested = any(isinstance(item, list | tuple) for item in value)
-        return ", ".join(":".join(_option(part) for part in item) if nested else _option(item) for item in value)
+        return ", ".join(_plain_option(item) for item in value)
     if isinstance(value, bool):
         return "yes" if value else "no"
-    if value is None:
-        return "none"
     return f"{value:g}" if isinstance(value, float) else str(value)

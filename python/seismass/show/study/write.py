@@ -69,11 +69,13 @@ def write_study(
         documents[ANIMATION] = _json(result.animation, indent=None)
     drawn: dict[str, Figure] = {}
     if figures:
+        from seismass.media.svg import figure_svgs
+        from seismass.show.study.figures import phone_figures
         from seismass.show.study.page import study_page
 
         drawn, drawings = _drawn(result, progress)
         documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
-        documents[PAGE] = study_page(result, drawings)
+        documents[PAGE] = study_page(result, drawings, figure_svgs(phone_figures(result)))
     ours = {PAGE, ANIMATION} | {f"{name}.{kind}" for name in OPTIONAL_TABLES for kind in ("parquet", "csv")}
     return write_folder(
         out,
@@ -105,12 +107,14 @@ def write_study_page(folder: Path, target: Path, *, progress: Progress | None = 
     OSError
         The file cannot be written.
     """
+    from seismass.media.svg import figure_svgs
+    from seismass.show.study.figures import phone_figures
     from seismass.show.study.page import study_page
 
     with as_written(folder):
         result = read_study_tables(folder)
         _, drawings = _drawn(result, progress)
-        page = study_page(result, drawings)
+        page = study_page(result, drawings, figure_svgs(phone_figures(result)))
     with written_whole(target) as temporary:
         temporary.write_text(page, encoding="utf-8")
 

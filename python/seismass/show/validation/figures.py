@@ -10,7 +10,8 @@ import polars as pl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from seismass.media.style import BLUE, GREEN, GREY, INK, STYLE, VERMILION
+from seismass.media.roles import ALPHA, ATTACHED, BLOCK_COLOURS, BLUE, GREY, INK, MU, SLIDE, VERMILION
+from seismass.media.style import STYLE
 from seismass.validation.shaking_table import CENTRAL, DAMPINGS, FRICTIONS, MASS_RATIOS, Platform
 from seismass.validation.tables import stiffest
 from seismass.validation.three_storeys import EXACT, OPENSEES, PEAK_G, STOREYS, Section4
@@ -56,6 +57,8 @@ def section4_figure(result: Section4, component: str, second_slope: float) -> Fi
                 axes.set_ylabel("mm")
                 if np.abs(getattr(exact, name)[:, storey]).max() == 0.0:
                     axes.set_ylim(-1.0, 1.0)
+                    said = "does not slide" if name == "slip" else "does not drift"
+                    axes.text(0.5, 0.62, said, transform=axes.transAxes, ha="center", fontsize=8.0)
         for axes in panels[-1]:
             axes.set_xlabel("time (s)")
         figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False)
@@ -76,7 +79,7 @@ def sliding_figure(result: Section4) -> Figure:
         for (i, name), (j, peak) in ((a, b) for a in enumerate(names) for b in enumerate(peaks)):
             axes = panels[i, j]
             rows = runs.filter(component=name, peak_g=peak).sort("second_slope")
-            for floor, color in enumerate((BLUE, GREEN, VERMILION)):
+            for floor, color in enumerate(BLOCK_COLOURS[:STOREYS]):
                 slip = 1e3 * rows["peak_slip"].list.get(floor).to_numpy()
                 place = np.arange(len(slopes)) + width * (floor - 1)
                 axes.bar(place, slip, width, color=color, label=f"floor {floor + 1}")
@@ -102,18 +105,18 @@ def platform_figure(result: Platform, component: str) -> Figure:
     """
     bands = [band for band in result.bands if band.component == component]
     period, mu, damping, amplitude = CENTRAL
-    every = f"µ {FRICTIONS[0]:g} to {FRICTIONS[-1]:g}, damping {DAMPINGS[0]:g} to {DAMPINGS[-1]:g}"
+    every = f"{MU} {FRICTIONS[0]:g} to {FRICTIONS[-1]:g}, damping {DAMPINGS[0]:g} to {DAMPINGS[-1]:g}"
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(9.0, 6.6), layout="constrained")
         panels = figure.subplot_mosaic([["first"] * 2, ["second"] * 2, ["drift", "ratio"]])
-        central = f"µ = {mu:g}, damping {damping:g}"
+        central = f"{MU} = {mu:g}, damping {damping:g}"
         for name, band in zip(("first", "second"), bands, strict=True):
             axes, time = panels[name], band.time
             low, high, middle, attached = (1e3 * value for value in (band.low, band.high, band.central, band.attached))
-            axes.fill_between(time, low, high, color=BLUE, alpha=0.25, linewidth=0.0, label=every)
-            axes.plot(time, middle, color=BLUE, linewidth=1.1, label=central)
-            axes.plot(time, attached, color=GREY, linewidth=0.7, linestyle=(0, (3, 2)), label="block attached")
-            axes.set_title(rf"$\alpha$ = {band.mass_ratio:g}, platform of T = {period:g} s", fontsize=8.5, loc="left")
+            axes.fill_between(time, low, high, color=SLIDE.colour, alpha=0.25, linewidth=0.0, label=every)
+            axes.plot(time, middle, color=SLIDE.colour, linewidth=1.1, label=central)
+            axes.plot(time, attached, **ATTACHED.look, linewidth=0.9, label="block attached")
+            axes.set_title(f"{ALPHA} = {band.mass_ratio:g}, platform of T = {period:g} s", fontsize=8.5, loc="left")
             axes.set_ylabel("drift (mm)")
             axes.set_xlim(0.0, float(band.time[-1]))
             axes.set_xlabel("time of the model (s)")
@@ -126,7 +129,7 @@ def platform_figure(result: Platform, component: str) -> Figure:
 
 def _over_period(axes: Axes, runs: pl.DataFrame) -> None:
     """Range of peak drifts over friction and damping at each period."""
-    for ratio, color in zip(MASS_RATIOS, (GREEN, VERMILION), strict=True):
+    for ratio, color in zip(MASS_RATIOS, BLOCK_COLOURS[:2], strict=True):
         rows = (
             runs.filter(mass_ratio=ratio)
             .group_by("period")
@@ -135,7 +138,7 @@ def _over_period(axes: Axes, runs: pl.DataFrame) -> None:
         rows = rows.sort("period")
         low, high = (1e3 * rows[name].to_numpy() for name in ("low", "high"))
         axes.fill_between(
-            rows["period"], low, high, color=color, alpha=0.3, linewidth=0.0, label=rf"$\alpha$ = {ratio:g}"
+            rows["period"], low, high, color=color, alpha=0.3, linewidth=0.0, label=f"{ALPHA} = {ratio:g}"
         )
     axes.set_yscale("log")
     axes.yaxis.set_major_formatter("{x:g}")
@@ -152,8 +155,8 @@ def _heavier_over_lighter(axes: Axes, runs: pl.DataFrame) -> None:
     both = lighter.join(heavier, on=keys, suffix="_heavier")
     ratios = both.select("period", ratio=pl.col("peak_drift_heavier") / pl.col("peak_drift"))
     sliding = runs.select("period", ratio=pl.col("peak_drift") / pl.col("attached_drift"))
-    labels = (rf"$\alpha$ = {MASS_RATIOS[1]:g} over {MASS_RATIOS[0]:g}", "sliding over attached")
-    for table, color, label in zip((ratios, sliding), (INK, BLUE), labels, strict=True):
+    labels = (f"{ALPHA} = {MASS_RATIOS[1]:g} over {MASS_RATIOS[0]:g}", "sliding over attached")
+    for table, color, label in zip((ratios, sliding), (INK, SLIDE.colour), labels, strict=True):
         rows = table.group_by("period").agg(low=pl.col("ratio").min(), high=pl.col("ratio").max()).sort("period")
         axes.fill_between(rows["period"], rows["low"], rows["high"], color=color, alpha=0.3, linewidth=0.0, label=label)
     axes.axhline(1.0, color=GREY, linewidth=0.6)

@@ -1,0 +1,46 @@
+"""Spectra of the motions of an assessment, beside the site spectrum."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Final
+
+import numpy as np
+import polars as pl
+
+from seismass.base.quantiles import QUANTILES
+from seismass.base.values import FloatArray
+from seismass.scaling.asce7 import spectra_of
+from seismass.spectra import TargetSpectrum
+
+PERIODS: Final[FloatArray] = np.round(np.geomspace(0.05, 5.0, 81), 4)
+"""Periods (s) of the table."""
+DAMPING: Final = 0.05
+
+
+def spectra_table(motions: Sequence[Any], target: TargetSpectrum | None, *, threads: int | None = None) -> pl.DataFrame:
+    """Return spectra of motions as they load the building, 5 % damped.
+
+    Parameters
+    ----------
+    motions : sequence of Record, Motion or Pair
+        Scaled motions; the spectrum of a pair is the geometric mean of those of its components.
+    target : TargetSpectrum or None
+        Site spectrum.
+    threads : int, optional
+        Number of threads; default all cores.
+
+    Returns
+    -------
+    polars.DataFrame
+        period (s); target, mean, p16, median and p84 of the pseudo-acceleration (m/s2) over the motions; target is null
+        without a site spectrum, and outside its range.
+    """
+    spectra = spectra_of(list(motions), PERIODS, DAMPING, threads=threads)
+    wanted = np.full(len(PERIODS), np.nan)
+    if target is not None:
+        within = (target.shortest <= PERIODS) & (target.longest >= PERIODS)
+        wanted[within] = target(PERIODS[within])
+    columns = {"period": PERIODS, "target": wanted, "mean": spectra.mean(axis=0)}
+    columns |= {name: np.quantile(spectra, share, axis=0) for name, share in QUANTILES.items()}
+    return pl.DataFrame(columns).with_columns(pl.col("target").fill_nan(None))

@@ -1,0 +1,351 @@
+"""Storey springs fitted to pushover curves of another program, with the misfit and what was assumed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Final
+
+import numpy as np
+import polars as pl
+from numpy.typing import ArrayLike
+
+from seismass.base.errors import InvalidOption
+from seismass.base.values import (
+    FloatArray,
+    as_array,
+    brief,
+    content_hash,
+    frozen,
+    is_one_of,
+    refusal,
+    same_content,
+    short_repr,
+)
+from seismass.base.views import view
+from seismass.design.roof_fit import fitted_storeys, roof_shear
+from seismass.design.spring_fit import SPRING_SHAPES, FittedSpring, SpringShape, fitted_spring, sample_weights
+from seismass.media.result import Result, finite_values
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_OWNER: Final = "pushover fit"
+_FEWEST: Final = 4
+"""Fewest samples of a curve beside the origin."""
+_AT_PEAK: Final = 1e-3
+"""Shears that are so close to the largest, over it, are of one plateau with it."""
+
+
+@dataclass(frozen=True, eq=False)
+class PushoverFit(Result):
+    """Storey springs fitted to pushover curves.
+
+    Attributes
+    ----------
+    stiffness, yield_shear, overstrength, second_slope, third_slope : ndarray, shape (storeys,)
+        The springs (N/m, N, 1), storey 1 first, as `Building` takes them. Of two lines the overstrength is 1 and both
+        slopes are the second one.
+    shape : str
+        "bilinear", "trilinear" or "capped".
+    of_roof : bool
+        One curve of base shear over roof displacement was fitted; else a curve per storey.
+    drift, shear, fitted : tuple of ndarray
+        Each curve as fitted, from the origin: drifts or roof displacements (m), shears (N), and those of the springs.
+    largest_misfit, rms_misfit : ndarray, shape (curves,)
+        Largest and root mean square difference of the shears, over the largest shear of the curve. In the mean samples
+        count by the drift between them.
+    assumptions : tuple of str
+        What was assumed, sentence by sentence.
+    """
+
+    document: ClassVar[str] = "pushover_fit"
+
+    stiffness: FloatArray
+    yield_shear: FloatArray
+    overstrength: FloatArray
+    second_slope: FloatArray
+    third_slope: FloatArray
+    shape: SpringShape
+    of_roof: bool
+    drift: tuple[FloatArray, ...]
+    shear: tuple[FloatArray, ...]
+    fitted: tuple[FloatArray, ...]
+    largest_misfit: FloatArray
+    rms_misfit: FloatArray
+    assumptions: tuple[str, ...]
+
+    __repr__ = short_repr
+    __eq__ = same_content
+    __hash__ = content_hash
+
+    @property
+    def springs(self) -> dict[str, FloatArray]:
+        """Arguments of `Building`: stiffness, yield_shear, overstrength, second_slope, third_slope."""
+        names = ("stiffness", "yield_shear", "overstrength", "second_slope", "third_slope")
+        return {name: getattr(self, name) for name in names}
+
+    @property
+    def corner_drift(self) -> FloatArray:
+        """Drift (m) at the first yield of each storey, shape (storeys,)."""
+        return frozen(self.yield_shear / self.stiffness)
+
+    @property
+    @view
+    def text(self) -> str:
+        """The springs and the misfit as tables, and what was assumed."""
+        raise NotImplementedError
+
+    @property
+    def tables(self) -> dict[str, pl.DataFrame]:
+        """The tables by name: springs, one row per storey; misfit, one per curve; curves, one per sample."""
+        numbers = range(1, len(self.stiffness) + 1)
+        springs = pl.DataFrame({"storey": pl.Series(numbers, dtype=pl.UInt32), **self.springs})
+        curve = pl.Series("curve", range(1, len(self.drift) + 1), dtype=pl.UInt32)
+        misfit = pl.DataFrame(
+            {
+                "curve": curve,
+                "peak_shear": [float(shear.max()) for shear in self.shear],
+                "largest_misfit": self.largest_misfit,
+                "rms_misfit": self.rms_misfit,
+            }
+        )
+        curves = pl.DataFrame(
+            {
+                "curve": pl.Series(np.repeat(curve.to_numpy(), [len(drift) for drift in self.drift])),
+                "drift": np.concatenate(self.drift),
+                "shear": np.concatenate(self.shear),
+                "fitted": np.concatenate(self.fitted),
+            }
+        )
+        return {"springs": springs, "misfit": misfit, "curves": curves}
+
+    @property
+    def figure_names(self) -> tuple[str, ...]:
+        """pushover_fit: each curve and its springs."""
+        return ("pushover_fit",)
+
+    @view
+    def plot(self, name: str | None = None) -> Figure:
+        """Return a figure of each curve with the springs that were fitted to it, and the corners.
+
+        Parameters
+        ----------
+        name : str, optional
+            "pushover_fit".
+
+        Raises
+        ------
+        InvalidOption
+            There is no such figure.
+        """
+        raise NotImplementedError
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return springs, misfit and assumptions as plain values in SI units."""
+        tables = self.tables
+        document = {
+            "shape": self.shape,
+            "of_roof": self.of_roof,
+            "springs": tables["springs"].to_dicts(),
+            "misfit": tables["misfit"].to_dicts(),
+            "assumptions": list(self.assumptions),
+        }
+        finite: dict[str, Any] = finite_values(document)
+        return finite
+
+
+def fit_pushover(
+    drift: ArrayLike | Sequence[ArrayLike],
+    shear: ArrayLike | Sequence[ArrayLike],
+    *,
+    shape: SpringShape = "bilinear",
+    forces: ArrayLike | None = None,
+    relative_stiffness: ArrayLike | None = None,
+    relative_strength: ArrayLike | None = None,
+    p_over_h: ArrayLike | None = None,
+) -> PushoverFit:
+    """Fit storey springs to pushover curves: one per storey, or one of the whole building.
+
+    Parameters
+    ----------
+    drift, shear : array_like, or lists of them
+        Drifts (m) that do not go back, and shears (N), of one curve; or a list of curves, storey 1 first. The origin
+        may be left out.
+    shape : {"bilinear", "trilinear", "capped"}
+        Two lines, three, or three of which the last falls, for peak-oriented springs. Of the first two what comes after
+        the largest shear is left out, and said.
+    forces : array_like, shape (floors,), optional
+        Lateral forces of any scale, floor 1 first: the curve is of base shear over roof displacement. Without them a
+        single curve is that of a building of one storey.
+    relative_stiffness, relative_strength : array_like, shape (storeys,), optional
+        Stiffnesses and strengths of the storeys over one another, as a design has them, with `forces`. By default as
+        the storey shears under the forces: all storeys then drift alike, and yield at once.
+    p_over_h : array_like, optional
+        Gravity load over height (N/m) of each storey, of curves of storeys from an analysis with P-Delta: P/h times the
+        drift, which the spring carries besides, is added to the shear. By default the analysis had none.
+
+    Returns
+    -------
+    PushoverFit
+        Springs, curves, misfit, and what was assumed.
+
+    Raises
+    ------
+    InvalidOption
+        A curve has fewer than four samples, goes back, has a shear that is not positive, or does not bend; lists have
+        different lengths; or arguments do not belong together.
+
+    Notes
+    -----
+    The sum of squared differences of the shears is least, each sample with the drift that it stands for
+    (`scipy.optimize`: non-negative least squares for the slopes, so that they never grow, a search for the corners).
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> drift = [0.002, 0.005, 0.010, 0.015, 0.020, 0.040]
+    >>> shear = [200e3, 500e3, 1000e3, 1025e3, 1050e3, 1150e3]
+    >>> fit = sm.design.fit_pushover(drift, shear)
+    >>> fit.stiffness.round(), fit.yield_shear.round(), fit.third_slope.round(4)
+    (array([1.e+08]), array([1000000.]), array([0.05]))
+    >>> building = sm.Building(mass=1e5, **fit.springs)
+    """
+    if not is_one_of(shape, SPRING_SHAPES):
+        raise refusal(InvalidOption, "shape", _OWNER, f"one of {', '.join(SPRING_SHAPES)}", brief(shape))
+    curves, left_out = _curves(drift, shear, shape)
+    if forces is None:
+        for name, value in (("relative_stiffness", relative_stiffness), ("relative_strength", relative_strength)):
+            if value is not None:
+                raise refusal(InvalidOption, name, _OWNER, "given with forces alone", "no forces")
+        curves, said = _with_p_delta(curves, p_over_h)
+        found = [fitted_spring(*curve, shape) for curve in curves]
+        springs = [_bent(spring, number, len(found)) for number, spring in enumerate(found, start=1)]
+        fitted = tuple(frozen(spring.force(curve[0])) for spring, curve in zip(springs, curves, strict=True))
+        assumptions: tuple[str, ...] = (
+            "Each storey is fitted by itself: its shear over its own drift is taken as the force of its spring.",
+            said,
+        )
+    else:
+        if len(curves) != 1:
+            raise refusal(InvalidOption, "forces", _OWNER, "given with one curve", f"{len(curves)} curves")
+        if p_over_h is not None:
+            raise refusal(InvalidOption, "p_over_h", _OWNER, "left out with a curve of the roof", brief(p_over_h))
+        if shape == "capped":
+            need = "bilinear or trilinear with a curve of the roof: which storey falls is not seen in it"
+            raise refusal(InvalidOption, "shape", _OWNER, need, brief(shape))
+        share = _shares(forces)
+        stiffness = share if relative_stiffness is None else _relative(relative_stiffness, "stiffness", len(share))
+        strength = share if relative_strength is None else _relative(relative_strength, "strength", len(share))
+        of_storeys = fitted_storeys(*curves[0], share, stiffness, strength, shape)
+        springs = [_bent(None, 1, 1)] if of_storeys is None else of_storeys
+        fitted = (frozen(roof_shear(springs, share, curves[0][0])),)
+        assumptions = _about_roof(share, relative_stiffness is None, relative_strength is None)
+    misfits = [np.abs(fit - curve[1]) / curve[1].max() for fit, curve in zip(fitted, curves, strict=True)]
+    weights = [sample_weights(curve[0]) for curve in curves]
+    rms = [np.sqrt(np.average(misfit**2, weights=weight)) for misfit, weight in zip(misfits, weights, strict=True)]
+    return PushoverFit(
+        **{name: frozen([getattr(spring, name) for spring in springs]) for name in FittedSpring.__annotations__},
+        shape=shape,
+        of_roof=forces is not None,
+        drift=tuple(frozen(curve[0]) for curve in curves),
+        shear=tuple(frozen(curve[1]) for curve in curves),
+        fitted=fitted,
+        largest_misfit=frozen([misfit.max() for misfit in misfits]),
+        rms_misfit=frozen(rms),
+        assumptions=(*assumptions, *left_out),
+    )
+
+
+def _curves(drift: Any, shear: Any, shape: SpringShape) -> tuple[list[tuple[FloatArray, FloatArray]], tuple[str, ...]]:
+    """The curves from their origin, and what of them is left out."""
+    nested = len(drift) and np.ndim(drift[0]) > 0 if hasattr(drift, "__len__") else False
+    drifts, shears = (list(drift), list(shear)) if nested else ([drift], [shear])
+    if len(drifts) != len(shears):
+        raise refusal(InvalidOption, "shear", _OWNER, f"a list of {len(drifts)} curves", f"{len(shears)}")
+    curves, said = [], []
+    for number, (d, v) in enumerate(zip(drifts, shears, strict=True), start=1):
+        of = f"curve {number}" if len(drifts) > 1 else "curve"
+        x = as_array(d, "drift", f"{of} of {_OWNER}", InvalidOption)
+        y = as_array(v, "shear", f"{of} of {_OWNER}", InvalidOption)
+        if len(x) != len(y):
+            raise refusal(InvalidOption, "shear", f"{of} of {_OWNER}", f"a list of {len(x)} numbers", f"{len(y)}")
+        if not (np.isfinite(x).all() and np.isfinite(y).all()):
+            raise refusal(InvalidOption, "samples", f"{of} of {_OWNER}", "finite numbers", "one that is not")
+        if (np.diff(x) < 0.0).any() or (x < 0.0).any():
+            at = int(np.argmax(np.diff(x, prepend=0.0) < 0.0))
+            need = "positive, and not below that before"
+            raise refusal(InvalidOption, "drift", f"{of} of {_OWNER}", need, f"{x[at]:g} m as sample {at + 1}")
+        x, y = x[x > 0.0], y[x > 0.0]
+        if not (y > 0.0).all():
+            raise refusal(InvalidOption, "shear", f"{of} of {_OWNER}", "positive", f"{y.min():g} N")
+        if shape != "capped" and len(y):
+            last = int(np.flatnonzero(y >= (1.0 - _AT_PEAK) * y.max())[-1]) + 1
+            if last < len(y):
+                said.append(
+                    f"Left out of {of}: {len(y) - last} samples after the largest shear, from {1e3 * x[last]:.4g} mm "
+                    "on; the springs keep their strength there."
+                )
+            x, y = x[:last], y[:last]
+        if len(x) < _FEWEST:
+            need = f"at least {_FEWEST} samples beside the origin, up to the largest shear"
+            raise refusal(InvalidOption, "samples", f"{of} of {_OWNER}", need, f"{len(x)}")
+        curves.append((np.append(0.0, x), np.append(0.0, y)))
+    return curves, tuple(said)
+
+
+def _with_p_delta(
+    curves: list[tuple[FloatArray, FloatArray]], p_over_h: ArrayLike | None
+) -> tuple[list[tuple[FloatArray, FloatArray]], str]:
+    """The forces of the springs, and how they were found."""
+    if p_over_h is None:
+        return curves, "The analysis of the curves is taken to be without P-Delta."
+    given = as_array(p_over_h, "p_over_h", _OWNER, InvalidOption, or_number=True)
+    slopes = np.broadcast_to(given, (len(curves),)) if given.ndim == 0 or len(given) == 1 else given
+    if len(slopes) != len(curves) or not ((slopes >= 0.0) & np.isfinite(slopes)).all():
+        need = f"one number or {len(curves)}, none of them negative"
+        raise refusal(InvalidOption, "p_over_h", _OWNER, need, brief(p_over_h))
+    found = [(x, y + slope * x) for (x, y), slope in zip(curves, slopes, strict=True)]
+    return found, "The analysis of the curves had P-Delta: P/h times the drift is added to the shear."
+
+
+def _bent(spring: FittedSpring | None, number: int, count: int) -> FittedSpring:
+    if spring is None:
+        of = f"curve {number} of {_OWNER}" if count > 1 else _OWNER
+        raise refusal(InvalidOption, "samples", of, "a curve that bends, with samples on both sides", "a straight line")
+    return spring
+
+
+def _shares(forces: ArrayLike) -> FloatArray:
+    """Share of the base shear in each storey."""
+    given = as_array(forces, "forces", _OWNER, InvalidOption)
+    share = np.cumsum(given[::-1])[::-1]
+    if not len(share) or not np.isfinite(share).all() or not (share > 0.0).all():
+        raise refusal(InvalidOption, "forces", _OWNER, "such that every storey has a positive shear", brief(forces))
+    found: FloatArray = share / share[0]
+    return found
+
+
+def _relative(values: ArrayLike, what: str, storeys: int) -> FloatArray:
+    given = as_array(values, f"relative_{what}", _OWNER, InvalidOption)
+    if len(given) != storeys or not ((given > 0.0) & np.isfinite(given)).all():
+        raise refusal(InvalidOption, f"relative_{what}", _OWNER, f"{storeys} positive numbers", brief(values))
+    return given
+
+
+def _about_roof(share: FloatArray, stiffness: bool, strength: bool) -> tuple[str, ...]:
+    """What is assumed where one curve stands for all storeys."""
+    listed = ", ".join(f"{part:.3g}" for part in share)
+    return (
+        f"One curve of the whole building: the lateral forces give the storeys {listed} of the base shear.",
+        "Stiffnesses of the storeys are in proportion to these shears, so that all drift alike."
+        if stiffness
+        else "Stiffnesses of the storeys are in the given proportion.",
+        "Strengths of the storeys are in proportion to these shears, so that all yield at once."
+        if strength
+        else "Strengths of the storeys are in the given proportion.",
+        "Slopes after yielding over the first one are alike in all storeys.",
+        "The displacement of the roof is taken as that of storey springs alone: bending of walls and rotation of the "
+        "base count as drift of the storeys.",
+        "The analysis of the curve is taken to be without P-Delta.",
+    )
