@@ -126,6 +126,12 @@ def slip_rows(cases: Sequence[Case]) -> str:
     return table((*heads, "slip, one"), rows)
 
 
+def in_sum(cases: Sequence[Case], name: str) -> float:
+    """Return a ratio of slips over that of one direction, of the sums over all cases."""
+    weights = [case["slip_one"] * case["pairs"] for case in cases]
+    return float(np.average([case[name] for case in cases], weights=weights))
+
+
 def model_ratio(case: Case, share: float, real: str) -> float:
     """Return the drift of the model with a share attached over the real one, "real_one" or "real_two"."""
     curve = np.array(case["curve"])
@@ -230,6 +236,8 @@ def page(stored: dict[str, Any] | None = None) -> str:
         "HIGHER": f"{int(np.sum(two > one + 0.005))} of {len(base)}",
         "SLIP_RATIO": spread(numbers(slid, "slip_ratio")),
         "LENGTH_RATIO": spread(numbers(slid, "length_ratio")),
+        "IN_SUM": f"{in_sum(slid, 'slip_ratio'):.2f}",
+        "LENGTH_IN_SUM": f"{in_sum(slid, 'length_ratio'):.2f}",
         "CASES": str(len(base)),
         "FAILED": failed_text(cases),
         "TIME": time_text(found),

@@ -162,7 +162,8 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
     top = load_table(source, "scene file", InvalidSceneFile)
     refuse_other_kind(top, SCENE_FILE)
     top.known(KEYS[""])
-    top.needed("motion", "pair")
+    if "pair" not in top.values:
+        top.needed("motion")
     scene = _scene(top)
     other_motion, pair = None, pair_of_scene(top, scene, source.parent)
     if pair is not None:
