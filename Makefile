@@ -16,7 +16,7 @@ export PIP_NO_INPUT := 1
 export MPLBACKEND := Agg
 export MPLCONFIGDIR := $(abspath $(VENV))/matplotlib
 
-.PHONY: study explorer test bench bench-kernel count-instructions stress stress-general docs clean build lint test-rust test-python test-wheel wheels \
+.PHONY: study explorer test bench bench-kernel count-instructions stress stress-general stress-plane docs clean build lint test-rust test-python test-wheel wheels \
 	test-aarch64 web-kernel fuzz audit audit-packages
 
 study: build
@@ -83,6 +83,11 @@ stress:
 # The same for the general engine; its tally is target/stress/general.tsv.
 stress-general:
 	cargo run --locked --release -p seismass-judge --bin stress_general -- --scenes 100000 --judged 2000 --write docs/stress_general.md
+
+# The same in two directions; its tally is target/stress/plane.tsv.
+stress-plane:
+	cargo run --locked --release -p seismass-judge --bin stress_general -- --plane --scenes 100000 --judged 2000 \
+		--write docs/stress_plane.md
 
 lint: build
 	@cargo fmt --version >/dev/null && cargo clippy --version >/dev/null || \

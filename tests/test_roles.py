@@ -34,6 +34,7 @@ HUES = {"BLUE", "VERMILION", "GREEN", "PURPLE", "ORANGE", "SKY", "DEEP_BLUE", "M
 WITHOUT_MODELS = {
     "plots/batches.py": "fractiles of runs",
     "plots/contacts.py": "kinds of contact",
+    "plots/floor_plan.py": "aisles, places of goods, and who has passed an edge",
     "plots/growth.py": "kinds of energy",
     "plots/histories.py": "one run, and stops",
     "plots/hysteresis.py": "one run, and backbones",

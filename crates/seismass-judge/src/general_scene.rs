@@ -44,22 +44,7 @@ pub fn general_scene(seed: u64) -> Result<(GeneralScene, Motion)> {
         goods.push(Block::new(0, 1000.0, 0.5 * pga / STANDARD_GRAVITY).into());
     }
     let building = (storeys > 0).then(|| building(draw, mass, &goods, &racks, pga)).transpose()?;
-    let mut scene = GeneralScene::new(building.map(Arc::new), goods, racks)?;
-    let limits: Vec<f64> = scene
-        .building()
-        .map_or(Vec::new(), |b| b.storeys().iter().map(|storey| storey.elastic_drift().min(0.05)).collect());
-    if storeys > 0 && draw.one_in(5) {
-        let drift = limits.iter().map(|limit| draw.between(-1.0, 1.0) * limit).collect();
-        let velocity = limits.iter().map(|_| draw.between(-0.5, 0.5)).collect();
-        scene = scene.with_initial(drift, velocity)?;
-    }
-    // Beside a wall no storey collapses by itself, however far P-Delta takes it.
-    let has_wall = scene.building().is_some_and(|b| b.stiffness_matrix().is_some());
-    let leans = has_wall && scene.geometric_stiffness().iter().any(|&g| g > 0.0);
-    if storeys > 0 && (leans || draw.one_in(10)) {
-        let ductility = draw.between(1.5, 8.0);
-        scene = scene.with_collapse_drift(limits.iter().map(|limit| ductility * limit).collect())?;
-    }
+    let scene = with_states(draw, GeneralScene::new(building.map(Arc::new), goods, racks)?)?;
     let acceleration = samples_of(draw, samples, dt, pga);
     let vertical = draw.one_in(4).then(|| {
         let peak = STANDARD_GRAVITY * draw.one_of(&[0.3, 0.8, 1.3, 2.0]);
@@ -68,8 +53,35 @@ pub fn general_scene(seed: u64) -> Result<(GeneralScene, Motion)> {
     Ok((scene, Motion::new(acceleration, dt, vertical)?))
 }
 
+/// In some scenes initial drifts and velocities, and collapse drifts, which a wall that leans has always.
+pub(crate) fn with_states(draw: &mut Draw, mut scene: GeneralScene) -> Result<GeneralScene> {
+    let limits: Vec<f64> = scene
+        .building()
+        .map_or(Vec::new(), |b| b.storeys().iter().map(|storey| storey.elastic_drift().min(0.05)).collect());
+    if !limits.is_empty() && draw.one_in(5) {
+        let drift = limits.iter().map(|limit| draw.between(-1.0, 1.0) * limit).collect();
+        let velocity = limits.iter().map(|_| draw.between(-0.5, 0.5)).collect();
+        scene = scene.with_initial(drift, velocity)?;
+    }
+    // Beside a wall no storey collapses by itself, however far P-Delta takes it.
+    let has_wall = scene.building().is_some_and(|b| b.stiffness_matrix().is_some());
+    let leans = has_wall && scene.geometric_stiffness().iter().any(|&g| g > 0.0);
+    if !limits.is_empty() && (leans || draw.one_in(10)) {
+        let ductility = draw.between(1.5, 8.0);
+        scene = scene.with_collapse_drift(limits.iter().map(|limit| ductility * limit).collect())?;
+    }
+    Ok(scene)
+}
+
 /// Blocks on a node of this mass, as many as one of `numbers`.
-fn some_goods(draw: &mut Draw, place: usize, node: f64, numbers: &[usize], pga: f64, goods: &mut Vec<Goods>) {
+pub(crate) fn some_goods(
+    draw: &mut Draw,
+    place: usize,
+    node: f64,
+    numbers: &[usize],
+    pga: f64,
+    goods: &mut Vec<Goods>,
+) {
     let typical = (pga / STANDARD_GRAVITY).clamp(0.05, 1.0);
     for position in 0..draw.one_of(numbers) {
         if position > 0 && draw.one_in(3) {
@@ -92,7 +104,7 @@ fn some_goods(draw: &mut Draw, place: usize, node: f64, numbers: &[usize], pga: 
     }
 }
 
-fn stops(draw: &mut Draw, mass: f64) -> Stops {
+pub(crate) fn stops(draw: &mut Draw, mass: f64) -> Stops {
     let clearance = draw.scale(1e-4, 0.1);
     let other = draw.scale(1e-4, 0.1);
     let clearance = draw.one_of(&[
@@ -121,7 +133,7 @@ fn level(draw: &mut Draw, stiffness: f64, strength: f64) -> Storey {
     if draw.one_in(2) { of_law(draw, law, storey) } else { storey }
 }
 
-fn rack(draw: &mut Draw, floors: &[f64], pga: f64) -> Result<Rack> {
+pub(crate) fn rack(draw: &mut Draw, floors: &[f64], pga: f64) -> Result<Rack> {
     let floor = (draw.bits() % (floors.len() as u64 + 1)) as usize;
     let levels = draw.one_of(&[1, 2, 2, 3, 4]);
     let of_floor = floor.checked_sub(1).map_or(1000.0, |f| floors[f]);
@@ -136,14 +148,7 @@ fn rack(draw: &mut Draw, floors: &[f64], pga: f64) -> Result<Rack> {
     }
     let mut rack = Rack { floor, mass, levels: Vec::new(), damping_ratio: 0.0, geometric_stiffness: Vec::new(), goods };
     rack.damping_ratio = draw.one_of(&[0.0, Rack::DEFAULT_DAMPING_RATIO, Rack::DEFAULT_DAMPING_RATIO, 0.2]);
-    let with_goods = rack.mass_with_goods();
-    let stiffness = Rack::uniform_stiffness(&with_goods, draw.scale(0.08, 2.0))?;
-    let weight = STANDARD_GRAVITY * with_goods.iter().sum::<f64>();
-    let strength = weight * draw.scale(0.05, 1.0) * (pga / STANDARD_GRAVITY).max(0.1);
-    for _ in 0..levels {
-        let of_level = stiffness * draw.between(0.5, 2.0);
-        rack.levels.push(level(draw, of_level, strength));
-    }
+    levels_of(draw, &mut rack, pga)?;
     if draw.one_in(5) {
         let fraction = draw.one_of(&[0.005, 0.03]);
         rack.geometric_stiffness = rack.levels.iter().map(|level| fraction * level.stiffness).collect();
@@ -151,7 +156,27 @@ fn rack(draw: &mut Draw, floors: &[f64], pga: f64) -> Result<Rack> {
     Ok(rack)
 }
 
-fn building(draw: &mut Draw, mass: Vec<f64>, goods: &[Goods], racks: &[Rack], pga: f64) -> Result<GeneralBuilding> {
+/// Draws the springs of a rack.
+pub(crate) fn levels_of(draw: &mut Draw, rack: &mut Rack, pga: f64) -> Result<()> {
+    let with_goods = rack.mass_with_goods();
+    rack.levels.clear();
+    let stiffness = Rack::uniform_stiffness(&with_goods, draw.scale(0.08, 2.0))?;
+    let weight = STANDARD_GRAVITY * with_goods.iter().sum::<f64>();
+    let strength = weight * draw.scale(0.05, 1.0) * (pga / STANDARD_GRAVITY).max(0.1);
+    for _ in 0..rack.mass.len() {
+        let of_level = stiffness * draw.between(0.5, 2.0);
+        rack.levels.push(level(draw, of_level, strength));
+    }
+    Ok(())
+}
+
+pub(crate) fn building(
+    draw: &mut Draw,
+    mass: Vec<f64>,
+    goods: &[Goods],
+    racks: &[Rack],
+    pga: f64,
+) -> Result<GeneralBuilding> {
     let n = mass.len();
     let uniform = UniformBuilding { storeys: n, period: draw.scale(0.15, 1.5), mass: 1000.0, ..Default::default() };
     let k = uniform.stiffness()?;

@@ -23,6 +23,7 @@ pub mod general;
 pub mod general_scene;
 pub mod law_scene;
 mod model;
+pub mod plane_scene;
 mod polynomial;
 pub mod portable_scene;
 pub mod random_scene;

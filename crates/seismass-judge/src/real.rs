@@ -27,6 +27,9 @@ pub trait Real:
     /// A positive number to a power.
     fn power(self, exponent: Self) -> Self;
 
+    /// Square root of a number that is not negative.
+    fn sqrt(self) -> Self;
+
     /// Zero.
     fn zero() -> Self {
         Self::of(0.0)
@@ -61,6 +64,10 @@ impl Real for f64 {
 
     fn power(self, exponent: Self) -> Self {
         self.powf(exponent)
+    }
+
+    fn sqrt(self) -> Self {
+        self.sqrt()
     }
 }
 
@@ -202,6 +209,12 @@ impl Real for DoubleDouble {
     fn power(self, exponent: Self) -> Self {
         (exponent * self.logarithm()).exponential()
     }
+
+    /// Newton's method doubles the digits of a double's.
+    fn sqrt(self) -> Self {
+        let root = Self::of(self.high.sqrt());
+        if root.high == 0.0 { root } else { root + (self - root * root) / root.times(2.0) }
+    }
 }
 
 #[cfg(test)]
@@ -231,8 +244,9 @@ mod tests {
         let tolerance = DoubleDouble::of(100.0) * DoubleDouble::epsilon();
         for i in 1..2000 {
             let x = DoubleDouble::of(f64::from(i * i)) / DoubleDouble::of(7000.0);
-            let root = x.power(DoubleDouble::of(0.5));
-            assert!((root * root - x).abs() <= tolerance * x, "{x:?} {root:?}");
+            for root in [x.power(DoubleDouble::of(0.5)), x.sqrt()] {
+                assert!((root * root - x).abs() <= tolerance * x, "{x:?} {root:?}");
+            }
             let a = DoubleDouble::of(f64::from(i) / 2000.0);
             let product = x.power(a) * x.power(DoubleDouble::of(1.0) - a);
             assert!((product - x).abs() <= tolerance * x, "{x:?} {a:?} {product:?}");

@@ -18,7 +18,7 @@ use seismass_judge::general::{as_chain, compare_general, solve_general};
 use seismass_judge::general_scene::general_scene;
 use seismass_judge::law_scene::law_scene;
 use seismass_judge::random_scene::random_scene;
-use seismass_judge::stress::general::{GeneralTally, compare_engines, distribution};
+use seismass_judge::stress::general::{Directions, GeneralTally, compare_engines, distribution};
 use seismass_judge::stress::program;
 use seismass_judge::{DoubleDouble, compare, compare_events, solve};
 
@@ -68,7 +68,7 @@ fn both_judges_agree_on_shear_buildings() {
 
 #[test]
 fn random_scenes_keep_their_invariants_and_agree_with_the_judge() {
-    let mut tally = GeneralTally::from_seed(1_000_000_000);
+    let mut tally = GeneralTally::from_seed(Directions::One, 1_000_000_000);
     tally.run(scenes(40), 0.1);
     println!("{}", distribution(&tally));
     assert!(tally.defects.is_empty(), "{:#?}", tally.defects);
@@ -79,7 +79,7 @@ fn random_scenes_keep_their_invariants_and_agree_with_the_judge() {
 /// that the first goes on was logged as a touch.
 #[test]
 fn seeds_that_once_failed_hold() {
-    let mut tally = GeneralTally::from_seed(1637);
+    let mut tally = GeneralTally::from_seed(Directions::One, 1637);
     tally.run(1, 1.0);
     assert!(tally.defects.is_empty() && tally.failed.is_empty(), "{:#?} {:#?}", tally.defects, tally.failed);
 }
@@ -121,7 +121,7 @@ fn what_is_changed_is_seen() {
 #[test]
 fn a_tally_goes_on_where_it_stopped() {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("general.tsv");
-    let mut tally = GeneralTally::from_seed(0);
+    let mut tally = GeneralTally::from_seed(Directions::One, 0);
     tally.run(20, 0.0);
     tally.grazing.push((1, 1.0, "a graze".into()));
     tally.sensitive.push((2, 4.0, "a sensitive scene".into()));
@@ -131,9 +131,10 @@ fn a_tally_goes_on_where_it_stopped() {
     tally.chains.defects.push((7, "a defect".into()));
     let program = program().unwrap();
     tally.save(&path, &program).unwrap();
-    let again = GeneralTally::load(&path, &program, 0).unwrap();
+    let again = GeneralTally::load(&path, &program, Directions::One, 0).unwrap();
     assert_eq!(distribution(&again), distribution(&tally));
-    let refused = |program: &str, first: u64| GeneralTally::load(&path, program, first).unwrap_err().to_string();
+    let refused =
+        |program: &str, first: u64| GeneralTally::load(&path, program, Directions::One, first).unwrap_err().to_string();
     assert!(refused("another", 0).contains("remove the tally to begin again"));
     assert!(refused(&program, 60).contains("from seed 60"));
 }

@@ -11,7 +11,7 @@ import numpy as np
 from seismass.animation.shown import DRAWN_STOREY, FACTORS, LARGEST_SWAY, ROWS_PER_SECOND
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.values import FloatArray, as_count, brief, content_hash, refusal, same_content
-from seismass.base.views import view
+from seismass.base.views import Card, view
 from seismass.model.scene import Scene
 from seismass.runs.plane_motion import MotionPair, motions_in_plane
 from seismass.runs.plane_response import PlaneResponse
@@ -23,7 +23,7 @@ _SIDE: Final = 6.0
 
 
 @dataclass(frozen=True, eq=False)
-class PlaneAnimation:
+class PlaneAnimation(Card):
     """An animation of one scene in two directions under one pair of motions, as `animate_plane` makes it.
 
     Attributes

@@ -40,9 +40,9 @@ def fit_text(text: str, width: int) -> str:
     Examples
     --------
     >>> from seismass.media.fit_text import fit_text
-    >>> print(fit_text("why  the share is that of the friction as stated", 30))
-    why  the share is that of the
-         friction as stated
+    >>> print(fit_text("why  the share is that of the friction as stated", 40))
+    why  the share is that of the friction
+         as stated
     """
     return "\n".join(line for _, fitted in fitted_blocks(text, width) for line in fitted)
 

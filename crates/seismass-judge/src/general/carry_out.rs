@@ -36,7 +36,11 @@ impl<R: Real> Machines<'_, R> {
                 self.settle(self.model.goods[block].node, tau, Cause::Arrival);
             }
             Guard::Wear { block } => self.wear(block, tau),
-            Guard::Touch { block, side } => self.touch(block, side, tau),
+            Guard::Touch { block, side } => {
+                if self.touch(block, side, tau) && !*self.airborne {
+                    self.settle(self.model.goods[block].node, tau, Cause::Jump);
+                }
+            }
             Guard::Leave { block } => self.leave(block, tau),
             Guard::Within { block } => self.set_at_stop(block, Stopped::Free),
             Guard::Again { block, side } => {
@@ -47,15 +51,12 @@ impl<R: Real> Machines<'_, R> {
         }
     }
 
-    /// A block comes to its stop: with a damper the force jumps, and the node decides again.
-    fn touch(&mut self, block: usize, side: Sign, tau: R) {
+    /// A block comes to its stop; whether the force jumps, as with a damper, so that the node decides again.
+    pub(super) fn touch(&mut self, block: usize, side: Sign, tau: R) -> bool {
         self.state.stopped[block] = Stopped::Pressing(side);
         self.set_at_stop(block, Stopped::Pressing(side));
         self.note(tau, EventKind::TouchStop, block, side.as_i8(), 0);
-        let jumps = self.state.push(self.model, block) != R::zero();
-        if jumps && !*self.airborne {
-            self.settle(self.model.goods[block].node, tau, Cause::Jump);
-        }
+        self.state.push(self.model, block) != R::zero()
     }
 
     /// The force of a stop has come to zero: at its clearance, or beyond it where a damper holds the stop back.

@@ -10,9 +10,9 @@ use crate::sign::Sign;
 use crate::state::{BlockState, Contact};
 
 /// Rounding of a decision of blocks at stops, in units of the number type's epsilon.
-const AT_STOPS: f64 = 1000.0;
+pub(super) const AT_STOPS: f64 = 1000.0;
 /// Releases and sticks of one block, before all states are tried.
-const CHANGES: usize = 8;
+pub(super) const CHANGES: usize = 8;
 
 /// Why a node decides which of its blocks stick.
 #[derive(Debug, Clone, Copy, PartialEq)]

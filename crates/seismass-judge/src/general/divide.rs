@@ -1,6 +1,6 @@
-//! A motion with its sample intervals divided.
+//! Motions with their sample intervals divided.
 
-use seismass::{Motion, Result};
+use seismass::{Motion, PlaneMotion, Result};
 
 /// The same motion with each sample interval in `parts`.
 ///
@@ -15,4 +15,13 @@ pub fn divided(motion: &Motion, parts: usize) -> Result<Motion> {
     };
     let vertical = motion.vertical().map(|samples| divide(samples).into());
     Motion::new(divide(motion.acceleration()), motion.dt() / parts as f64, vertical)
+}
+
+/// The same motion in two directions with each sample interval in `parts`.
+///
+/// # Errors
+/// None for a motion that is valid.
+pub fn divided_plane(motion: &PlaneMotion, parts: usize) -> Result<PlaneMotion> {
+    let [x, y] = motion.directions();
+    PlaneMotion::new(divided(x, parts)?, divided(y, parts)?.acceleration())
 }

@@ -40,18 +40,25 @@ pub(super) enum Guard {
 }
 
 /// The first fall of the guards looked at so far.
-struct First<R> {
-    found: Option<(R, Guard)>,
-    rounding: R,
+pub(super) struct First<R> {
+    /// Place on the stretch, direction and guard.
+    pub(super) found: Option<(R, usize, Guard)>,
+    pub(super) rounding: R,
+    /// Direction of the guards looked at: 0 where there is but one.
+    pub(super) direction: usize,
 }
 
 impl<R: Real> First<R> {
-    fn consider(&mut self, guard: Guard, polynomial: &Polynomial<R>, size: R) {
+    pub(super) fn new() -> Self {
+        Self { found: None, rounding: R::of(ROUNDING) * R::epsilon(), direction: 0 }
+    }
+
+    pub(super) fn consider(&mut self, guard: Guard, polynomial: &Polynomial<R>, size: R) {
         let rounding = self.rounding;
         let Some(place) = polynomial.first_fall(rounding * size) else { return };
         // At A = 0 a stuck block's limit and the contact force vanish together: contact comes first. A backbone may end
         // where the storey collapses: collapse comes first.
-        let earlier = |(other, before): (R, Guard)| {
+        let earlier = |(other, _, before): (R, usize, Guard)| {
             place
                 < match (guard, before) {
                     (_, Guard::Contact) => other - rounding * other,
@@ -62,16 +69,16 @@ impl<R: Real> First<R> {
                 }
         };
         if self.found.is_none_or(earlier) {
-            self.found = Some((place, guard));
+            self.found = Some((place, self.direction, guard));
         }
     }
 }
 
 impl<R: Real> Machines<'_, R> {
     /// The first guard that falls on a stretch, and its place on it in [0, 1].
-    pub(super) fn first_event(&self, series: &Series<R>) -> Option<(R, Guard)> {
+    pub(super) fn first_event(&self, series: &Series<R>) -> Option<(R, usize, Guard)> {
         let sizes = series.acceleration_sizes(self.model, self.state);
-        let mut first = First { found: None, rounding: R::of(ROUNDING) * R::epsilon() };
+        let mut first = First::new();
         self.contact_and_springs(series, &sizes, &mut first);
         for j in 0..self.model.goods.len() {
             match self.state.blocks[j].contact {
@@ -86,7 +93,7 @@ impl<R: Real> Machines<'_, R> {
         first.found
     }
 
-    fn contact_and_springs(&self, series: &Series<R>, sizes: &[R], first: &mut First<R>) {
+    pub(super) fn contact_and_springs(&self, series: &Series<R>, sizes: &[R], first: &mut First<R>) {
         let (model, state) = (self.model, &*self.state);
         if !state.blocks.is_empty() {
             let gravity = model.gravity + series.contact.size();
@@ -146,7 +153,7 @@ impl<R: Real> Machines<'_, R> {
         sizes[place(data.node)] + self.state.blocks[block].mu_k * gravity + stop
     }
 
-    fn stops(&self, block: usize, series: &Series<R>, sizes: &[R], first: &mut First<R>) {
+    pub(super) fn stops(&self, block: usize, series: &Series<R>, sizes: &[R], first: &mut First<R>) {
         let Some(stops) = &self.model.goods[block].stops else { return };
         // Slip beyond the stop of a side.
         let beyond = |side: Sign| {

@@ -8,6 +8,7 @@ mod divide;
 mod guards;
 mod modal;
 mod model;
+mod plane;
 mod record;
 mod series;
 mod solve;
@@ -15,7 +16,9 @@ mod state;
 
 pub(crate) use compare::apart_by_machine;
 pub use compare::{as_chain, compare_general, solution_of};
-pub use divide::divided;
+pub use divide::{divided, divided_plane};
+pub(crate) use plane::solve_plane_scaled;
+pub use plane::{PlaneSolution, compare_plane, plane_solution_of, solve_plane};
 pub use record::GeneralSolution;
 pub use solve::solve_general;
 pub(crate) use solve::{Scale, solve_scaled};

@@ -21,7 +21,7 @@ pub(crate) fn modal_damping<R: Real>(mass: &[R], stiffness: &[Vec<R>], ratio: R)
 
 /// The square root of a number; zero where rounding has left less.
 fn square_root<R: Real>(x: R) -> R {
-    if x > R::zero() { x.power(R::of(0.5)) } else { R::zero() }
+    if x > R::zero() { x.sqrt() } else { R::zero() }
 }
 
 /// Eigenvalues of a symmetric matrix and its orthogonal eigenvectors, in columns: cyclic Jacobi rotations.

@@ -8,7 +8,7 @@ use super::state::{State, Stopped};
 use crate::model::Terms;
 use crate::polynomial::Polynomial;
 use crate::real::Real;
-use crate::state::{Contact, Drive};
+use crate::state::Contact;
 
 /// The response of a scene with racks, walls and stops, rounded to doubles. Storeys, then levels of racks; goods on floors,
 /// then those of racks.
@@ -67,11 +67,10 @@ fn beat<R: Real>(peak: &mut Peak, p: &Polynomial<R>, time: R, length: R) {
 }
 
 impl<R: Real> Recorder<R> {
-    /// A record that begins with the values at t = 0.
-    pub(super) fn new(model: &Model<R>, state: &State<R>, drive: &Drive<R>, every: usize) -> Self {
+    /// A record that begins with the values at t = 0, of which those are the nodes' accelerations.
+    pub(super) fn new(model: &Model<R>, state: &State<R>, acceleration: Vec<R>, every: usize) -> Self {
         let peak = |value: R| Peak { value: value.abs().to_f64(), time: 0.0 };
-        let acceleration = |p| peak(state.acceleration(model, Some(p), drive, R::zero(), Terms::Signed));
-        let (n, m) = (model.mass.len(), model.goods.len());
+        let m = model.goods.len();
         let forces = state.spring_forces(Terms::Signed);
         let displacement = model.displacements(&state.drift, Terms::Signed);
         let of_matrix = model.matrix_forces(&displacement, Terms::Signed);
@@ -82,7 +81,7 @@ impl<R: Real> Recorder<R> {
         let mut recorder = Self {
             peaks: GeneralPeaks {
                 drift: state.drift.iter().map(|&d| peak(d)).collect(),
-                acceleration: (0..n).map(acceleration).collect(),
+                acceleration: acceleration.into_iter().map(peak).collect(),
                 shear: forces.into_iter().map(peak).collect(),
                 base_shear: peak(base),
                 slip: vec![Peak::default(); m],
@@ -111,29 +110,22 @@ impl<R: Real> Recorder<R> {
     pub(super) fn stretch(&mut self, model: &Model<R>, state: &State<R>, series: &Series<R>, time: R) {
         let take = |peak: &mut Peak, p: &Polynomial<R>| beat(peak, p, time, series.length);
         let peaks = &mut self.peaks;
-        let shears: Vec<Polynomial<R>> = (0..model.mass.len())
-            .map(|p| {
-                let linear = series.drift[p].scaled(state.springs[p].linear());
-                series.force[p].iter().fold(linear, |sum, force| sum.plus(force))
-            })
-            .collect();
+        let shears = shears(model, state, series);
         for (p, shear) in shears.iter().enumerate() {
             take(&mut peaks.drift[p], &series.drift[p]);
             take(&mut peaks.shear[p], shear);
             take(&mut peaks.acceleration[p], &series.acceleration[p + 1]);
         }
-        if model.has_building {
-            take(&mut peaks.base_shear, &shears[0].plus(&matrix_at_base(model, series)));
+        if let Some(base) = base_shear(model, series, &shears) {
+            take(&mut peaks.base_shear, &base);
         }
-        let mut paths = vec![R::zero(); series.slip.len()];
         for (j, slip) in series.slip.iter().enumerate() {
             take(&mut peaks.slip[j], slip);
             if matches!(state.stopped[j], Stopped::Pressing(_)) {
                 take(&mut peaks.contact_force[j], &series.push[j]);
             }
             if let Contact::Sliding(_) = state.blocks[j].contact {
-                paths[j] = series.length * series.velocity[j].absolute_integral();
-                self.path[j] = self.path[j] + paths[j];
+                self.path[j] = self.path[j] + series.length * series.velocity[j].absolute_integral();
             }
         }
         self.add_work(model, state, series);
@@ -164,10 +156,8 @@ impl<R: Real> Recorder<R> {
             let relative = &series.velocity[j];
             let node = data.node.map_or(Polynomial::constant(R::zero()), |node| velocity[node].clone());
             momentum = momentum.plus(&node.plus(relative).scaled(data.mass));
-            let block = &state.blocks[j];
-            if let Contact::Sliding(sign) = block.contact {
-                let force = series.contact.scaled(sign.times(block.mu_k * data.mass));
-                work.friction = work.friction + length * force.times(relative).integral();
+            if let Contact::Sliding(_) = state.blocks[j].contact {
+                work.friction = work.friction + length * series.friction[j].times(relative).integral();
             }
             if let (Stopped::Pressing(_), Some(stops)) = (state.stopped[j], &data.stops) {
                 work.stops = work.stops + length * stops.damping * relative.times(relative).integral();
@@ -226,6 +216,24 @@ impl<R: Real> Recorder<R> {
             },
         }
     }
+}
+
+/// Force of each spring over a stretch.
+pub(super) fn shears<R: Real>(model: &Model<R>, state: &State<R>, series: &Series<R>) -> Vec<Polynomial<R>> {
+    let shear = |p: usize| {
+        let linear = series.drift[p].scaled(state.springs[p].linear());
+        series.force[p].iter().fold(linear, |sum, force| sum.plus(force))
+    };
+    (0..model.mass.len()).map(shear).collect()
+}
+
+/// Base shear of a building over a stretch, from those of its springs.
+pub(super) fn base_shear<R: Real>(
+    model: &Model<R>,
+    series: &Series<R>,
+    shears: &[Polynomial<R>],
+) -> Option<Polynomial<R>> {
+    model.has_building.then(|| shears[0].plus(&matrix_at_base(model, series)))
 }
 
 /// The share of the elastic matrix in the base shear: the sum of its forces on the floors.

@@ -7,7 +7,7 @@ use crate::polynomial::Polynomial;
 use crate::real::Real;
 use crate::series::{integrate, orders};
 use crate::springs::{Course, Part};
-use crate::state::{Contact, Drive};
+use crate::state::{BlockState, Contact, Drive};
 
 /// The length of a stretch times the norm of the system is at most this: the longer the stretch, the fewer terms in all.
 pub(super) const MAX_PHASE: f64 = 2.0;
@@ -29,6 +29,10 @@ pub(super) struct Series<R> {
     pub(super) slip: Vec<Polynomial<R>>,
     /// Force of each block's stop on its node, constant zero where it does not press.
     pub(super) push: Vec<Polynomial<R>>,
+    /// Friction of each block on its node, constant zero where it does not slide.
+    pub(super) friction: Vec<Polynomial<R>>,
+    /// Slopes of the parts of each spring.
+    tangent: Vec<Vec<R>>,
 }
 
 /// Index of a node's acceleration.
@@ -36,93 +40,123 @@ pub(super) fn place(node: Option<usize>) -> usize {
     node.map_or(0, |node| node + 1)
 }
 
-fn term<R: Real>(p: &Polynomial<R>, order: usize) -> R {
+pub(super) fn term<R: Real>(p: &Polynomial<R>, order: usize) -> R {
     p.0.get(order).copied().unwrap_or(R::zero())
 }
 
 impl<R: Real> Series<R> {
     /// c_(k+1) = (A c_k + load_k) / (k + 1), from the state at `tau` over `length`.
     pub(super) fn new(model: &Model<R>, state: &State<R>, drive: &Drive<R>, tau: R, length: R) -> Self {
+        let mut series = Self::at_start(model, state, drive, tau, length);
+        let mass = state.mass_with_stuck(model);
+        for order in 0..orders::<R>(MAX_PHASE) {
+            let (mut pull, mut on_block) = series.forces(model, state, order);
+            let contact = term(&series.contact, order);
+            for (j, (block, data)) in state.blocks.iter().zip(&model.goods).enumerate() {
+                let Contact::Sliding(sign) = block.contact else { continue };
+                let friction = sign.times(block.mu_k * data.mass) * contact;
+                series.friction[j].0.push(friction);
+                on_block[j] = on_block[j] - friction;
+                if let Some(node) = data.node {
+                    pull[node] = pull[node] + friction;
+                }
+            }
+            let acceleration: Vec<R> = pull.into_iter().zip(&mass).map(|(force, &mass)| force / mass).collect();
+            series.extend(model, state, order, &acceleration, &on_block);
+        }
+        series
+    }
+
+    /// What is known at the start: values, and the motion.
+    pub(super) fn at_start(model: &Model<R>, state: &State<R>, drive: &Drive<R>, tau: R, length: R) -> Self {
         let starts = |values: &[R]| values.iter().map(|&v| Polynomial::constant(v)).collect::<Vec<_>>();
-        let (n, m) = (model.mass.len(), model.goods.len());
-        let one = R::of(1.0);
+        let m = model.goods.len();
         let parts: Vec<Vec<Part<R>>> = state.springs.iter().map(|spring| spring.parts()).collect();
-        let mut series = Self {
+        let friction = |block: &BlockState<R>| match block.contact {
+            Contact::Sliding(_) => Polynomial(Vec::new()),
+            _ => Polynomial::constant(R::zero()),
+        };
+        Self {
             length,
             ground: Polynomial(vec![drive.ground_at(tau), drive.ground[1] * length]),
             contact: Polynomial(vec![drive.contact_at(tau), drive.contact[1] * length]),
             drift: starts(&state.drift),
             rate: starts(&state.rate),
             force: parts.iter().map(|s| starts(&s.iter().map(|part| part.force).collect::<Vec<_>>())).collect(),
-            acceleration: vec![Polynomial(Vec::new()); n + 1],
+            acceleration: vec![Polynomial(Vec::new()); model.mass.len() + 1],
             velocity: starts(&state.blocks.iter().map(|b| b.velocity).collect::<Vec<_>>()),
             slip: starts(&state.blocks.iter().map(|b| b.slip).collect::<Vec<_>>()),
             push: starts(&(0..m).map(|j| state.push(model, j)).collect::<Vec<_>>()),
+            friction: state.blocks.iter().map(friction).collect(),
+            tangent: parts.iter().map(|s| s.iter().map(|part| part.tangent).collect()).collect(),
+        }
+    }
+
+    /// Coefficients of this order of the forces on each node and on each block, without friction; those of lower orders are
+    /// known. A block that sticks has none of its own.
+    pub(super) fn forces(&mut self, model: &Model<R>, state: &State<R>, order: usize) -> (Vec<R>, Vec<R>) {
+        let spring = |p: usize| {
+            let parts = self.force[p].iter().fold(R::zero(), |sum, part| sum + term(part, order));
+            parts + state.springs[p].linear() * term(&self.drift[p], order)
         };
-        let mut mass = model.mass.clone();
-        for (block, data) in state.blocks.iter().zip(&model.goods).filter(|(b, _)| b.contact == Contact::Stuck) {
+        let springs: Vec<R> = (0..model.mass.len()).map(spring).collect();
+        let terms = |list: &[Polynomial<R>]| list.iter().map(|p| term(p, order)).collect::<Vec<R>>();
+        let mut pull = model.pull(&springs, &terms(&self.drift), &terms(&self.rate), Terms::Signed);
+        let mut on_block = vec![R::zero(); model.goods.len()];
+        for (j, (block, data)) in state.blocks.iter().zip(&model.goods).enumerate() {
+            if block.contact == Contact::Stuck {
+                continue;
+            }
+            if let (Stopped::Pressing(_), Some(stops), true) = (state.stopped[j], &data.stops, order > 0) {
+                let force = stops.stiffness * term(&self.slip[j], order);
+                self.push[j].0.push(force + stops.damping * term(&self.velocity[j], order));
+            }
+            let push = term(&self.push[j], order);
+            on_block[j] = -push;
             if let Some(node) = data.node {
-                mass[node] = mass[node] + data.mass;
-            }
-            debug_assert!(block.velocity == R::zero());
-        }
-        for order in 0..orders::<R>(MAX_PHASE) {
-            let spring = |p: usize| {
-                let parts = series.force[p].iter().fold(R::zero(), |sum, part| sum + term(part, order));
-                parts + state.springs[p].linear() * term(&series.drift[p], order)
-            };
-            let springs: Vec<R> = (0..n).map(spring).collect();
-            let terms = |list: &[Polynomial<R>]| list.iter().map(|p| term(p, order)).collect::<Vec<R>>();
-            let mut pull = model.pull(&springs, &terms(&series.drift), &terms(&series.rate), Terms::Signed);
-            let (ground, contact) = (term(&series.ground, order), term(&series.contact, order));
-            // Force on each block, that on its node being the opposite one.
-            let mut on_block = vec![R::zero(); m];
-            for (j, (block, data)) in state.blocks.iter().zip(&model.goods).enumerate() {
-                if block.contact == Contact::Stuck {
-                    continue;
-                }
-                if let (Stopped::Pressing(_), Some(stops), true) = (state.stopped[j], &data.stops, order > 0) {
-                    let force = stops.stiffness * term(&series.slip[j], order);
-                    series.push[j].0.push(force + stops.damping * term(&series.velocity[j], order));
-                }
-                let friction = match block.contact {
-                    Contact::Sliding(sign) => sign.times(block.mu_k * data.mass) * contact,
-                    _ => R::zero(),
-                };
-                on_block[j] = -(friction + term(&series.push[j], order));
-                if let Some(node) = data.node {
-                    pull[node] = pull[node] - on_block[j];
-                }
-            }
-            series.acceleration[0].0.push(ground);
-            for p in 0..n {
-                series.acceleration[p + 1].0.push(pull[p] / mass[p]);
-            }
-            for p in 0..n {
-                let below = series.acceleration[place(model.parent[p])].0[order];
-                let difference = series.acceleration[p + 1].0[order] - below;
-                series.rate[p].0.push(length * difference / R::of((order + 1) as f64));
-                integrate(&series.rate[p], one, length, &mut series.drift[p]);
-                for (force, part) in series.force[p].iter_mut().zip(&parts[p]).filter(|(_, p)| p.tangent != R::zero()) {
-                    integrate(&series.rate[p], part.tangent, length, force);
-                }
-            }
-            for (j, data) in model.goods.iter().enumerate() {
-                if state.blocks[j].contact != Contact::Stuck {
-                    let relative = on_block[j] / data.mass - series.acceleration[place(data.node)].0[order];
-                    series.velocity[j].0.push(length * relative / R::of((order + 1) as f64));
-                    integrate(&series.velocity[j], one, length, &mut series.slip[j]);
-                }
+                pull[node] = pull[node] + push;
             }
         }
-        series
+        (pull, on_block)
+    }
+
+    /// Takes in the accelerations of the nodes of this order and the forces on the blocks, and goes on to the next.
+    pub(super) fn extend(
+        &mut self,
+        model: &Model<R>,
+        state: &State<R>,
+        order: usize,
+        acceleration: &[R],
+        on_block: &[R],
+    ) {
+        let (length, one) = (self.length, R::of(1.0));
+        let ground = term(&self.ground, order);
+        self.acceleration[0].0.push(ground);
+        for (of_node, &value) in self.acceleration[1..].iter_mut().zip(acceleration) {
+            of_node.0.push(value);
+        }
+        for p in 0..acceleration.len() {
+            let below = self.acceleration[place(model.parent[p])].0[order];
+            self.rate[p].0.push(length * (acceleration[p] - below) / R::of((order + 1) as f64));
+            integrate(&self.rate[p], one, length, &mut self.drift[p]);
+            for (force, &tangent) in self.force[p].iter_mut().zip(&self.tangent[p]).filter(|(_, t)| **t != R::zero()) {
+                integrate(&self.rate[p], tangent, length, force);
+            }
+        }
+        for (j, data) in model.goods.iter().enumerate() {
+            if state.blocks[j].contact != Contact::Stuck {
+                let relative = on_block[j] / data.mass - self.acceleration[place(data.node)].0[order];
+                self.velocity[j].0.push(length * relative / R::of((order + 1) as f64));
+                integrate(&self.velocity[j], one, length, &mut self.slip[j]);
+            }
+        }
     }
 
     /// Restricts the stretch to its first part, of this fraction.
     pub(super) fn shrink(&mut self, place: R) {
         self.length = self.length * place;
-        let Self { ground, contact, drift, rate, force, acceleration, velocity, slip, push, .. } = self;
-        let lists = [drift, rate, acceleration, velocity, slip, push].into_iter().flatten();
+        let Self { ground, contact, drift, rate, force, acceleration, velocity, slip, push, friction, .. } = self;
+        let lists = [drift, rate, acceleration, velocity, slip, push, friction].into_iter().flatten();
         for polynomial in lists.chain(force.iter_mut().flatten()).chain([ground, contact]) {
             polynomial.shrink(place);
         }
@@ -138,10 +172,16 @@ impl<R: Real> Series<R> {
         for (j, block) in state.blocks.iter_mut().enumerate() {
             block.velocity = self.velocity[j].end();
             block.slip = self.slip[j].end();
+            block.moved |= self.length > R::zero();
+        }
+    }
+
+    /// Adds what blocks that slide in their direction have slipped to their paths.
+    pub(super) fn add_paths(&self, state: &mut State<R>) {
+        for (j, block) in state.blocks.iter_mut().enumerate() {
             if let Contact::Sliding(sign) = block.contact {
                 block.path = block.path + sign.times(self.slipped(j).end());
             }
-            block.moved |= self.length > R::zero();
         }
     }
 
@@ -167,15 +207,14 @@ impl<R: Real> Series<R> {
         };
         let springs: Vec<R> = (0..model.springs.len()).map(spring).collect();
         let mut force = model.pull(&springs, &sizes(&self.drift), &sizes(&self.rate), Terms::Sizes);
-        let mut mass = model.mass.clone();
+        let mass = state.mass_with_stuck(model);
         for (j, (block, data)) in state.blocks.iter().zip(&model.goods).enumerate() {
             let Some(node) = data.node else { continue };
             if block.contact != Contact::Stuck && matches!(state.stopped[j], Stopped::Pressing(_)) {
                 force[node] = force[node] + self.push_size(model, j);
             }
-            match block.contact {
-                Contact::Stuck => mass[node] = mass[node] + data.mass,
-                _ => force[node] = force[node] + block.mu_k * data.mass * self.contact.size(),
+            if block.contact != Contact::Stuck {
+                force[node] = force[node] + block.mu_k * data.mass * self.contact.size();
             }
         }
         let of_nodes = force.into_iter().zip(mass).map(|(force, mass)| force / mass);

@@ -8,6 +8,7 @@ use super::model::Model;
 use super::record::{GeneralSolution, Recorder};
 use super::series::{MAX_PHASE, Series};
 use super::state::State;
+use crate::model::Terms;
 use crate::real::Real;
 use crate::solve::{JudgeError, MAX_EVENTS, MAX_PIECES, drive};
 use crate::state::{Contact, Drive};
@@ -21,7 +22,7 @@ pub fn solve_general<R: Real>(
     motion: &Motion,
     every: usize,
 ) -> Result<GeneralSolution, JudgeError> {
-    solve_scaled(scene, motion, every, Scale { ground: R::of(1.0), contact: R::of(1.0) })
+    solve_scaled(scene, motion, every, Scale::<R>::none())
 }
 
 /// Factors of the motion. In double-double they may differ from 1 by less than a double can.
@@ -34,7 +35,12 @@ pub(crate) struct Scale<R> {
 }
 
 impl<R: Real> Scale<R> {
-    fn drive(&self, motion: &Motion, sample: usize) -> Drive<R> {
+    /// The motion as it is.
+    pub(crate) fn none() -> Self {
+        Self { ground: R::of(1.0), contact: R::of(1.0) }
+    }
+
+    pub(super) fn drive(&self, motion: &Motion, sample: usize) -> Drive<R> {
         let Drive { ground, contact } = drive(motion, sample);
         Drive { ground: ground.map(|term: R| term * self.ground), contact: contact.map(|term: R| term * self.contact) }
     }
@@ -70,7 +76,9 @@ pub(crate) fn solve_scaled<R: Real>(
         parted: R::zero(),
     };
     run.begin();
-    let mut recorder = Recorder::new(&run.model, &run.state, &run.drive, every);
+    let acceleration = |p| run.state.acceleration(&run.model, Some(p), &run.drive, R::zero(), Terms::Signed);
+    let acceleration = (0..run.model.mass.len()).map(acceleration).collect();
+    let mut recorder = Recorder::new(&run.model, &run.state, acceleration, every);
     let mut status = GeneralStatus::Completed;
     'run: for i in 0..samples - 1 {
         run.drive = scale.drive(motion, i);
@@ -139,7 +147,7 @@ impl<R: Real> Run<R> {
             let length = if is_short { self.at_stop } else { rest };
             let mut series = Series::new(&self.model, &self.state, &self.drive, tau, length);
             let event = self.machines().first_event(&series);
-            if let Some((place, _)) = event {
+            if let Some((place, ..)) = event {
                 series.shrink(place);
             }
             // An instant is no stretch of time: the regimes passed through at it have no peaks.
@@ -147,12 +155,13 @@ impl<R: Real> Run<R> {
                 recorder.stretch(&self.model, &self.state, &series, self.start + tau);
             }
             series.advance(&mut self.state);
+            series.add_paths(&mut self.state);
             tau = tau + series.length;
             match event {
                 None if is_short => continue,
                 None => return Ok(None),
-                Some((_, Guard::Collapse { node })) => return Ok(Some((node, (self.start + tau).to_f64()))),
-                Some((_, guard)) => self.machines().carry_out(guard, &series, tau),
+                Some((.., Guard::Collapse { node })) => return Ok(Some((node, (self.start + tau).to_f64()))),
+                Some((.., guard)) => self.machines().carry_out(guard, &series, tau),
             }
             events += 1;
             if events == MAX_EVENTS {

@@ -81,6 +81,17 @@ impl<R: Real> State<R> {
         self.springs.iter().zip(&self.drift).map(|(spring, &drift)| force((spring.as_ref(), drift))).collect()
     }
 
+    /// Mass of each node with the blocks that stick to it.
+    pub(super) fn mass_with_stuck(&self, model: &Model<R>) -> Vec<R> {
+        let mut mass = model.mass.clone();
+        for (_, data) in self.blocks.iter().zip(&model.goods).filter(|(b, _)| b.contact == Contact::Stuck) {
+            if let Some(node) = data.node {
+                mass[node] = mass[node] + data.mass;
+            }
+        }
+        mass
+    }
+
     /// Slip at which a block comes to the stop of this side.
     pub(super) fn place_of_stop(model: &Model<R>, block: usize, side: Sign) -> Option<R> {
         let clearance = model.goods[block].stops.as_ref()?.clearance[usize::from(side == Sign::Positive)]?;

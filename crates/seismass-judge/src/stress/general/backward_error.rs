@@ -8,10 +8,9 @@
 //! the one with which the judge agrees with the engine from the first sample to the last. An engine whose run is the exact
 //! one of a motion that differs by some last digits makes no error but rounding.
 
-use seismass::{GeneralResponse, GeneralScene, Motion};
-
+use super::subject::Subject;
 use crate::compare::{scales, values};
-use crate::general::{GeneralSolution, Scale, compare_general, solve_scaled};
+use crate::general::{GeneralSolution, Scale};
 use crate::stress::verdict::{AGREEMENT, LAST_DIGITS};
 use crate::{DoubleDouble, Real};
 
@@ -34,12 +33,7 @@ enum Scaled {
 /// The change of the ground acceleration, or of g + a_v, in last digits (2^-52) and no more than those tried elsewhere, with
 /// which the judge in double-double agrees with a response that has histories at every sample and events. `exact` is the
 /// unchanged judge.
-pub(super) fn backward_error(
-    scene: &GeneralScene,
-    motion: &Motion,
-    response: &GeneralResponse,
-    exact: &GeneralSolution,
-) -> Option<f64> {
+pub(super) fn backward_error<S: Subject>(subject: &S, response: &S::Solution, exact: &S::Solution) -> Option<f64> {
     [Scaled::Ground, Scaled::Contact].into_iter().find_map(|scaled| {
         let judge = |change: DoubleDouble| {
             let (one, factor) = (DoubleDouble::of(1.0), DoubleDouble::of(1.0) + change);
@@ -47,27 +41,27 @@ pub(super) fn backward_error(
                 Scaled::Ground => Scale { ground: factor, contact: one },
                 Scaled::Contact => Scale { ground: one, contact: factor },
             };
-            solve_scaled(scene, motion, 1, scale).ok()
+            subject.solve(scale).ok()
         };
-        seek(response, exact, judge)
+        seek::<S>(response, exact, judge)
     })
 }
 
 /// Seeks the change by Newton's method, at the first row at which the two are apart by more than is proportional to it:
 /// beyond, the differences have grown too large to tell how far the change is off.
-fn seek(
-    response: &GeneralResponse,
-    exact: &GeneralSolution,
-    judge: impl Fn(DoubleDouble) -> Option<GeneralSolution>,
+fn seek<S: Subject>(
+    response: &S::Solution,
+    exact: &S::Solution,
+    judge: impl Fn(DoubleDouble) -> Option<S::Solution>,
 ) -> Option<f64> {
-    let rows = Rows::new(response, exact)?;
+    let rows = Rows::new(S::directions(response), &S::directions(exact));
     let last_digit = DoubleDouble::of(f64::EPSILON);
     let (mut change, mut step) = (DoubleDouble::zero(), last_digit);
     let mut solution = exact.clone();
     let mut before = (0, f64::INFINITY);
     for _ in 0..CORRECTIONS {
-        let row = rows.parting(&solution)?;
-        let apart = rows.apart(row, &solution);
+        let row = rows.parting(&S::directions(&solution))?;
+        let apart = rows.apart(row, &S::directions(&solution));
         // Neither later nor less apart: what is left is not of a change.
         if row < before.0 || row == before.0 && size(&apart) > before.1 {
             return None;
@@ -84,7 +78,12 @@ fn seek(
                 return None;
             }
             let other = judge(change + step)?;
-            moved = rows.apart(row, &solution).iter().zip(rows.apart(row, &other)).map(|(a, b)| a - b).collect();
+            moved = rows
+                .apart(row, &S::directions(&solution))
+                .iter()
+                .zip(rows.apart(row, &S::directions(&other)))
+                .map(|(a, b)| a - b)
+                .collect();
         }
         // The least squares of what is left.
         let squares: f64 = moved.iter().map(|m| m * m).sum();
@@ -96,7 +95,7 @@ fn seek(
             return None;
         }
         solution = judge(change)?;
-        if compare_general(response, &solution).agrees(AGREEMENT) {
+        if S::compare(response, &solution).agrees(AGREEMENT) {
             return Some(digits);
         }
     }
@@ -107,29 +106,25 @@ fn size(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, value| most.max(value.abs()))
 }
 
-/// Drifts and slips of a response, sample by sample, and the peaks that differences count relative to.
+/// Drifts and slips of a response, sample by sample, and the peaks that differences count relative to, by direction.
 struct Rows<'a> {
-    drift: &'a [f64],
-    slip: &'a [f64],
-    drift_scale: Vec<f64>,
-    slip_scale: Vec<f64>,
+    response: Vec<&'a GeneralSolution>,
+    drift_scales: Vec<Vec<f64>>,
+    slip_scales: Vec<Vec<f64>>,
     count: usize,
 }
 
 impl<'a> Rows<'a> {
-    fn new(response: &'a GeneralResponse, exact: &GeneralSolution) -> Option<Self> {
-        let histories = response.histories.as_ref()?;
-        Some(Self {
-            drift: &histories.drift,
-            slip: &histories.slip,
-            drift_scale: scales(&values(&exact.peaks.drift)),
-            slip_scale: scales(&values(&exact.peaks.slip)),
-            count: histories.rows,
-        })
+    fn new(response: Vec<&'a GeneralSolution>, exact: &[&GeneralSolution]) -> Self {
+        let drift_scales: Vec<Vec<f64>> = exact.iter().map(|of| scales(&values(&of.peaks.drift))).collect();
+        let slip_scales: Vec<Vec<f64>> = exact.iter().map(|of| scales(&values(&of.peaks.slip))).collect();
+        let rows = |values: &[f64], scales: &[f64]| values.len().checked_div(scales.len()).unwrap_or(0);
+        let count = rows(&response[0].drift, &drift_scales[0]).max(rows(&response[0].slip, &slip_scales[0]));
+        Self { response, drift_scales, slip_scales, count }
     }
 
     /// How far the response is from a solution in a row, each drift and slip by its scale; zero beyond the end of one.
-    fn apart(&self, row: usize, solution: &GeneralSolution) -> Vec<f64> {
+    fn apart(&self, row: usize, solution: &[&GeneralSolution]) -> Vec<f64> {
         let of = |found: &[f64], expected: &[f64], scales: &[f64]| {
             let first = row * scales.len();
             let differences = scales.iter().enumerate().map(|(i, scale)| {
@@ -138,13 +133,16 @@ impl<'a> Rows<'a> {
             });
             differences.collect::<Vec<f64>>()
         };
-        let drifts = of(self.drift, &solution.drift, &self.drift_scale);
-        [drifts, of(self.slip, &solution.slip, &self.slip_scale)].concat()
+        let scales = self.drift_scales.iter().zip(&self.slip_scales);
+        let lists = self.response.iter().zip(solution).zip(scales).map(|((found, expected), (drift, slip))| {
+            [of(&found.drift, &expected.drift, drift), of(&found.slip, &expected.slip, slip)].concat()
+        });
+        lists.collect::<Vec<_>>().concat()
     }
 
     /// The first row in which a solution is apart from the response by more than is proportional to a change; the one most
     /// apart where there is none.
-    fn parting(&self, solution: &GeneralSolution) -> Option<usize> {
+    fn parting(&self, solution: &[&GeneralSolution]) -> Option<usize> {
         let apart: Vec<f64> = (0..self.count).map(|row| size(&self.apart(row, solution))).collect();
         let first = apart.iter().position(|&apart| apart > PROPORTIONAL);
         first.or_else(|| (0..self.count).max_by(|&one, &other| apart[one].total_cmp(&apart[other])))
@@ -157,10 +155,10 @@ mod tests {
 
     use std::num::NonZeroUsize;
 
-    use seismass::{Block, Goods, Options, Stops, simulate_general};
+    use seismass::{Block, GeneralResponse, GeneralScene, Goods, Motion, Options, Stops, simulate_general};
 
     use super::*;
-    use crate::general::solve_general;
+    use crate::general::{compare_general, solution_of, solve_general};
     use crate::random_scene::{Draw, samples_of};
 
     /// Samples of the motion.
@@ -181,13 +179,14 @@ mod tests {
             let samples: Vec<f64> = samples.iter().enumerate().map(|(i, a)| a * (1.0 + change(i))).collect();
             Motion::new(samples, 0.01, None).unwrap()
         };
-        let options = Options { histories: NonZeroUsize::new(1), events: true, ..Options::default() };
+        let options = Options { histories: NonZeroUsize::new(1), events: true, energy: true, ..Options::default() };
         let run = |motion: &Motion| simulate_general(&scene, motion, &options).unwrap();
         let motion = changed(&|_| 0.0);
         let exact = solve_general::<DoubleDouble>(&scene, &motion, 1).unwrap();
-        let found = |response: &GeneralResponse| backward_error(&scene, &motion, response, &exact);
+        let subject = (scene.clone(), motion);
+        let found = |response: &GeneralResponse| backward_error(&subject, &solution_of(response).unwrap(), &exact);
 
-        let mut response = run(&motion);
+        let mut response = run(&subject.1);
         assert!(compare_general(&response, &exact).mismatch.is_some());
         let digits = found(&response).unwrap();
         assert!(digits < 4.0, "{digits}");

@@ -1,17 +1,16 @@
-//! One random scene of the general engine.
+//! One random scene of the general engine, in one direction or in two.
 
 use std::num::NonZeroUsize;
 
-use seismass::{Error, EventCounts, GeneralResponse, GeneralScene, GeneralStatus, Motion, Options, simulate_general};
+use seismass::{Error, EventCounts, GeneralStatus, Options};
 
-use super::invariants;
+use super::subject::Subject;
 use super::verdict::judge;
-use crate::general::{compare_general, divided, solution_of, solve_general};
-use crate::general_scene::general_scene;
+use crate::general::Scale;
 use crate::random_scene::Draw;
 use crate::stress::random::LARGEST_RESIDUAL;
 use crate::stress::verdict::Verdict;
-use crate::{DoubleDouble, JudgeError};
+use crate::{DoubleDouble, JudgeError, larger};
 
 /// Largest change of numbers and times, relative as those to the judge are, by a division of the sample intervals; beyond,
 /// the judge is asked.
@@ -34,52 +33,60 @@ pub(super) struct Found {
     pub(super) residual: Option<f64>,
     /// Largest difference that dividing every sample interval makes, where the events stay the same.
     pub(super) division: Option<f64>,
+    /// Largest difference of peaks and paths to those of the scene's image, where the events are as many.
+    pub(super) turn: Option<f64>,
     pub(super) verdict: Option<Verdict>,
     pub(super) defect: Option<String>,
 }
 
 /// Solves the scene of a seed; a judged one is compared with the judge, in double-double from the start if `precisely`.
-pub(super) fn examine(seed: u64, judged: bool, precisely: bool) -> Found {
+pub(super) fn examine<S: Subject>(seed: u64, judged: bool, precisely: bool) -> Found {
     let mut found = Found { seed, ..Found::default() };
-    let (scene, motion) = match general_scene(seed) {
+    let subject = match S::draw(seed) {
         Ok(drawn) => drawn,
         Err(error) => return found.without_response(format!("the scene was refused: {error}"), true),
     };
-    let options = Options { histories: NonZeroUsize::new(1), events: true, energy: true, ..Options::default() };
-    let response = match simulate_general(&scene, &motion, &options) {
+    let response = match subject.simulate(&options(1)) {
         Ok(response) => response,
         Err(error) => {
-            let solution = solve_general::<DoubleDouble>(&scene, &motion, 1);
+            let solution = subject.solve::<DoubleDouble>(Scale::none());
             let alike = solution.as_ref().is_err_and(|other| fail_alike(&error, other));
             let judge = solution.map_or_else(|other| format!("fails: {other}"), |_| "solves it".into());
             return found.without_response(format!("error: {error}; the judge {judge}"), !alike);
         }
     };
-    found.collapsed = response.status != GeneralStatus::Completed;
-    found.events = response.statistics.events;
-    let residual = response.energy.map_or(f64::NAN, |energy| energy.relative_residual.abs());
+    let summary = S::summary(&response);
+    found.collapsed = summary.status != GeneralStatus::Completed;
+    found.events = summary.events;
+    let residual = summary.residual;
     found.residual = Some(residual);
-    found.defect = invariants::check(&scene, &motion, &response).err();
+    found.defect = subject.check(&response).err();
     if residual > LARGEST_RESIDUAL || residual.is_nan() {
         found.defect.get_or_insert(format!("energy residual {residual:e}"));
     }
     let mut asks_judge = judged;
     if judged || Draw(seed ^ 0x6469_7669).one_in(OTHERWISE) {
-        if let Err(fault) = same_bits(&scene, &motion, &response) {
+        if let Err(fault) = same_bits(&subject, &response) {
             found.defect.get_or_insert(fault);
         }
-        found.division = division(&scene, &motion, &response);
+        found.division = division(&subject, &response);
+        found.turn = turn(&subject, &response);
         // A graze may fall either way: the judge says which of the two was right.
-        asks_judge |= found.division.is_none_or(|difference| difference > LARGEST_DIVISION);
+        let beyond = |difference: Option<f64>| difference.is_none_or(|difference| difference > LARGEST_DIVISION);
+        asks_judge |= beyond(found.division) || beyond(found.turn);
     }
     if asks_judge {
-        let verdict = judge(&scene, &motion, &response, precisely);
+        let verdict = judge(&subject, &response, precisely);
         if let Verdict::Unexplained(difference) = &verdict {
             found.defect.get_or_insert(format!("parts from the judge: {difference}"));
         }
         found.verdict = Some(verdict);
     }
     found
+}
+
+fn options(every: usize) -> Options {
+    Options { histories: NonZeroUsize::new(every), events: true, energy: true, ..Options::default() }
 }
 
 impl Found {
@@ -100,19 +107,28 @@ fn fail_alike(engine: &Error, judge: &JudgeError) -> bool {
 }
 
 /// Whether peaks, residuals and paths have the same bits where nothing else is asked for.
-fn same_bits(scene: &GeneralScene, motion: &Motion, response: &GeneralResponse) -> Result<(), String> {
-    let other =
-        simulate_general(scene, motion, &Options::default()).map_err(|error| format!("peaks alone: {error}"))?;
-    let same = (&other.peaks, &other.residual_drift, &other.residual_slip, &other.slip_path, other.status)
-        == (&response.peaks, &response.residual_drift, &response.residual_slip, &response.slip_path, response.status);
+fn same_bits<S: Subject>(subject: &S, response: &S::Response) -> Result<(), String> {
+    let other = subject.simulate(&Options::default()).map_err(|error| format!("peaks alone: {error}"))?;
+    let same = S::same_bits(response, &other);
     if same { Ok(()) } else { Err("other bits without energies, events and histories".into()) }
 }
 
 /// How far the run is from one with every sample interval divided; nothing where the events differ.
-fn division(scene: &GeneralScene, motion: &Motion, response: &GeneralResponse) -> Option<f64> {
-    let motion = divided(motion, PARTS).ok()?;
-    let options = Options { histories: NonZeroUsize::new(PARTS), events: true, energy: true, ..Options::default() };
-    let other = simulate_general(scene, &motion, &options).ok()?;
-    let comparison = compare_general(&other, &solution_of(response)?);
+fn division<S: Subject>(subject: &S, response: &S::Response) -> Option<f64> {
+    let other = subject.divided(PARTS).ok()?.simulate(&options(PARTS)).ok()?;
+    let comparison = S::compare(&S::as_solution(&other)?, &S::as_solution(response)?);
     comparison.mismatch.is_none().then(|| comparison.worst().max(comparison.worst_time()))
+}
+
+/// How far peaks and paths are from those of the scene's image, over the largest of their kind; nothing where the events are
+/// not as many.
+fn turn<S: Subject>(subject: &S, response: &S::Response) -> Option<f64> {
+    let other = subject.image().ok()?.simulate(&Options::default()).ok()?;
+    let (own, of_image) = (S::peaks(response, false), S::peaks(&other, true));
+    let apart = own.iter().zip(&of_image).map(|(own, image)| {
+        let largest = own.iter().fold(f64::MIN_POSITIVE, |largest, value| largest.max(*value));
+        own.iter().zip(image).fold(0.0, |worst, (own, image)| larger(worst, (own - image).abs() / largest))
+    });
+    let same_events = S::summary(response).events == S::summary(&other).events;
+    same_events.then(|| apart.fold(0.0, larger))
 }

@@ -29,13 +29,13 @@ pub(super) fn check(scene: &GeneralScene, motion: &Motion, response: &GeneralRes
     Walk::new(scene, motion, response, histories).check(&log)
 }
 
-fn laws(scene: &GeneralScene) -> Vec<&SpringLaw> {
+pub(super) fn laws(scene: &GeneralScene) -> Vec<&SpringLaw> {
     let of_building = scene.building().into_iter().flat_map(|building| building.storeys());
     let of_racks = scene.racks().iter().flat_map(|rack| &rack.levels);
     of_building.chain(of_racks).map(|storey| &storey.law).collect()
 }
 
-fn numbers(response: &GeneralResponse, h: &Histories) -> Result<(), String> {
+pub(super) fn numbers(response: &GeneralResponse, h: &Histories) -> Result<(), String> {
     let p = &response.peaks;
     let base = [p.base_shear];
     let lists = [&p.drift[..], &p.acceleration, &p.shear, &base, &p.slip, &p.contact_force, &p.contact_velocity];
@@ -59,7 +59,7 @@ fn numbers(response: &GeneralResponse, h: &Histories) -> Result<(), String> {
 }
 
 /// What is dissipated is not negative, and no more than rounding is missing in the balance of what is.
-fn energies(response: &GeneralResponse) -> Result<(), String> {
+pub(super) fn energies(response: &GeneralResponse) -> Result<(), String> {
     let Some(energy) = &response.energy else { return Ok(()) };
     let parts = [energy.viscous, energy.hysteretic, energy.friction, energy.contact];
     let least = -ROUNDING * parts.iter().fold(energy.kinetic, |sum, part| sum + part.abs());
@@ -72,7 +72,7 @@ fn energies(response: &GeneralResponse) -> Result<(), String> {
 }
 
 /// No sample may beat a peak of continuous time.
-fn peaks(scene: &GeneralScene, response: &GeneralResponse, h: &Histories) -> Result<(), String> {
+pub(super) fn peaks(scene: &GeneralScene, response: &GeneralResponse, h: &Histories) -> Result<(), String> {
     let (n, m) = (scene.nodes(), scene.all_goods().count());
     let p = &response.peaks;
     let lists = [
@@ -93,7 +93,7 @@ fn peaks(scene: &GeneralScene, response: &GeneralResponse, h: &Histories) -> Res
 }
 
 /// A slip ends at its clearance and the penetration: where the latter is largest, the damper has no force.
-fn slips(scene: &GeneralScene, response: &GeneralResponse) -> Result<(), String> {
+pub(super) fn slips(scene: &GeneralScene, response: &GeneralResponse) -> Result<(), String> {
     for (j, goods) in scene.all_goods().enumerate() {
         let Some(stops) = &goods.stops else { continue };
         let bound =
@@ -115,7 +115,7 @@ enum Stopped {
 }
 
 /// The states of all blocks from sample to sample.
-struct Walk<'a> {
+pub(super) struct Walk<'a> {
     scene: &'a GeneralScene,
     motion: &'a Motion,
     response: &'a GeneralResponse,
@@ -125,13 +125,13 @@ struct Walk<'a> {
     last_change: Vec<f64>,
     mu_s: Vec<f64>,
     /// Node of each block, in the columns of the histories.
-    node: Vec<Option<usize>>,
+    pub(super) node: Vec<Option<usize>>,
     /// Largest relative velocity, as a measure of rounding (m/s).
     fastest: f64,
 }
 
 impl<'a> Walk<'a> {
-    fn new(
+    pub(super) fn new(
         scene: &'a GeneralScene,
         motion: &'a Motion,
         response: &'a GeneralResponse,
@@ -190,7 +190,7 @@ impl<'a> Walk<'a> {
         events.try_for_each(|event| self.carry_out(event))
     }
 
-    fn carry_out(&mut self, event: &Event) -> Result<(), String> {
+    pub(super) fn carry_out(&mut self, event: &Event) -> Result<(), String> {
         let j = event.number - 1;
         let goods = self.scene.all_goods().nth(j).ok_or("an event of no block")?;
         self.last_change[j] = event.time;
@@ -223,13 +223,13 @@ impl<'a> Walk<'a> {
     }
 
     /// Velocity relative to the node (m/s).
-    fn relative(&self, j: usize, row: usize) -> f64 {
+    pub(super) fn relative(&self, j: usize, row: usize) -> f64 {
         let (n, m) = (self.scene.nodes(), self.contact.len());
         let node = self.node[j].map_or(0.0, |node| self.histories.floor_velocity[row * n + node]);
         self.histories.block_velocity[row * m + j] - node
     }
 
-    fn slip(&self, j: usize, row: usize) -> f64 {
+    pub(super) fn slip(&self, j: usize, row: usize) -> f64 {
         self.histories.slip[row * self.contact.len() + j]
     }
 
@@ -270,14 +270,14 @@ impl<'a> Walk<'a> {
     }
 
     /// Force of a stop on its node over the block's mass (m/s2), for a block at rest.
-    fn push(&self, j: usize, row: usize) -> f64 {
+    pub(super) fn push(&self, j: usize, row: usize) -> f64 {
         let Some(goods) = self.scene.all_goods().nth(j) else { return 0.0 };
         let (Some(stops), Stopped::Pressing(side)) = (&goods.stops, self.stopped[j]) else { return 0.0 };
         f64::from(side) * stops.stiffness * beyond(stops, side, self.slip(j, row)) / goods.block.mass
     }
 
     /// A block that presses is not pulled; one that is free is within its clearances; one that has parted would be pulled.
-    fn stop(&self, j: usize, row: usize, stops: &Stops) -> Result<(), String> {
+    pub(super) fn stop(&self, j: usize, row: usize, stops: &Stops) -> Result<(), String> {
         let (slip, relative) = (self.slip(j, row), self.relative(j, row));
         let largest = self.response.peaks.contact_force[j].value;
         let finite = |side: i8| Some(beyond(stops, side, 0.0).abs()).filter(|c| c.is_finite()).unwrap_or(0.0);

@@ -1,12 +1,12 @@
-//! What the stress suite prints and writes of the general engine.
+//! What the stress suite prints and writes of the general engine, in one direction and in two.
 
 use std::fmt::Write as _;
 
 use seismass::EventKind;
 
-use super::chains::PEAK;
+use super::chains::{Chains, PEAK};
 use super::examine::LARGEST_DIVISION;
-use super::tally::GeneralTally;
+use super::tally::{Directions, GeneralTally};
 use crate::stress::random::LARGEST_RESIDUAL;
 use crate::stress::verdict::AGREEMENT;
 
@@ -28,29 +28,25 @@ pub fn distribution(tally: &GeneralTally) -> String {
     let kinds = EventKind::ALL.iter().zip(tally.kinds);
     let kinds: Vec<String> = kinds.map(|(kind, n)| format!("{} {n}", kind.name())).collect();
     row("events by kind", kinds.join(", "));
-    let worst = |(value, seed): (f64, u64)| format!("{value:.1e} (seed {seed})");
-    row(&format!("worst energy residual (limit {LARGEST_RESIDUAL:.0e})"), worst(tally.worst_residual));
+    row(&format!("worst energy residual (limit {LARGEST_RESIDUAL:.0e})"), of_worst(tally.worst_residual));
     row("with every sample interval divided by four, the same events", tally.divided.to_string());
     let beyond = format!("largest change by the division (limit {LARGEST_DIVISION:.0e}, beyond it the judge is asked)");
-    row(&beyond, worst(tally.worst_division));
+    row(&beyond, of_worst(tally.worst_division));
+    row("as their images, as many events", tally.turned.to_string());
+    let beyond = format!(
+        "largest difference of peaks and paths to the image (limit {LARGEST_DIVISION:.0e}, beyond it the judge is asked)"
+    );
+    row(&beyond, of_worst(tally.worst_turn));
     row("compared with the plain implementation", tally.judged.to_string());
     let limit = format!("where the events agree (limit {AGREEMENT:.0e})");
-    row(&format!("worst relative difference {limit}"), worst(tally.worst_difference));
-    row(&format!("worst difference of event times, of the duration, {limit}"), worst(tally.worst_time));
+    row(&format!("worst relative difference {limit}"), of_worst(tally.worst_difference));
+    row(&format!("worst difference of event times, of the duration, {limit}"), of_worst(tally.worst_time));
     row("parted at a grazing, explained", tally.grazing.len().to_string());
     row("parted by sensitivity, explained", tally.sensitive.len().to_string());
     row("defects: panics, NaN, errors, residuals, broken invariants, unexplained", tally.defects.len().to_string());
-    let chains = &tally.chains;
-    row("random shear buildings solved by both engines", chains.scenes.to_string());
-    row("of them, the same events, and numbers", {
-        let same = chains.scenes - chains.judged.len() as u64 - chains.defects.len() as u64;
-        format!("{same}, to {} of the largest peak (limit {PEAK:.0e})", worst(chains.worst))
-    });
-    row("of them, apart by more, and the judge in double-double agrees with the general engine or with neither", {
-        let seeds: Vec<String> = chains.judged.iter().map(ToString::to_string).collect();
-        if seeds.is_empty() { "0".into() } else { format!("{} (seeds {})", seeds.len(), seeds.join(", ")) }
-    });
-    row("of them, defects", chains.defects.len().to_string());
+    if tally.directions == Directions::One {
+        of_chains(&tally.chains, &mut row);
+    }
     let of_input = "with the change of the input, in last digits, that does the same";
     for (heading, list) in [
         ("Grazings", &tally.grazing),
@@ -65,7 +61,7 @@ pub fn distribution(tally: &GeneralTally) -> String {
     }
     let failed = "Failed runs, no defects where the judge fails for the same reason";
     for (heading, list) in
-        [(failed, &tally.failed), ("Defects", &tally.defects), ("Defects of shear buildings", &chains.defects)]
+        [(failed, &tally.failed), ("Defects", &tally.defects), ("Defects of shear buildings", &tally.chains.defects)]
     {
         if !list.is_empty() {
             let _ = writeln!(text, "\n{heading}:\n");
@@ -77,8 +73,54 @@ pub fn distribution(tally: &GeneralTally) -> String {
     text
 }
 
+fn of_worst((value, seed): (f64, u64)) -> String {
+    format!("{value:.1e} (seed {seed})")
+}
+
+/// Rows of the shear buildings solved by both engines.
+fn of_chains(chains: &Chains, row: &mut impl FnMut(&str, String)) {
+    row("random shear buildings solved by both engines", chains.scenes.to_string());
+    row("of them, the same events, and numbers", {
+        let same = chains.scenes - chains.judged.len() as u64 - chains.defects.len() as u64;
+        format!("{same}, to {} of the largest peak (limit {PEAK:.0e})", of_worst(chains.worst))
+    });
+    row("of them, apart by more, and the judge in double-double agrees with the general engine or with neither", {
+        let seeds: Vec<String> = chains.judged.iter().map(ToString::to_string).collect();
+        if seeds.is_empty() { "0".into() } else { format!("{} (seeds {})", seeds.len(), seeds.join(", ")) }
+    });
+    row("of them, defects", chains.defects.len().to_string());
+}
+
 /// The page of docs.
 pub fn page(tally: &GeneralTally) -> String {
+    match tally.directions {
+        Directions::One => of_one_direction(tally),
+        Directions::Two => of_two_directions(tally),
+    }
+}
+
+fn of_two_directions(tally: &GeneralTally) -> String {
+    format!(
+        "# Stress of two directions\n\n\
+         Written by `make stress-plane`, which may be stopped and gone on with as long as the kernel is the same; the numbers \
+         are in its table. Racks, walls and stops in one direction have a [page of their own](stress_general.md).\n\n\
+         Random scenes in two directions (`plane_scene.rs` of `crates/seismass-judge`): no building, or one to three storeys, \
+         with springs, walls, damping, P-Delta, initial states and collapse drifts of each direction, or the same in both; in a \
+         third a rack; several blocks per node, with mu_s at and above mu_k, without friction, with wear, much heavier than \
+         their node, thrown in any direction, with stops across x and y; motions of their own in each direction, along a line \
+         or in one direction alone, with and without a vertical one.\n\n\
+         Every run is checked by itself: finite numbers; energy balance in each direction; legal sequences of events; stuck \
+         blocks that neither move nor exceed the circle; stops that never pull, and blocks that press where they must; slips \
+         within clearance and penetration; peaks, of directions and of vectors, that no sample beats. A fifth is solved again \
+         with every sample interval divided by four, turned by a right angle, and for peaks alone, which must not change a \
+         bit. A random part is compared with a second implementation, written from the specification alone \
+         (`crates/seismass-judge/src/general/plane`), as on the page of one direction: with events, times, velocities, the \
+         angles at which sliding begins, histories, peaks and paths.\n\n{}",
+        distribution(tally),
+    )
+}
+
+fn of_one_direction(tally: &GeneralTally) -> String {
     format!(
         "# Stress of the general engine\n\n\
          Written by `make stress-general`, which may be stopped and gone on with as long as the kernel is the same; the numbers \
@@ -89,7 +131,7 @@ pub fn page(tally: &GeneralTally) -> String {
          with dampers and without; goods that are fixed; every kind of damping; P-Delta, vertical motion, wear, initial states.\n\n\
          Every run is checked by itself: finite numbers; energy balance; legal sequences of events; stuck blocks that neither \
          move nor exceed their limit; stops that never pull, and blocks that press where they must; slips within clearance and \
-         penetration; peaks that no sample beats. A fifth is solved again with every sample interval divided by four, and for \
+         penetration; peaks that no sample beats. A fifth is solved again with every sample interval divided by four, as its image in a mirror, and for \
          peaks alone, which must not change a bit. A random part is compared with a second implementation, written from the \
          specification alone (`crates/seismass-judge/src/general`): a tenth of it in double-double, the others in double \
          precision and in double-double where that parts. The modal damping of racks is its own; that of the building is the \

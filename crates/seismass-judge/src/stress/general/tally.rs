@@ -1,10 +1,10 @@
-//! The distribution of a random run of the general engine.
+//! The distribution of a random run of the general engine, in one direction or in two.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
-use seismass::EventKind;
+use seismass::{EventKind, GeneralScene, Motion, PlaneMotion, PlaneScene};
 
 use super::chains::{Chains, compare_engines};
 use super::examine::{Found, LARGEST_DIVISION, examine};
@@ -14,9 +14,21 @@ use crate::stress::verdict::Verdict;
 /// One judged scene in so many is compared with the judge in double-double from the start.
 const PRECISELY: u64 = 10;
 
+/// In how many directions the scenes are drawn.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Directions {
+    /// Racks, walls and stops in one.
+    #[default]
+    One,
+    /// Friction on the circle.
+    Two,
+}
+
 /// The distribution of a random run.
 #[derive(Debug, Clone, Default)]
 pub struct GeneralTally {
+    /// What is drawn.
+    pub directions: Directions,
     /// Seed of the first scene.
     pub first: u64,
     /// Scenes run, of one seed after the other.
@@ -27,10 +39,14 @@ pub struct GeneralTally {
     pub judged: u64,
     /// Of them, solved with divided intervals too, with the same events.
     pub divided: u64,
+    /// Of them, solved as their images too, with as many events.
+    pub turned: u64,
     /// Largest energy residual, and its seed.
     pub worst_residual: (f64, u64),
     /// Largest change by a division of the intervals within the limit, and its seed.
     pub worst_division: (f64, u64),
+    /// Largest difference to the image within the limit, and its seed.
+    pub worst_turn: (f64, u64),
     /// Largest difference to the judge where the events agree, and its seed.
     pub worst_difference: (f64, u64),
     /// Largest difference of event times, relative to the duration, and its seed.
@@ -53,12 +69,16 @@ pub struct GeneralTally {
 
 impl GeneralTally {
     /// An empty tally of scenes from this seed on.
-    pub fn from_seed(first: u64) -> Self {
-        Self { first, ..Self::default() }
+    pub fn from_seed(directions: Directions, first: u64) -> Self {
+        Self { directions, first, ..Self::default() }
     }
 
     /// Runs more scenes in parallel, of which this share is compared with the judge.
     pub fn run(&mut self, scenes: u64, judged: f64) {
+        let examine = match self.directions {
+            Directions::One => examine::<(GeneralScene, Motion)>,
+            Directions::Two => examine::<(PlaneScene, PlaneMotion)>,
+        };
         let next = self.first + self.scenes;
         let found: Vec<Found> = (next..next + scenes)
             .into_par_iter()
@@ -87,6 +107,8 @@ impl GeneralTally {
         self.collapsed += u64::from(found.collapsed);
         self.judged += u64::from(found.verdict.is_some());
         self.divided += u64::from(found.division.is_some());
+        self.turned += u64::from(found.turn.is_some());
+        raise(&mut self.worst_turn, found.turn.filter(|&d| d <= LARGEST_DIVISION).unwrap_or(0.0));
         raise(&mut self.worst_residual, found.residual.unwrap_or(0.0));
         raise(&mut self.worst_division, found.division.filter(|&d| d <= LARGEST_DIVISION).unwrap_or(0.0));
         match found.failed {

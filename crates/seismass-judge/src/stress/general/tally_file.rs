@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::io;
 use std::path::Path;
 
-use super::tally::GeneralTally;
+use super::tally::{Directions, GeneralTally};
 use crate::stress::tally_file::{lines_of, take_numbers, write_whole};
 
 impl GeneralTally {
@@ -20,11 +20,13 @@ impl GeneralTally {
         };
         line("program", &[program.into()]);
         line("first", &[self.first.to_string()]);
-        line("counts", &[self.scenes, self.collapsed, self.judged, self.divided].map(|c| c.to_string()));
+        line("directions", &[format!("{:?}", self.directions)]);
+        line("counts", &[self.scenes, self.collapsed, self.judged, self.divided, self.turned].map(|c| c.to_string()));
         line("kinds", &self.kinds.map(|c| c.to_string()));
         for (key, (value, seed)) in [
             ("residual", self.worst_residual),
             ("division", self.worst_division),
+            ("turn", self.worst_turn),
             ("difference", self.worst_difference),
             ("time", self.worst_time),
             ("chain-worst", self.chains.worst),
@@ -56,14 +58,17 @@ impl GeneralTally {
     ///
     /// # Errors
     /// Those of the file system, and [`io::ErrorKind::InvalidData`] for a file that is no tally, was made by another
-    /// program, or has another first seed.
-    pub fn load(path: &Path, program: &str, first: u64) -> io::Result<Self> {
-        let mut tally = Self::from_seed(first);
+    /// program, has another first seed, or scenes in other directions.
+    pub fn load(path: &Path, program: &str, directions: Directions, first: u64) -> io::Result<Self> {
+        let mut tally = Self::from_seed(directions, first);
         for (number, line) in lines_of(path, program)?.iter().enumerate() {
             let fields: Vec<&str> = line.split('\t').collect();
-            if tally.read_line(&fields).is_none() || tally.first != first {
-                let message =
-                    format!("line {} of {} is not of a tally from seed {first}: {line}", number + 2, path.display());
+            if tally.read_line(&fields).is_none() || tally.first != first || tally.directions != directions {
+                let message = format!(
+                    "line {} of {} is not of a tally from seed {first}, directions {directions:?}: {line}",
+                    number + 2,
+                    path.display()
+                );
                 return Err(io::Error::new(io::ErrorKind::InvalidData, message));
             }
         }
@@ -78,13 +83,22 @@ impl GeneralTally {
         let worst = || Some((real(0)?, whole(1)?));
         match *key {
             "first" => self.first = whole(0)?,
+            "directions" => {
+                self.directions = match *fields.first()? {
+                    "One" => Directions::One,
+                    "Two" => Directions::Two,
+                    _ => return None,
+                }
+            }
             "counts" => {
-                let counts = [&mut self.scenes, &mut self.collapsed, &mut self.judged, &mut self.divided];
+                let counts =
+                    [&mut self.scenes, &mut self.collapsed, &mut self.judged, &mut self.divided, &mut self.turned];
                 take_numbers(fields, counts.into_iter())?;
             }
             "kinds" => take_numbers(fields, self.kinds.iter_mut())?,
             "residual" => self.worst_residual = worst()?,
             "division" => self.worst_division = worst()?,
+            "turn" => self.worst_turn = worst()?,
             "difference" => self.worst_difference = worst()?,
             "time" => self.worst_time = worst()?,
             "chain-worst" => self.chains.worst = worst()?,

@@ -1,0 +1,246 @@
+//! The run in the plane: sample intervals cut into pieces, pieces cut at events and where a series ends.
+
+use seismass::{GeneralEvent, GeneralStatus, PlaneEvent, PlaneMotion, PlaneScene};
+
+use super::record::{PlaneRecorder, PlaneSolution};
+use super::series::PlaneSeries;
+use crate::general::arrangement::Machines;
+use crate::general::guards::Guard;
+use crate::general::model::Model;
+use crate::general::series::MAX_PHASE;
+use crate::general::solve::Scale;
+use crate::general::state::State;
+use crate::model::Terms;
+use crate::real::Real;
+use crate::sign::Sign;
+use crate::solve::{JudgeError, MAX_EVENTS, MAX_PIECES};
+use crate::state::{Contact, Drive};
+
+/// Stretches of one piece, of which a block that begins to slide at the end of one needs many.
+const MAX_STRETCHES: usize = 100_000;
+
+/// Solves a scene in two directions under a motion, with histories at every `every`-th sample.
+///
+/// # Errors
+/// [`JudgeError`] when the state machines chatter, numbers overflow, or the scene is far too stiff for the time step.
+pub fn solve_plane<R: Real>(
+    scene: &PlaneScene,
+    motion: &PlaneMotion,
+    every: usize,
+) -> Result<PlaneSolution, JudgeError> {
+    solve_plane_scaled(scene, motion, every, Scale::<R>::none())
+}
+
+/// As [`solve_plane`], under the motion times factors.
+pub(crate) fn solve_plane_scaled<R: Real>(
+    scene: &PlaneScene,
+    motion: &PlaneMotion,
+    every: usize,
+    scale: Scale<R>,
+) -> Result<PlaneSolution, JudgeError> {
+    if every == 0 {
+        return Err(JudgeError::NoDecimation);
+    }
+    let motions = motion.directions();
+    let mut plane = Plane::new(scene, motion, scale);
+    let bound = |with_stops: bool| {
+        let of = |a: usize| plane.directions[a].model.frequency_bound(with_stops);
+        of(0).max(of(1))
+    };
+    let step = motions[0].dt();
+    let phase = bound(false) * step / MAX_PHASE;
+    if phase > MAX_PIECES {
+        return Err(JudgeError::TooStiff { longest: step * MAX_PIECES / phase, dt: step });
+    }
+    let pieces = phase.ceil().max(1.0) as usize;
+    plane.at_stop = R::of(MAX_PHASE / bound(true).max(f64::MIN_POSITIVE));
+    let samples = motions[0].acceleration().len();
+    let dt = R::of(step);
+    plane.piece = dt / R::of(pieces as f64);
+    plane.begin();
+    let mut recorder = PlaneRecorder::new(&plane, every);
+    let mut status = GeneralStatus::Completed;
+    'run: for i in 0..samples - 1 {
+        for (direction, motion) in plane.directions.iter_mut().zip(motions) {
+            direction.drive = scale.drive(motion, i);
+        }
+        plane.start = R::of(i as f64) * dt;
+        for piece in 0..pieces {
+            let ends = [piece, piece + 1].map(|p| dt * R::of(p as f64) / R::of(pieces as f64));
+            if let Some((node, time)) = plane.solve_piece(ends, &mut recorder)? {
+                status = GeneralStatus::Collapsed { number: node + 1, time };
+                break 'run;
+            }
+        }
+        if !plane.directions.iter().all(|direction| direction.state.is_finite()) {
+            return Err(JudgeError::NotFinite { time: (plane.start + dt).to_f64() });
+        }
+        recorder.sample(&plane, i + 1);
+    }
+    let end_time = match status {
+        GeneralStatus::Completed => (R::of((samples - 1) as f64) * dt).to_f64(),
+        GeneralStatus::Collapsed { time, .. } => time,
+    };
+    Ok(recorder.finish(plane, (status, end_time), samples))
+}
+
+/// What is of one direction. Contact, friction and path of blocks are those of the first.
+pub(super) struct Direction<R> {
+    pub(super) model: Model<R>,
+    pub(super) state: State<R>,
+    pub(super) drive: Drive<R>,
+    pub(super) log: Vec<GeneralEvent>,
+    /// Energy that stops have lost where they parted.
+    pub(super) parted: R,
+}
+
+pub(super) struct Plane<R> {
+    pub(super) directions: [Direction<R>; 2],
+    /// Direction in which a block begins to slide that has no relative velocity.
+    pub(super) heads: Vec<[R; 2]>,
+    /// The last relative velocity of a block that has come to rest.
+    pub(super) arrived: Vec<[R; 2]>,
+    /// Drifts in x and y that are the axes of the ellipse at which a spring collapses.
+    pub(super) collapse: Vec<[Option<R>; 2]>,
+    /// The largest velocity so far, of a node or of a block relative to its own.
+    pub(super) fastest: R,
+    /// Longest stretch of a series while a block that moves presses on a stop.
+    at_stop: R,
+    pub(super) airborne: bool,
+    piece: R,
+    /// Beginning of the present sample interval.
+    pub(super) start: R,
+    /// Events of vectors.
+    pub(super) log: Vec<PlaneEvent>,
+}
+
+impl<R: Real> Plane<R> {
+    fn new(scene: &PlaneScene, motion: &PlaneMotion, scale: Scale<R>) -> Self {
+        let directions = [0, 1].map(|a| {
+            let scene = &scene.directions()[a];
+            let model = Model::new(scene);
+            let state = State::new(scene, &model);
+            let drive = scale.drive(&motion.directions()[a], 0);
+            Direction { model, state, drive, log: Vec::new(), parted: R::zero() }
+        });
+        let none = vec![[R::zero(); 2]; directions[0].model.goods.len()];
+        let nodes = directions[0].model.mass.len();
+        let mut plane = Self {
+            heads: none.clone(),
+            arrived: none,
+            collapse: (0..nodes).map(|p| [0, 1].map(|a| directions[a].model.springs[p].collapse_drift)).collect(),
+            directions,
+            fastest: R::zero(),
+            at_stop: R::zero(),
+            airborne: false,
+            piece: R::zero(),
+            start: R::zero(),
+            log: Vec::new(),
+        };
+        // The vector of drifts decides.
+        for spring in plane.directions.iter_mut().flat_map(|direction| &mut direction.model.springs) {
+            spring.collapse_drift = None;
+        }
+        plane
+    }
+
+    pub(super) fn machines(&mut self, a: usize) -> Machines<'_, R> {
+        let Self { directions, airborne, piece, start, .. } = self;
+        let Direction { model, state, drive, log, parted } = &mut directions[a];
+        Machines { model, state, drive: *drive, airborne, piece: *piece, start: *start, log, parted }
+    }
+
+    /// Velocity of a block relative to its node.
+    pub(super) fn velocity(&self, block: usize) -> [R; 2] {
+        [0, 1].map(|a| self.directions[a].state.blocks[block].velocity)
+    }
+
+    /// Whether a block slides and has friction, or may stick.
+    pub(super) fn has_friction(&self, block: usize) -> bool {
+        let state = &self.directions[0].state.blocks[block];
+        matches!(state.contact, Contact::Sliding(_)) && state.mu_s > R::zero()
+    }
+
+    pub(super) fn set_contact(&mut self, block: usize, contact: Contact) {
+        self.directions.iter_mut().for_each(|direction| direction.state.blocks[block].contact = contact);
+    }
+
+    /// At t = 0 every node decides, unless there is no contact.
+    fn begin(&mut self) {
+        self.look_at_velocities();
+        let [contact, change] = self.directions[0].drive.contact;
+        self.airborne = contact < R::zero() || contact == R::zero() && change <= R::zero();
+        for j in 0..self.heads.len() {
+            let contact = match self.airborne {
+                true => Contact::Airborne,
+                false if self.is_still(j) => Contact::Stuck,
+                false => Contact::Sliding(Sign::Positive),
+            };
+            self.set_contact(j, contact);
+        }
+        if !self.airborne {
+            self.settle_all(R::zero());
+        }
+    }
+
+    fn look_at_velocities(&mut self) {
+        let length = |x: R, y: R| (x * x + y * y).sqrt();
+        let nodes =
+            [0, 1].map(|a| self.directions[a].model.displacements(&self.directions[a].state.rate, Terms::Signed));
+        let of_nodes = nodes[0].iter().zip(&nodes[1]).map(|(&x, &y)| length(x, y));
+        let of_blocks = (0..self.heads.len()).map(|j| self.velocity(j)).map(|[x, y]| length(x, y));
+        self.fastest = of_nodes.chain(of_blocks).fold(self.fastest, R::max);
+    }
+
+    /// Solves from `begin` to `end` after the beginning of the interval; a spring that collapses, and when.
+    fn solve_piece(
+        &mut self,
+        [begin, end]: [R; 2],
+        recorder: &mut PlaneRecorder<R>,
+    ) -> Result<Option<(usize, f64)>, JudgeError> {
+        let (mut tau, mut events) = (begin, 0);
+        for _ in 0..MAX_STRETCHES {
+            let mut length = end - tau;
+            if self.directions.iter().any(|direction| direction.state.moves_at_a_stop()) && self.at_stop < length {
+                length = self.at_stop;
+            }
+            let time = |tau: R| (self.start + tau).to_f64();
+            let Some(mut series) = PlaneSeries::new(self, tau, length) else {
+                let last = "a block that begins to slide and does not".into();
+                return Err(JudgeError::TooManyEvents { time: time(tau), limit: 0, last });
+            };
+            if let Some(block) = self.arrival(&series) {
+                self.arrive(block, tau);
+            } else {
+                let event = self.first_event(&series);
+                if let Some((place, ..)) = event {
+                    series.shrink(place);
+                }
+                // An instant is no stretch of time: the regimes passed through at it have no peaks.
+                if series.length() > R::zero() {
+                    recorder.stretch(self, &series, self.start + tau);
+                }
+                self.add_paths(&series);
+                for (direction, series) in self.directions.iter_mut().zip(&series.directions) {
+                    series.advance(&mut direction.state);
+                }
+                self.look_at_velocities();
+                let reaches_end = series.length() == end - tau;
+                tau = if reaches_end { end } else { tau + series.length() };
+                match event {
+                    None if reaches_end => return Ok(None),
+                    None => continue,
+                    Some((.., Guard::Collapse { node })) => return Ok(Some((node, (self.start + tau).to_f64()))),
+                    Some((_, a, guard)) => self.carry_out((a, guard), &series, tau),
+                }
+            }
+            events += 1;
+            if events == MAX_EVENTS {
+                break;
+            }
+        }
+        let last = self.log.last().map(|entry| entry.event.event);
+        let last = last.map_or(String::new(), |e| format!("{} of {}", e.kind.name(), e.number));
+        Err(JudgeError::TooManyEvents { time: (self.start + tau).to_f64(), limit: events, last })
+    }
+}

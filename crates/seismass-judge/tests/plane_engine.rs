@@ -1,0 +1,106 @@
+//! The general engine in two directions beside its judge.
+
+#![allow(clippy::unwrap_used)]
+
+#[allow(dead_code)] // Its readers are those of the kernel's tests.
+#[path = "../../seismass/tests/common/mod.rs"]
+mod common;
+#[allow(dead_code)] // Scenes in one direction are read elsewhere.
+#[path = "../../seismass/tests/general_files/mod.rs"]
+mod general_files;
+
+use std::num::NonZeroUsize;
+use std::path::Path;
+
+use general_files::read_plane;
+use seismass::{
+    Block, EventKind, GeneralScene, Motion, Options, PlaneMotion, PlaneResponse, PlaneScene, STANDARD_GRAVITY,
+    simulate_plane,
+};
+use seismass_judge::DoubleDouble;
+use seismass_judge::general::{compare_plane, solve_plane};
+use seismass_judge::stress::general::{Directions, GeneralTally, distribution};
+
+const OPTIONS: Options = Options {
+    histories: NonZeroUsize::new(1),
+    displacements_only: false,
+    energy: true,
+    events: true,
+    peaks_only: false,
+};
+
+/// `SEISMASS_JUDGE_SCENES` sets another number of random scenes.
+fn scenes(usual: u64) -> u64 {
+    std::env::var("SEISMASS_JUDGE_SCENES").map_or(usual, |n| n.parse().unwrap())
+}
+
+#[test]
+fn random_scenes_keep_their_invariants_and_agree_with_the_judge() {
+    let mut tally = GeneralTally::from_seed(Directions::Two, 1_000_000_000);
+    tally.run(scenes(20), 0.2);
+    println!("{}", distribution(&tally));
+    assert!(tally.defects.is_empty(), "{:#?}", tally.defects);
+    assert!(tally.judged > 0 && tally.divided > 0 && tally.turned > 0);
+}
+
+/// Scenes in two directions of the references, which an independent program with a 64-bit mantissa has solved: the kernel
+/// agrees with it to 1e-12 (`plane_reference.rs` of the kernel), and with the judge.
+#[test]
+fn the_judge_agrees_on_reference_scenes() {
+    let Some(shared) = std::env::var_os("SEISMASS_SHARED") else { return };
+    for name in ["25_plane", "29_plane", "33_plane_rack", "36_plane_stop"] {
+        let path = Path::new(&shared).join(format!("reference/general/{name}.json"));
+        let (scene, motion) = read_plane(&path);
+        let exact = solve_plane::<f64>(&scene, &motion, 1).unwrap();
+        let response = simulate_plane(&scene, &motion, &OPTIONS).unwrap();
+        let comparison = compare_plane(&response, &exact);
+        println!("{name} {comparison:?}");
+        assert!(comparison.agrees(1e-12), "{name}: {comparison:?}");
+        for direction in &exact.directions {
+            assert!(direction.energy.relative_residual.abs() < 1e-11, "{name}: {:?}", direction.energy);
+        }
+    }
+}
+
+/// A block of mu thrown along y over ground that accelerates along x.
+fn thrown(mu: f64, acceleration: f64, velocity: f64, samples: usize) -> (PlaneScene, PlaneMotion) {
+    let of = |velocity: f64| {
+        let block = Block { velocity: Some(velocity), ..Block::new(0, 100.0, mu) };
+        GeneralScene::new(None, vec![block.into()], Vec::new()).unwrap()
+    };
+    let motion = Motion::new(vec![acceleration; samples], 0.01, None).unwrap();
+    (PlaneScene::new(of(0.0), of(velocity)).unwrap(), PlaneMotion::new(motion, vec![0.0; samples]).unwrap())
+}
+
+/// Against an acceleration a across its velocity v a block stops after v b / (b^2 - a^2), b = mu g: with phi the angle
+/// between its velocity and the acceleration against it, the time over |r| grows by (b + a cos(phi)) / (b^2 - a^2).
+#[test]
+fn a_pursuit_curve_ends_where_its_closed_form_does() {
+    let (scene, motion) = thrown(0.3, 2.0, 0.4, 60);
+    let exact = solve_plane::<DoubleDouble>(&scene, &motion, 1).unwrap();
+    let b = 0.3 * STANDARD_GRAVITY;
+    let stop = exact.events.iter().find(|entry| entry.event.event.kind == EventKind::Stick).unwrap();
+    assert!((stop.event.event.time - 0.4 * b / (b * b - 4.0)).abs() < 1e-15, "{stop:?}");
+    let response = simulate_plane(&scene, &motion, &OPTIONS).unwrap();
+    assert!(compare_plane(&response, &exact).agrees(1e-12));
+}
+
+/// What is changed in a response is seen by the comparison.
+#[test]
+fn what_is_changed_is_seen() {
+    let (scene, motion) = thrown(0.3, 2.0, 0.4, 60);
+    let exact = solve_plane::<f64>(&scene, &motion, 1).unwrap();
+    let response = simulate_plane(&scene, &motion, &OPTIONS).unwrap();
+    let seen = |change: fn(&mut PlaneResponse)| {
+        let mut response = response.clone();
+        change(&mut response);
+        !compare_plane(&response, &exact).agrees(1e-9)
+    };
+    assert!(!seen(|_| {}));
+    assert!(seen(|r| r.peaks.vector.slip[0].value *= 1.0 + 1e-8));
+    assert!(seen(|r| r.peaks.directions[1].slip[0].value *= 1.0 + 1e-8));
+    assert!(seen(|r| r.slip_path[0] *= 1.0 + 1e-8));
+    assert!(seen(|r| r.residual_slip[0][1] += 1e-6));
+    assert!(seen(|r| r.events.as_mut().unwrap().clear()));
+    assert!(seen(|r| r.histories.as_mut().unwrap()[0].slip[1] += 1e-6));
+}
