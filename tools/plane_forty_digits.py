@@ -40,7 +40,7 @@ def numbers(result: Any) -> Iterator[Decimal]:
     for value in result.values() if isinstance(result, dict) else result:
         if isinstance(value, (dict, list)):
             yield from numbers(value)
-        elif isinstance(value, str) and value[-1].isdigit():
+        elif isinstance(value, str) and value[-1:].isdigit():
             yield Decimal(value)
 
 
