@@ -80,7 +80,9 @@ def _model(scene: sm.Scene, motions: tuple[sm.Motion, sm.Motion], friction: floa
 
 def _other(scene: sm.Scene) -> sm.Scene:
     """The scene in y as one in one direction."""
-    return sm.Scene(scene.other_direction, scene.blocks, racks=scene.racks)
+    building = scene.building if scene.other_direction is True else scene.other_direction
+    assert isinstance(building, sm.Building)
+    return sm.Scene(building, scene.blocks, racks=scene.racks)
 
 
 def run(scene: sm.Scene, motions: tuple[sm.Motion, sm.Motion], friction: float, substeps: int) -> Outcome:
