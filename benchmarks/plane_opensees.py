@@ -20,7 +20,7 @@ VERTICAL: Final = 1e4
 
 
 def _model(scene: sm.Scene, motions: tuple[sm.Motion, sm.Motion], friction: float) -> None:
-    directions = [tree(scene), tree(_in_y(scene))]
+    directions = [tree(scene), tree(scene if scene.other_direction is True else _other(scene))]
     ops.wipe()
     ops.model("basic", "-ndm", 3, "-ndf", 6)
     ops.node(GROUND, 0.0, 0.0, 0.0)
@@ -78,10 +78,11 @@ def _model(scene: sm.Scene, motions: tuple[sm.Motion, sm.Motion], friction: floa
     ops.analysis("Transient")
 
 
-def _in_y(scene: sm.Scene) -> sm.Scene:
+def _other(scene: sm.Scene) -> sm.Scene:
     """The scene in y as one in one direction."""
-    other = scene.other_direction
-    return sm.Scene(scene.building if isinstance(other, bool) else other, scene.blocks, racks=scene.racks)
+    building = scene.building if scene.other_direction is True else scene.other_direction
+    assert isinstance(building, sm.Building)
+    return sm.Scene(building, scene.blocks, racks=scene.racks)
 
 
 def run(scene: sm.Scene, motions: tuple[sm.Motion, sm.Motion], friction: float, substeps: int) -> Outcome:

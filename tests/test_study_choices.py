@@ -169,7 +169,7 @@ def test_effective_fraction_is_that_of_the_scene_alone() -> None:
     assert alone.interval is not None
     assert (row["low"], row["high"]) == pytest.approx(alone.interval, abs=1e-7)
     assert row["eta"] == pytest.approx(0.773134, abs=1e-6)
-    assert "lambda_eff" in findings_text(findings(result.summary, result.fractions))
+    assert "effective fraction" in findings_text(findings(result.summary, result.fractions))
     assert "effective" in study_figures(result)
 
 

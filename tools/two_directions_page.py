@@ -217,9 +217,9 @@ def time_text(stored: dict[str, Any]) -> str:
     if found is None:
         return "The time of 42 pairs was not measured."
     return (
-        f"`assess` of a building of {found['storeys']} storeys in two directions under {found['pairs']} pairs "
-        f"({found['recorded']} recorded, the others of these turned by 45 degrees) takes {found['seconds']:.0f} s of "
-        f"{found['cores']} cores, {found['processor_seconds']:.0f} s of processor time."
+        f"`assess` of a building of {found['storeys']} storeys with stated strengths in two directions under "
+        f"{found['pairs']} pairs ({found['turned']} of them turned in plan), with its three frictions, takes "
+        f"{found['seconds']:.0f} s of {found['cores']} cores, {found['processor_seconds']:.0f} s of processor time."
     )
 
 

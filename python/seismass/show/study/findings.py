@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from seismass.media.roles import EFFECTIVE
 from seismass.media.text_table import change_text, number_text, text_line
 
 
@@ -80,7 +81,7 @@ def _first_storey_tables(rows: list[dict[str, Any]]) -> list[str]:
         ("goods slide / code", "underestimation_percent", change_text),
         ("goods slide / all", "sliding_percent", change_text),
         ("lambda, estimate", "estimate", number_text),
-        *([("lambda_eff", "effective", number_text)] if effective else []),
+        *([(EFFECTIVE, "effective", number_text)] if effective else []),
     ]
     widths = (-20, *(max(7 * len(alphas), 19) + 2 for _ in shown))
     lines = [
