@@ -181,7 +181,7 @@ def test_one_motion_has_a_capacity_and_no_interval() -> None:
     assert (fit.kind, fit.runs, fit.median_interval) == ("step", 1, None)
     assert found.comparison["median_ratio"].null_count() == 2
     assert "1 motion: few" in found.text
-    found.plot()
+    assert [text.get_text() for text in found.plot().axes[0].texts] == ["never exceeded"]
     found.plot(found.figure_names[1])
 
 

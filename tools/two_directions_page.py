@@ -219,8 +219,7 @@ def time_text(stored: dict[str, Any]) -> str:
     return (
         f"`assess` of a building of {found['storeys']} storeys with stated strengths in two directions under "
         f"{found['pairs']} pairs ({found['turned']} of them turned in plan), with its three frictions, takes "
-        f"{found['seconds']:.0f} s of {found['cores']} cores, {found['processor_seconds']:.0f} s of processor time "
-        "(the machine was shared with some twenty other programs)."
+        f"{found['seconds']:.0f} s of {found['cores']} cores, {found['processor_seconds']:.0f} s of processor time."
     )
 
 

@@ -16,7 +16,7 @@ from matplotlib.patches import Patch
 from seismass.base.values import FloatArray
 from seismass.fragility.limits import LimitState
 from seismass.fragility.result import FragilityAnalysis
-from seismass.media.axes import grid_lines
+from seismass.media.axes import grid_lines, say
 from seismass.media.result import named_figure
 from seismass.media.roles import GREY, INK, LIMIT, MODELS, PAPER, SLIDE, model_name
 from seismass.media.style import SERIES, STYLE, plain
@@ -58,6 +58,9 @@ def fragility_figure(result: FragilityAnalysis) -> Figure:
             axes.set_xlabel(_intensity_label(result))
             axes.set_ylabel("probability of exceedance")
             grid_lines(axes)
+            own = [fit for (_, name), fit in result.fits.items() if name == limit.name]
+            if all(fit.kind == "never" for fit in own):
+                say(axes, "never exceeded")
         for axes in panels[count:]:
             axes.set_axis_off()
         handles: list[Any] = [
@@ -87,7 +90,8 @@ def _highest_drawn(result: FragilityAnalysis, limit: LimitState) -> float | None
     ends = [float(end) for end in known if isinstance(end, float)]
     seen = [observed(result, limit, str(model))[0] for model in own["model"].unique(maintain_order=True)]
     points = np.concatenate([at[np.isfinite(at)] for at in seen])
-    nearly = [1.15 * max(ends)] * bool(ends) + [1.25 * float(points.max(initial=0.0))] * bool(points.size)
+    nearly = [1.15 * max(ends)] if ends else []
+    nearly += [1.25 * float(points.max())] if points.size else []
     return min(nearly) if nearly else None
 
 
