@@ -11,7 +11,7 @@ from seismass.model.scene import Scene
 
 REDUCED_FRICTION: Final = 0.8
 """Factor of mu_k in the rule for two directions, between 1/sqrt(2), which two equal directions share, and 1."""
-SLIP_IN_EACH: Final = (1.2, 1.1, 3.0)
+SLIP_IN_EACH: Final = (1.25, 1.1, 3.0)
 """Peak slip in a direction over that of the direction alone: of all cases in sum, the smallest and the largest case."""
 SLIP_LENGTH: Final = 1.8
 """The same in sum of the length of the peak slip."""
