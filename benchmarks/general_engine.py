@@ -1,7 +1,8 @@
-"""Cost of the general engine by number of coordinates beside the chain engine and OpenSees, with a rack and a wall.
+"""Cost of the general engine by number of coordinates beside the chain engine and OpenSees: a rack, a wall, the plane.
 
-Usage: python benchmarks/general_engine.py [--write FOLDER]. It prints the page docs/general_engine.md, or writes it
-into a folder with the measured numbers (general_engine.json). Times are processor times of one thread.
+Usage: python benchmarks/general_engine.py [--plane] [--write FOLDER]. It prints the page docs/general_engine.md, or
+writes it into a folder with the measured numbers (general_engine.json). With --plane it measures what is in two
+directions and takes the other numbers from those that are kept. Times are processor times of one thread.
 """
 
 from __future__ import annotations
@@ -19,9 +20,20 @@ from typing import Any, Final
 import numpy as np
 
 import general_opensees
+import plane_opensees
 import seismass as sm
 from environment import summary
-from general_scenes import chain_of_nodes, of_nodes, rack_scene, wall_scene
+from general_engine_page import page
+from general_scenes import (
+    FloatArray,
+    chain_of_nodes,
+    in_plane,
+    of_nodes,
+    plane_scene,
+    rack_scene,
+    stiff_plane_scene,
+    wall_scene,
+)
 
 NODES: Final = (4, 8, 16, 30)
 SETTINGS: Final = ((1e2, 1), (1e3, 1), (1e3, 5), (1e4, 5), (1e4, 20))
@@ -86,6 +98,77 @@ def suite_time(nodes: int) -> dict[str, float]:
     }
 
 
+def plane_costs(motions: tuple[sm.Motion, sm.Motion]) -> list[dict[str, Any]]:
+    """Return the costs of a sample in two directions while nothing slides, and of a whole run with its steps (s)."""
+    rows = []
+    scenes = [(f"{2 * storeys}", in_plane(storeys, events=False), in_plane(storeys, events=True)) for storeys in (4, 8)]
+    for name, still, moving in (*scenes, ("10, rack", None, stiff_plane_scene())):
+        row: dict[str, Any] = {"coordinates": name, "sample": None}
+        if still is not None:
+            row["sample"] = _time(partial(sm.simulate, still, motions, events=False)) / motions[0].samples
+        row["average"] = _time(partial(sm.simulate, moving, motions, events=False), 3) / motions[0].samples
+        run = sm.simulate(moving, motions, events=False)
+        row |= {key: run.statistics[key] for key in ("events", "series_steps")}
+        rows.append(row)
+        print(row, file=sys.stderr, flush=True)
+    return rows
+
+
+def plane_suite_time() -> dict[str, float]:
+    """Time of a four-storey building in two directions under 42 pairs of the built-in forty motions."""
+    scene = in_plane(4, events=True)
+    records = list(sm.builtin_suite("forty"))
+    numbers = [(i, (i + 1) % len(records)) for i in range(len(records))] + [(0, 2), (1, 3)]
+    began, samples, events = time.process_time(), 0, 0
+    for x, y in numbers:
+        run = sm.simulate(scene, (records[x].motion, records[y].motion), events=False)
+        samples, events = samples + run.motions[0].samples, events + run.statistics["events"]
+    return {"time": time.process_time() - began, "runs": len(numbers), "samples": samples, "events": events}
+
+
+def plane_against_opensees(motions: tuple[sm.Motion, sm.Motion]) -> list[dict[str, Any]]:
+    """Return time and error of OpenSees on the vectors of a scene in two directions, beside the general engine."""
+    scene = plane_scene()
+    run = sm.simulate(scene, motions, energy=True)
+    drift, slip = run.peak_drift[:, 2], run.peak_slip[:, 2]
+    taken = _time(partial(sm.simulate, scene, motions, events=False), 3)
+    rows: list[dict[str, Any]] = [_of_engine(taken, run.energy["relative_residual"], run.statistics["events"])]
+    for friction, substeps in SETTINGS if general_opensees.ops is not None else ():
+        rows.append(_of_opensees(partial(plane_opensees.run, scene, motions), (drift, slip), friction, substeps))
+        print("plane", rows[-1], file=sys.stderr, flush=True)
+    return rows
+
+
+def _of_engine(taken: float, residual: float, events: int) -> dict[str, Any]:
+    return {
+        "setting": "general engine",
+        "time": taken,
+        "drift": abs(residual),
+        "slip": None,
+        "status": "ok",
+        "events": events,
+    }
+
+
+def _of_opensees(
+    run: Callable[[float, int], general_opensees.Outcome],
+    exact: tuple[FloatArray, FloatArray],
+    friction: float,
+    substeps: int,
+) -> dict[str, Any]:
+    row: dict[str, Any] = {"setting": f"OpenSees, {friction:.0e} k, dt / {substeps}", "status": "ok"}
+    drift, slip = exact
+    began = time.process_time()
+    try:
+        outcome = run(friction, substeps)
+    except RuntimeError as error:
+        row |= {"status": str(error), "drift": None, "slip": None}
+    else:
+        row["drift"] = float(np.abs(outcome.drift - drift).max() / drift.max())
+        row["slip"] = float(np.abs(outcome.slip - slip).max() / slip.max())
+    return row | {"time": time.process_time() - began}
+
+
 def against_opensees(motion: sm.Motion) -> dict[str, list[dict[str, Any]]]:
     """Return time and error of OpenSees on a rack and a wall-frame, beside the general engine."""
     found = {}
@@ -93,107 +176,12 @@ def against_opensees(motion: sm.Motion) -> dict[str, list[dict[str, Any]]]:
         run = sm.simulate(scene, motion, energy=True)
         drift, slip = np.concatenate([run.peak_drift, *run.peak_rack_drift]), run.peak_slip
         taken = _time(partial(sm.simulate, scene, motion, events=False))
-        rows = [
-            {
-                "setting": "general engine",
-                "time": taken,
-                "drift": abs(run.energy["relative_residual"]),
-                "slip": None,
-                "status": "ok",
-                "events": run.statistics["events"],
-            }
-        ]
+        rows = [_of_engine(taken, run.energy["relative_residual"], run.statistics["events"])]
         for friction, substeps in SETTINGS if general_opensees.ops is not None else ():
-            row: dict[str, Any] = {"setting": f"OpenSees, {friction:.0e} k, dt / {substeps}", "status": "ok"}
-            began = time.process_time()
-            try:
-                outcome = general_opensees.run(scene, motion, friction, substeps)
-            except RuntimeError as error:
-                row |= {"status": str(error), "drift": None, "slip": None}
-            else:
-                row["drift"] = float(np.abs(outcome.drift - drift).max() / drift.max())
-                row["slip"] = float(np.abs(outcome.slip - slip).max() / slip.max())
-            rows.append(row | {"time": time.process_time() - began})
+            rows.append(_of_opensees(partial(general_opensees.run, scene, motion), (drift, slip), friction, substeps))
             print(name, rows[-1], file=sys.stderr, flush=True)
         found[name] = rows
     return found
-
-
-def _micro(value: float | None) -> str:
-    return "-" if value is None else f"{1e6 * value:.2f}"
-
-
-def page(data: dict[str, Any]) -> str:
-    """Return the page of the measurements."""
-    lines = [
-        "# Cost of the general engine, and OpenSees on racks and walls",
-        "",
-        "Made by `python benchmarks/general_engine.py --write .`; the numbers are kept in",
-        "`benchmarks/results/general_engine.json`.",
-        "",
-        f"{data['machine']}. Processor time of one thread, median of {REPEATS} runs after a first; the motion is",
-        f"{data['motion']}. Times are of whole calls of `simulate`, without histories.",
-        "",
-        "## By number of coordinates",
-        "",
-        "Buildings with racks whose floors and levels are n in all; for the chain engine shear buildings of n",
-        "storeys. A",
-        "sample is of an elastic building whose goods are fixed; an event is what a run that yields and slides",
-        "takes more,",
-        "over its events. OpenSees: Newmark at the time step of the motion, friction by springs 1e3 times as",
-        "stiff as the",
-        "stiffest spring, per sample with all that happens in it.",
-        "",
-        "| n | general: a sample us | an event us | events | chain: a sample us | an event us "
-        "| OpenSees: a sample us |",
-        "| --- | --- | --- | --- | --- | --- | --- |",
-    ]
-    for row in data["costs"]:
-        general, chain = row["general"], row["chain"]
-        lines.append(
-            f"| {row['nodes']} | {_micro(general['sample'])} | {_micro(general['event'])} | {general['events']} | "
-            f"{_micro(chain['sample'])} | {_micro(chain['event'])} | {_micro(row['opensees'])} |"
-        )
-    suite = data["suite"]
-    lines += [
-        "",
-        f"A rack building of 30 coordinates under {suite['runs']} motions ({suite['samples']} samples, "
-        f"{suite['events']} events) takes {suite['time']:.1f} s of one thread.",
-        "",
-        "## OpenSees on a rack and a wall-frame",
-        "",
-        "Both models have the same masses, springs, dampers and matrices. The error is that of the peaks at the",
-        "steps, over",
-        "the largest drift or slip; what is exact is the general engine, which agrees with an independent program",
-        "to 1e-14",
-        "([method](numerics.md), 9.5). For the engine itself the table has the residual of its energies.",
-    ]
-    for name, title in (
-        ("rack", "A rack of three levels on floor 1 of two yielding storeys, goods that slide"),
-        ("wall", "A flexural cantilever beside a yielding frame of four storeys, goods that slide"),
-    ):
-        lines += ["", f"### {title}", "", "| | time ms | drift error | slip error |", "| --- | --- | --- | --- |"]
-        for row in data["opensees"][name]:
-            if row["status"] != "ok":
-                lines.append(f"| {row['setting']} | {row['status']} | - | - |")
-                continue
-            slip = "-" if row["slip"] is None else f"{row['slip']:.1e}"
-            lines.append(f"| {row['setting']} | {1e3 * row['time']:.2f} | {row['drift']:.1e} | {slip} |")
-    lines += [
-        "",
-        "Where the differences come from: a friction spring creeps, by its yield force over its stiffness,",
-        "whenever a block",
-        "should stick; a step that has an event in it goes on with the forces of its start or end, so the error",
-        "falls like",
-        "the step and not like its square; peaks are taken at steps. With stiffer springs and shorter steps",
-        "together the",
-        "peaks of OpenSees approach those of the engine; stiffer springs alone do not help, as the step does not",
-        "resolve",
-        "them. Models and motions are the same to rounding: with goods fixed and springs elastic the two differ by the",
-        f"period error of the method alone ({data['elastic']:.1e} of the drift at dt / 20 for the rack).",
-        "",
-    ]
-    return "\n".join(lines)
 
 
 def elastic_difference(motion: sm.Motion) -> float | None:
@@ -213,18 +201,30 @@ def main() -> int:
     parser.add_argument(
         "--write", type=Path, help="folder of the project: docs and benchmarks/results in it are written"
     )
+    parser.add_argument("--plane", action="store_true", help="measure two directions alone")
     given = parser.parse_args()
-    record = sm.builtin_record("synthetic-3")
-    motion = record.scaled(0.45 / record.pga_g).motion
-    data: dict[str, Any] = {
+    first, second = (sm.builtin_record(f"synthetic-{number}") for number in (3, 4))
+    motion, other = (record.scaled(0.45 / record.pga_g).motion for record in (first, second))
+    motions = (motion, other)
+    data: dict[str, Any] = {}
+    if given.plane:
+        data = json.loads((Path(__file__).parent / "results" / "general_engine.json").read_text())
+    else:
+        data = {
+            "machine": summary(("numpy", "openseespy")),
+            "motion": f"synthetic-3 at 0.45 g, {motion.samples} samples",
+            "costs": costs(motion),
+            "suite": suite_time(30),
+            "opensees": against_opensees(motion),
+            "elastic": elastic_difference(motion),
+        }
+    data["plane"] = {
         "machine": summary(("numpy", "openseespy")),
-        "motion": f"synthetic-3 at 0.45 g, {motion.samples} samples",
-        "costs": costs(motion),
-        "suite": suite_time(30),
-        "opensees": against_opensees(motion),
-        "elastic": elastic_difference(motion),
+        "costs": plane_costs(motions),
+        "suite": plane_suite_time(),
+        "opensees": plane_against_opensees(motions),
     }
-    text = page(data)
+    text = page(data, REPEATS)
     if given.write is None:
         print(text)
         return 0

@@ -85,7 +85,7 @@ def _model(plain: Tree, friction: float, motion: sm.Motion) -> None:
     ops.analysis("Transient")
 
 
-def _step(step: float, halvings: int) -> None:
+def advance(step: float, halvings: int) -> None:
     """One step; where it does not converge other algorithms are tried, then two steps of half the length."""
     if ops.analyze(1, step) == 0:
         return
@@ -98,7 +98,7 @@ def _step(step: float, halvings: int) -> None:
     if halvings == 0:
         raise RuntimeError(f"did not converge at t = {ops.getTime():.3f} s with any algorithm, nor in shorter steps")
     for _ in range(2):
-        _step(0.5 * step, halvings - 1)
+        advance(0.5 * step, halvings - 1)
 
 
 def run(scene: sm.Scene, motion: sm.Motion, friction: float, substeps: int) -> Outcome:
@@ -117,7 +117,7 @@ def run(scene: sm.Scene, motion: sm.Motion, friction: float, substeps: int) -> O
     displacements = np.zeros(((motion.samples - 1) * substeps + 1, len(nodes)))
     step, displacement = motion.dt / substeps, ops.nodeDisp
     for i in range(1, len(displacements)):
-        _step(step, HALVINGS)
+        advance(step, HALVINGS)
         displacements[i] = [displacement(node, 1) for node in nodes]
     ops.wipe()
     count = len(plain.mass)

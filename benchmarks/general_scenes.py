@@ -143,3 +143,23 @@ def wall_scene() -> sm.Scene:
         damping=0.05,
     )
     return sm.Scene(together, sm.blocks_on_floors([0.5] * 4, mu=0.15))
+
+
+def plane_scene() -> sm.Scene:
+    """Return a yielding two-storey building in two directions, with goods on both floors."""
+    blocks = [sm.Block(1, mass_ratio=0.4, mu=0.2), sm.Block(2, mass_ratio=0.5, mu=0.25)]
+    return sm.Scene(frame(2, 0.4, 0.15, damping=0.05), blocks, other_direction=True)
+
+
+def in_plane(storeys: int, *, events: bool) -> sm.Scene:
+    """Return a building in two directions with goods on every floor, that yields and slides or does neither."""
+    building = frame(storeys, 0.12 * storeys, 0.15 if events else None)
+    return sm.Scene(building, sm.blocks_on_floors([0.5] * storeys, mu=0.2 if events else 50.0), other_direction=True)
+
+
+def stiff_plane_scene() -> sm.Scene:
+    """Return a building in two directions with a rack whose levels have a twentieth of the mass of their goods."""
+    goods = [sm.RackBlock(level, mass=1000.0, mu=0.2) for level in (1, 2, 3)]
+    levels = sm.Rack(1, 3, period=0.5, level_mass=50.0, blocks=goods)
+    building = sm.Building.uniform(2, 0.4, mass=2e4, yield_shear_over_weight=0.3)
+    return sm.Scene(building, racks=[levels], other_direction=True)

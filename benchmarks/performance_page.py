@@ -20,23 +20,6 @@ measured alternately in one run where possible, so ratios carry over to other ma
 machine ratios scatter by some per cent; instruction counts do not. Brackets show quartiles of alternating measurements.
 Where the bound lies between the quartiles, the verdict is marked "within scatter".
 
-## In short
-
-On this machine, for four storeys with blocks, one more sample in which nothing happens costs some eight nanoseconds. A
-whole run of 2000 samples in which nothing yields or slides takes some twenty-five per sample, everything included. An
-event costs some 0.4 microseconds: the paper's section-4 building under a record with a few hundred events takes 0.15 to
-0.3 ms on one core, the 1008 analyses of its section 5 less than a third of a second on two. At equal error that is
-hundreds of times less than OpenSees, and at an error of 1e-6 of the drift history at least twelve times less than a
-compiled leapfrog. If an error of 1e-3 to 1e-2 is acceptable and events are frequent, that can still be up to about 1.1
-times as fast as the exact run. These times are under recordings; [error against run time](work_precision.md) compares
-programs.
-
-The kernel selects an instruction set at run time. `sm.runs.instruction_set()` and the statistics of each response name
-it. The environment variable `SEISMASS_INSTRUCTIONS` selects another one: `baseline`, which every machine has, or `avx2`
-or `avx512` where available. An instruction set gives the same bits on every machine, and the baseline gives the same
-bits on x86-64 and aarch64 (`crates/seismass-judge/tests/same_bits.rs` and `make test-aarch64` check this by emulation).
-`avx2` and `avx512` give the same bits too; the baseline agrees with them to rounding.
-
 ## Targets
 
 The targets were set before anything was measured and have not been changed. {counts}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import datetime
 import json
 import re
 import tomllib
@@ -149,6 +150,43 @@ def test_the_example_is_read_and_names_every_key() -> None:
     for table in KEYS.values():
         for key in table:
             assert re.search(rf"\b{key}\b", text), key
+
+
+def test_the_head_of_the_page_is_as_the_file_says() -> None:
+    project = {"name": "harbour", "number": "2026-114", "author": "A", "checker": "B", "date": "2026-11-25"}
+    found = sm.read_building(given(project=project)).project
+    assert (found.name, found.number, found.author, found.checker, found.date) == tuple(project.values())
+    # A date of TOML is one, too.
+    assert sm.read_building(given(project={"date": datetime.date(2026, 11, 25)})).project.date == "2026-11-25"
+    nothing = sm.read_building(given()).project
+    assert {nothing.name, nothing.number, nothing.author, nothing.checker, nothing.date} == {""}
+
+
+@pytest.mark.parametrize(
+    ("project", "message"),
+    [
+        ({"client": "x"}, r"project.client of building must be one of the keys name, number"),
+        ({"number": 114}, r"project.number of building must be text; got 114"),
+        ({"date": "25.11.2026"}, r"project.date of building must be a date, such as 2026-11-25; got '25.11.2026'"),
+        ({"date": 2026}, r"project.date of building must be a date, such as 2026-11-25; got 2026"),
+    ],
+)
+def test_a_wrong_head_is_refused(project: dict[str, Any], message: str) -> None:
+    with pytest.raises(sm.errors.InvalidBuildingFile, match=message):
+        sm.read_building(given(project=project))
+
+
+def test_every_quantity_names_the_key_that_states_it() -> None:
+    sources = dict(sm.read_building(given(storeys=[{"height_ft": 14.0}, {"live_load_kpa": 0.0}])).sources)
+    assert sources["height"] == "building.height_m; storeys[1].height_ft"
+    assert sources["dead_load"] == "building.dead_load_kpa"
+    assert sources["live_load"] == "goods.live_load_kpa; storeys[2].live_load_kpa"
+    assert sources["friction"] == "goods.friction"
+    assert sources["damping"] == "default"
+    assert sources["site"] == "site.sds_g, site.sd1_g"
+    kinds = [{"share": 0.5, "mu": 0.2}, {"share": 0.5}]
+    mixed = dict(sm.read_building(given(storeys=[{"goods": kinds}, {"live_load_kpa": 0.0}])).sources)
+    assert mixed["friction"] == "goods.friction; storeys[1].goods.mu"
 
 
 def test_json_and_toml_are_the_same_file(tmp_path: Path) -> None:

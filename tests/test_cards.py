@@ -14,6 +14,7 @@ import pytest
 
 import seismass as sm
 from seismass import assessment, effective_mass
+from seismass.animation import animate_plane
 from seismass.media.card import pre
 from seismass.media.text_table import column_texts
 
@@ -32,6 +33,8 @@ SHORT: dict[str, str] = {
     "StrengthDesign": "settings",
     "BlockSize": "two lengths",
     "Clearance": "two lengths",
+    "FloorPlan": "what a figure is given",
+    "Footprint": "what a figure is given",
     "GridAxis": "a row of a table",
     "CodeFraction": "a row of a table",
     "DistributionRule": "a row of a table",
@@ -132,6 +135,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
         sm.records.rotd(pair, [0.2, 0.5]),
         sm.simulate(scene, record, histories=True),
         sm.simulate(two, pair),
+        animate_plane(two, pair),
         rack,
         sm.SlidingBase(mass_ratio=1.0, mu=0.1),
         grid,

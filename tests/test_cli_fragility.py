@@ -48,7 +48,7 @@ def test_answer_of_a_scene_file(scene: Path, tmp_path: Path, capsys: pytest.Capt
     for part in (
         "50 % of the goods attached",
         "limit     drift ratio of storey 1 above 1.5 %",
-        "where code says 10.0 %",
+        ": code 10.0 %",
     ):
         assert part in printed.out
     # What it prints is what the function finds.

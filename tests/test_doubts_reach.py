@@ -67,7 +67,7 @@ def test_a_collapse_is_no_nan(suite: list[sm.Record]) -> None:
     result = sm.effective_mass(falling, suite, fractions=[0.0, 1.0], resamples=2)
     assert result.kind == "collapsed"
     assert "effective fraction  no value (no interval)" in result.text
-    assert "none, since the real building collapses under 7 of them" in result.text
+    assert "none, since the building with sliding goods collapses under 7 of them" in result.text
     assert "nan" not in result.text
 
 

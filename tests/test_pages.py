@@ -59,14 +59,14 @@ def page_rows(section: str) -> list[list[str]]:
     return [[cell.strip() for cell in line.split("|")[1:-1]] for line in text.splitlines() if line.startswith("|")]
 
 
-def in_short() -> str:
-    """The words at the head of the page of performance, on one line."""
-    page = (ROOT / "docs" / "performance.md").read_text(encoding="utf-8")
-    return " ".join(page.partition("## In short")[2].partition("## Targets")[0].split())
+def words_on_cost() -> str:
+    """The words of docs/question.md on what runs cost, on one line."""
+    page = (ROOT / "docs" / "question.md").read_text(encoding="utf-8")
+    return " ".join(page.partition("## What it costs")[2].partition("\n## ")[0].split())
 
 
 def test_words_about_times_say_what_was_measured() -> None:
-    """Words of the page and of the README, what was measured, and the range of it that they stand for."""
+    """Words of docs/question.md and of the README, what was measured, and the range of it that they stand for."""
     steps, growth = page_rows("The plain step and the event"), page_rows("Growth in storeys")
     step = next(float(row[1]) for row in steps if row[0] == "plain step")
     event = next(float(steps[place + 2][1]) for place, header in enumerate(steps) if header[1] == "b: event (us)")
@@ -74,7 +74,7 @@ def test_words_about_times_say_what_was_measured() -> None:
     runs = [row for row in page_rows("One exact run and one pass of the leapfrog") if row[0].startswith("section 4")]
     times = [float(time) for row in runs if " at 0." not in row[0] for time in row[3:6]]
     study = next(float(row[1]) for row in page_rows("The study") if row[0] == "total without figures")
-    short = in_short()
+    words_of_page = words_on_cost()
     for words, value, low, high in (
         ("one more sample in which nothing happens costs some eight nanoseconds", step, 7.0, 9.5),
         ("nothing yields or slides takes some twenty-five per sample", calm, 20.0, 30.0),
@@ -83,22 +83,24 @@ def test_words_about_times_say_what_was_measured() -> None:
         ("takes 0.15 to 0.3 ms on one core", max(times), 0.25, 0.35),
         ("less than a third of a second on two", study, 0.0, 1 / 3),
     ):
-        assert words in short
+        assert words in words_of_page
         assert low <= value <= high, f"{words}; got {value:g}"
     readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
     assert "takes 0.15 to 0.3 ms under a record" in readme
 
 
 def test_words_about_the_leapfrog_say_what_the_page_of_errors_does() -> None:
-    short = in_short()
+    words_of_page = words_on_cost()
     page = (ROOT / "docs" / "work_precision.md").read_text(encoding="utf-8")
-    assert "at an error of 1e-6 of the drift history at least twelve times less than a compiled leapfrog" in short
+    assert (
+        "at an error of 1e-6 of the drift history at least twelve times less than a compiled leapfrog" in words_of_page
+    )
     head = "| scene | seismass (ms) | the leapfrog (ms) | ratio (aim: 20) |"
     table = page.partition("At an error of 1e-06 of the drift history")[2].partition(head)[2].partition("\n\n")[0]
     ratios = [float(line.split("|")[4]) for line in table.splitlines()[2:]]
     assert len(ratios) == 9
     assert 12.0 <= min(ratios) < 13.0
-    assert "that can still be up to about 1.1 times as fast as the exact run" in short
+    assert "that can still be up to about 1.1 times as fast as the exact run" in words_of_page
     factors = [float(factor) for factor in re.findall(r"by leapfrog, by up to a factor of ([\d.]+):", page)]
     assert 1.05 <= max(factors) < 1.2
     assert "Motions are recordings." in page

@@ -124,6 +124,28 @@ def test_scene_files_and_the_command(tmp_path: Path, capsys: pytest.CaptureFixtu
         sm.read_scene(path)
 
 
+def test_pairs_of_scene_files(tmp_path: Path) -> None:
+    path = tmp_path / "pair.toml"
+    goods = "[other_direction]\n[[blocks]]\nfloor = 0\nmass = 100.0\nmu = 0.1\n"
+    path.write_text(f'{goods}[pair]\nbuiltin = "scenario-3"\nrotation = 30.0\nscale = 2.0\n')
+    file = sm.read_scene(path)
+    expected = sm.records.builtin_pairs()[2].rotated(30.0).scaled(2.0)
+    assert file.motion == expected.first.motion
+    assert file.other_motion == expected.second.motion
+    for table, message in (
+        ('builtin = "none"', "pair.builtin of pair.toml must be the name of one of 40 pairs"),
+        ('first = "a.AT2"', "pair.second"),
+        ('builtin = "scenario-3"\nstrike = 10.0', "pair.strike"),
+        ('builtin = "scenario-3"\n[motion]\nbuiltin = "synthetic-1"', "motion of pair.toml must be left out"),
+    ):
+        path.write_text(f"{goods}[pair]\n{table}\n")
+        with pytest.raises(sm.errors.InvalidSceneFile, match=message):
+            sm.read_scene(path)
+    path.write_text(f"{goods.replace('[other_direction]', '')}[pair]\nbuiltin = 'scenario-3'\n")
+    with pytest.raises(sm.errors.InvalidSceneFile, match=r"pair of pair\.toml must be left out where"):
+        sm.read_scene(path)
+
+
 @pytest.mark.skipif("SEISMASS_SHARED" not in os.environ, reason="SEISMASS_SHARED is not set")
 @pytest.mark.parametrize("name", ["25_plane", "33_plane_rack", "36_plane_stop"])
 def test_reference_scenes_from_files(name: str) -> None:

@@ -74,7 +74,10 @@ def test_every_block_is_one_that_is_run_or_written() -> None:
     assert opened.count("text") == 1
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/index.md", "docs/guide.md", "docs/questions.md"])
+@pytest.mark.parametrize(
+    "page",
+    ["README.md", *(f"docs/{name}.md" for name in ("index", "guide", "checks", "question", "questions", "usage"))],
+)
 def test_links_and_pictures_lead_to_files_and_sections(page: str) -> None:
     """Of pages that lead; what only the built site has (api, examples) is asked there."""
     file = ROOT / page

@@ -19,7 +19,7 @@ from seismass.assessment.building_file import example_file
 from seismass.cli import main
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
 from seismass.media.roles import LAMBDA, MU, lettered
-from seismass.show.study.answer import answer, compared_rules, percent
+from seismass.show.study.answer import answer, compared_rules, one_line, percent
 from seismass.show.study.slip import slip_demand
 from seismass.show.study.tables import StudyTables, read_study_tables, study_tables
 from seismass.show.study.words import assumptions
@@ -80,23 +80,24 @@ def test_page_has_every_part(folder: Path) -> None:
     titles = re.findall(r"<h[23][^>]*>([^<]*)</h[23]>", page)
     assert titles == [
         "Contents",
-        "Ground motions",
-        "Validation",
-        "Three storeys",
-        "Shaking table",
+        "Findings",
+        "Underestimation",
         "Drift demands",
         "R = 1",
         "R = 2",
         "R = 6",
-        "Underestimation",
         "Effective fraction",
         "Slip of the goods",
         "Example",
         "Claims of the paper",
+        "Ground motions",
         "Tables",
         "Drift of every storey",
         "Fractions of every building",
         "Slip of every building",
+        "Validation",
+        "Three storeys",
+        "Shaking table",
         "Assumptions",
         "Provenance",
     ]
@@ -118,7 +119,8 @@ def test_page_says_what_the_tables_say(folder: Path, result: StudyResult) -> Non
     )
     assert result.metadata["inputs_sha256"] in text
     for sentence in assumptions(result.metadata):
-        assert sentence in text
+        assert lettered(sentence) in text
+    assert " ".join(one_line(result).split()) in text
     for motion in result.metadata["suite"]["motions"]:
         assert f"{motion['factor']:.4f}" in text
 
@@ -321,3 +323,28 @@ def test_page_of_a_building_without_heights_and_goods(tmp_path: Path) -> None:
     again = tmp_path / "again.html"
     assert main(["report", str(tmp_path), "--out", str(again)]) == 0
     assert again.read_text(encoding="utf-8") == page
+
+
+@pytest.mark.parametrize(
+    ("further", "words"),
+    [
+        ({"base": {"mu_s": 0.08, "mu_k": 0.06, "radius_m": 2.5}}, ["Sliding base", "it stands on a sliding base"]),
+        ({"other_direction": {"period_s": 0.7}}, ["Other direction, y", "it moves in two directions"]),
+    ],
+)
+def test_page_of_a_building_that_no_animation_shows(
+    tmp_path: Path, further: dict[str, object], words: list[str]
+) -> None:
+    given = {
+        "site": {"sds_g": 1.0, "sd1_g": 0.6},
+        "building": {"period_s": 0.4, "area_m2": 500.0, "dead_load_kpa": 5.0, "design": True, "R": 3.0},
+        "goods": {"live_load_kpa": 6.0, "mu_s": 0.2, "mu_k": 0.15},
+        "storeys": [{}, {"live_load_kpa": 0.0}],
+        **further,
+    }
+    few = list(sm.records.builtin_pairs())[:3] if "other_direction" in further else list(SUITE)[:3]
+    sm.assess(given, few, mu_factors=(1.0, 1.0), resamples=2).write(tmp_path)
+    text = analysis_text((tmp_path / "report.html").read_text(encoding="utf-8"))
+    for said in (*words, "The live page cannot show this building", "Spectra of the motions"):
+        assert said in text
+    assert not (tmp_path / "animation.json").exists()

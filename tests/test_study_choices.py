@@ -71,7 +71,7 @@ def test_figures_of_several_frictions_are_named_after_them() -> None:
     ]
     figures = study_figures(result)
     assert list(figures) == names
-    assert "\u00b5 = 0.2;" in figures["drift_R4_mu0.2"].get_supxlabel()
+    assert "\u03bc = 0.2;" in figures["drift_R4_mu0.2"].get_supxlabel()
 
 
 def test_figures_show_the_three_models_and_say_what_they_depend_on(small: StudyResult) -> None:
@@ -169,7 +169,7 @@ def test_effective_fraction_is_that_of_the_scene_alone() -> None:
     assert alone.interval is not None
     assert (row["low"], row["high"]) == pytest.approx(alone.interval, abs=1e-7)
     assert row["eta"] == pytest.approx(0.773134, abs=1e-6)
-    assert "lambda_eff" in findings_text(findings(result.summary, result.fractions))
+    assert "effective fraction" in findings_text(findings(result.summary, result.fractions))
     assert "effective" in study_figures(result)
 
 

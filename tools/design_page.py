@@ -12,6 +12,7 @@ from typing import Any, Final
 import matplotlib as mpl
 import polars as pl
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from seismass import design
 from seismass.media.figure_file import save_figure
@@ -145,6 +146,15 @@ def figure(names: dict[str, Any]) -> Figure:
         left.set_title("hardening storeys, no P-Delta")
         right.set_title("softening storeys with P-Delta")
         right.set_ylabel("")
+        entries: dict[str, Line2D] = {}
+        for axes in (left, right):
+            own = axes.get_legend()
+            assert own is not None
+            entries |= {
+                text.get_text(): handle for text, handle in zip(own.get_texts(), own.legend_handles, strict=True)
+            }
+            own.remove()
+        drawn.legend(entries.values(), entries, loc="outside upper center", ncols=len(entries), frameon=False)
     return drawn
 
 

@@ -105,7 +105,7 @@ def main(shared: Path | None) -> None:
         page = with_block(page, "far_field", far_field(names, shared))
     PAGE.write_text(page, encoding="utf-8")
     save_figure(names["figure"], "png", ROOT / "docs" / "figures" / "fragility.png")
-    save_figure(names["answer"].plot("demand_peak_drift_ratio"), "png", ROOT / "docs" / "figures" / "ida_models.png")
+    save_figure(names["answer"].plot("demand_drift_ratio"), "png", ROOT / "docs" / "figures" / "ida_models.png")
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ example, with_block = PARTS["example"], PARTS["with_block"]
 def limits(building: sm.Building, motions: Any, hazard: sm.risk.HazardCurve, frictions: tuple[float, ...]) -> list[str]:
     """Return rows of the share and of rates by friction and limit."""
     lines = [
-        f"{'mu':>4}{'drift ratio':>13}{'share':>20}{'kind':>10}{'rate, goods slide':>20}{'real over code, 0.25':>23}"
+        f"{'mu':>4}{'drift ratio':>13}{'share':>20}{'kind':>10}{'rate, goods slide':>20}{'slide / code, 0.25':>23}"
     ]
     for mu in frictions:
         scene = sm.Scene(building, sm.blocks_on_floors([1.0, 1.0, 0.0], mu=mu))

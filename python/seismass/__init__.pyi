@@ -1,6 +1,7 @@
 """Names of the package, imported when they are first used; `__init__.py` reads them here."""
 
 from . import (
+    animation,
     campaign,
     design,
     explore,
@@ -96,6 +97,7 @@ __all__ = [
     "TargetSpectrum",
     "__version__",
     "animate",
+    "animation",
     "assess",
     "attached_scene",
     "blocks_on_floors",

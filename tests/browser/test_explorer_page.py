@@ -8,11 +8,15 @@ import time
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import seismass as sm
 from seismass.cli import main
 from seismass.explore import compiled, explorer_html
+from seismass.runs.scene_file import read_scene
+from seismass.show.assessment.live import own_case
+from seismass.show.assessment.tables import assessment_tables
 
 MINUS = "\N{MINUS SIGN}"
 READY = "document.querySelector('.explorer').dataset.found !== undefined"
@@ -88,6 +92,45 @@ def printed(lines: list[str], first: str) -> list[list[str]]:
             break
         body.append(line.split())
     return body
+
+
+def test_the_link_of_a_calculation_page_opens_the_same_building(html: str, open_page: Any, tmp_path: Path) -> None:
+    """A building that the live page can express: equal floors, elastic behind the second yield, no P-Delta."""
+    tables = {
+        "site": {"sds_g": 1.0, "sd1_g": 0.6},
+        "building": {
+            "period_s": 0.5,
+            "height_m": 4.0,
+            "area_m2": 500.0,
+            "dead_load_kpa": 5.0,
+            "p_delta": False,
+            "yield_shear_over_weight": 0.2,
+        },
+        "goods": {"live_load_kpa": 6.0, "mu_s": 0.3, "mu_k": 0.2},
+        "storeys": [{}, {"live_load_kpa": 0.0}],
+    }
+    result = sm.assess(tables, mu_factors=(1.0, 1.0), resamples=2)
+    case, reasons, differences = own_case(assessment_tables(result))
+    assert case is not None
+    assert reasons == ()
+    assert differences == ("motions are the seven built-in ones, scaled to their own target, not those of this page",)
+    with open_page(html, "live") as page:
+        settled(page)
+        visit(page, case.address)
+        scene = read_scene(exported(page, tmp_path)).scene
+    own = result.building.scene()
+    assert scene.building is not None
+    assert own.building is not None
+    for name in ("period", "stiffness", "yield_shear"):
+        # The live page has masses of 1 kg: forces and stiffnesses are over the mass.
+        one, other = (
+            np.array(building.periods[0]) if name == "period" else getattr(building, name) / building.mass.sum()
+            for building in (scene.building, own.building)
+        )
+        np.testing.assert_allclose(one, other, rtol=1e-9)
+    assert [block.floor for block in scene.blocks] == [block.floor for block in own.blocks]
+    assert (scene.blocks[0].mu_s, scene.blocks[0].mu_k) == (0.3, 0.2)
+    assert scene.blocks[0].mass_ratio == pytest.approx(own.blocks[0].mass / own.building.mass[0], rel=1e-9)
 
 
 def test_page_is_as_every_page_must_be(html: str, look: Any) -> None:

@@ -46,6 +46,11 @@ class Animation:
     __eq__ = same_content
     __hash__ = content_hash
 
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """What happens, a sentence for each run."""
+        return self.shown.sentences
+
     @view
     def fragment(self) -> Markup:
         """Return a part of a page, with its style and script; any number of them may be in one page.

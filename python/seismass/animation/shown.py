@@ -10,6 +10,7 @@ import numpy as np
 
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
+from seismass.media.roles import SLIDE
 from seismass.model.motion import Motion
 from seismass.model.places import rack_levels, spring_names
 from seismass.model.scene import Scene
@@ -55,10 +56,10 @@ class Run:
 
     @property
     def what(self) -> str:
-        """What becomes of its goods; empty where there are none."""
+        """What becomes of its goods, where the label does not say it; empty where there are none."""
         if self.attached is not None:
             return f"{100.0 * self.attached:g} % of the goods attached"
-        return "goods slide" if self.response.scene.goods else ""
+        return SLIDE.name if self.response.scene.goods and self.label != SLIDE.name else ""
 
     @property
     def floor_displacement(self) -> FloatArray:

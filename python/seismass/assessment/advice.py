@@ -17,6 +17,7 @@ from seismass.assessment.structure import about_support, base_advice, rule_advic
 from seismass.design import THETA_THRESHOLD
 from seismass.effective_mass import EffectiveMass
 from seismass.effective_mass.structure_remarks import RULE_UNKNOWN
+from seismass.effective_mass.two_directions import one_direction_of_slip
 from seismass.media.text_table import numbers_text
 from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
 from seismass.scaling import ScalingResult
@@ -62,7 +63,7 @@ def advice_of(
         lines += rule_advice(building, effective)
     lines += _checks(building, storeys, reals)
     lines += _against_code(building, storeys, reals)
-    lines += _slip_advice(slip)
+    lines += _slip_advice(slip, in_plane=building.other is not None)
     return (*lines, *base_advice(runs))
 
 
@@ -157,16 +158,20 @@ def _against_code(building: OwnBuilding, storeys: pl.DataFrame, reals: Sequence[
     ]
 
 
-def _slip_advice(slip: pl.DataFrame) -> list[str]:
+def _slip_advice(slip: pl.DataFrame, *, in_plane: bool) -> list[str]:
     known = slip.drop_nulls("peak_p84").sort("peak_p84", descending=True)
     if not known.height:
         return []
     row = known.row(0, named=True)
     if not row["peak_max"]:
         return ["No goods slide under any motion."]
+    sentence = one_direction_of_slip()
+    beside = [] if in_plane else [f"{sentence[:1].upper()}{sentence[1:]}."]
+    way = "in any direction" if in_plane else "each way"
     return [
-        f"Allow for {1e3 * row['peak_p84']:.0f} mm of slip each way on floor {row['floor']} (84 % of the motions, mu = "
-        f"{row['mu_s']:.3g}; largest {1e3 * row['peak_max']:.0f} mm): edges, aisles and neighbours."
+        f"Allow for {1e3 * row['peak_p84']:.0f} mm of slip {way} on floor {row['floor']} (84 % of the motions, mu = "
+        f"{row['mu_s']:.3g}; largest {1e3 * row['peak_max']:.0f} mm): edges, aisles and neighbours.",
+        *beside,
     ]
 
 

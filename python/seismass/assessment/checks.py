@@ -100,6 +100,20 @@ def _theta_source(building: OwnBuilding) -> str:
     return "ASCE/SEI 7-10, equation 12.8-17 (verified): 0.5/(beta C_d), at most 0.25"
 
 
+def _in_y(building: OwnBuilding, target: TargetSpectrum | None) -> dict[str, Any]:
+    """What differs in the other direction: periods, design, and stiffness and strength of each storey."""
+    strength = building.structure(target).yield_shear
+    rule = building.design
+    return {
+        "period_bare": building.period(),
+        "period_attached": building.period(building.goods),
+        "R": None if rule is None else rule.R,
+        "damping": building.damping,
+        "stiffness": building.stiffness.tolist(),
+        "yield_shear": [float(value) if np.isfinite(value) else None for value in strength],
+    }
+
+
 def input_document(building: OwnBuilding, target: TargetSpectrum | None) -> dict[str, Any]:
     """Return the input as it was understood, in SI units: values of the building, and a list of its storeys."""
     structure = building.structure(target)
@@ -124,7 +138,7 @@ def input_document(building: OwnBuilding, target: TargetSpectrum | None) -> dict
         "code_exception": [one.exception for one in building.counted],
     }
     names = list(columns)
-    rule = building.design
+    rule, base = building.design, building.base
     return {
         "storeys": [dict(zip(names, row, strict=True)) for row in zip(*columns.values(), strict=True)],
         "goods": [asdict(kind) | {"mass": kind.mass} for kind in building.kinds if kind.live_load > 0.0],
@@ -146,7 +160,8 @@ def input_document(building: OwnBuilding, target: TargetSpectrum | None) -> dict
         "drift_limit_rule": None if building.drift_limit_rule is None else asdict(building.drift_limit_rule),
         "theta_limit": building.theta_limit if building.heights is not None else None,
         "collapse_drift_ratio": building.collapse_drift_ratio,
-        "third_slope_is_zero": not building.third_slope.any(),
+        "base": None if base is None else {"mu_s": base.mu_s, "mu_k": base.mu_k, "radius": base.radius},
+        "other_direction": None if building.other is None else _in_y(building.other, target),
         "walls": building.walls is not None,
         "damping_from_storey": building.damping_from_storey,
         "scaling_period": building.scaling_period,

@@ -21,7 +21,7 @@ from seismass.assessment.models import REAL, compared_models, friction_factors, 
 from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.period import period_sentences
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
-from seismass.assessment.shares import DESIGN_SHARES, SHARES, advised_share, design_share, fractions_by_friction
+from seismass.assessment.shares import SHARES, advised_share, design_share, design_shares, fractions_by_friction
 from seismass.assessment.shown_motion import Shown, motion_of_runs
 from seismass.assessment.spectra import spectra_table
 from seismass.assessment.tables import collapses_of, slip_table, storey_table
@@ -126,7 +126,7 @@ def assess(
     frictions = friction_factors(chosen) if loaded else {}
     models = len(frictions) + FIXED_MODELS if loaded else 1
     fractions = len(frictions) + SHARES if loaded else 0
-    designs = 2 * len(DESIGN_SHARES) if loaded and chosen.design is not None else 0
+    designs = 2 * len(design_shares(chosen)) if loaded and chosen.design is not None else 0
     larger = len(SHARES_BEYOND) if loaded and goes_beyond(chosen.scene(spectrum)) else 0
     stages = _Stages(progress, (models + fractions + larger + designs) * len(suite))
     bootstrap = {"confidence": confidence, "resamples": resamples, "seed": seed}
@@ -141,6 +141,7 @@ def assess(
     scenes = compared_models(chosen, spectrum, advised)
     names = motion_names(suite)
     components = [record for motion in scaled for record in (tuple(motion) if in_plane else (motion,))]
+    horizontal = [record for motion in scaled for record in (tuple(motion)[:2] if in_plane else (motion,))]
     runs, slips = solve_models(
         chosen, scenes, scaled, names, threads=threads, progress=stages.next(models * len(suite))
     )
@@ -170,7 +171,7 @@ def assess(
         slips=slips,
         runs=runs,
         collapses=collapses,
-        spectra=spectra_table(scaled, spectrum, threads=threads),
+        spectra=spectra_table(horizontal, spectrum, threads=threads),
         example=Shown(real, scaled[place], place + 1, float(factors[place])),
         scaling=scaling,
         suite=about,

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from seismass.assessment.answer import DesignShare, deciding, rounded_up
 from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.tables import few_collapses
+from seismass.base.values import FloatArray
 from seismass.effective_mass import EffectiveMass
 from seismass.effective_mass.models import SAME_DAMPING
 from seismass.effective_mass.runs import named_motions
@@ -20,6 +21,8 @@ from seismass.spectra import TargetSpectrum
 
 DESIGN_SHARES: Final = np.linspace(0.0, 1.0, 21)
 """Shares at which that of a design of strengths is looked for before its root is refined; each takes two models."""
+DESIGN_SHARES_IN_PLANE: Final = np.linspace(0.0, 1.0, 6)
+"""The same in two directions, where a building with goods that slide takes a hundred times as long."""
 SHARES: Final = 101
 """Shares at which each effective fraction is looked for; the models of all frictions are the same."""
 
@@ -72,6 +75,11 @@ def advised_share(effective: dict[str, EffectiveMass]) -> float | None:
     return rounded_up(effective[deciding(effective)].value)
 
 
+def design_shares(building: OwnBuilding) -> FloatArray:
+    """Return the shares at which that of a design of strengths is looked for."""
+    return DESIGN_SHARES if building.other is None else DESIGN_SHARES_IN_PLANE
+
+
 def design_share(
     building: OwnBuilding,
     target: TargetSpectrum | None,
@@ -96,18 +104,19 @@ def design_share(
         return in_x if other is None else (in_x, other.structure(target, attached))
 
     scene = building.scene(target, mu_factor=factor)
-    options = checked_options("mean", SAME_DAMPING, DESIGN_SHARES, 0.9, 1, 0, threads, progress)
+    shares = design_shares(building)
+    options = checked_options("mean", SAME_DAMPING, shares, 0.9, 1, 0, threads, progress)
     named = named_motions(motions, OWNER, scene)
     solved = solved_designs(designed, scene.blocks, named, options, scene.racks, scene.collapse_drift, scene.base)
     fallen = solved.real.collapsed.sum(axis=1)
     if not few_collapses(int(fallen.max()), len(motions)):
-        return DesignShare(None, _collapsing(fallen, len(motions)))
+        return DesignShare(None, _collapsing(shares, fallen, len(motions)))
     return DesignShare(solved.answer("median" if fallen.any() else "mean"), "")
 
 
-def _collapsing(fallen: NDArray[np.int64], motions: int) -> str:
+def _collapsing(shares: FloatArray, fallen: NDArray[np.int64], motions: int) -> str:
     """Which designs collapse under how many motions."""
-    many = DESIGN_SHARES[[not few_collapses(int(count), motions) for count in fallen]]
-    shares = f"{many[0]:.2f}" if len(many) == 1 else f"{many[0]:.2f} to {many[-1]:.2f}"
-    whole = "every share" if len(many) == len(DESIGN_SHARES) else f"shares of {shares} of the goods present"
+    many = shares[[not few_collapses(int(count), motions) for count in fallen]]
+    of = f"{many[0]:.2f}" if len(many) == 1 else f"{many[0]:.2f} to {many[-1]:.2f}"
+    whole = "every share" if len(many) == len(shares) else f"shares of {of} of the goods present"
     return f"the building designed with {whole} collapses under up to {int(fallen.max())} of {motions} motions"

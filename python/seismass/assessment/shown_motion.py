@@ -12,7 +12,7 @@ from seismass.assessment.own_building import OwnBuilding
 from seismass.base.values import FloatArray
 from seismass.effective_mass.runs import named_motions, solve
 from seismass.model.scene import Scene
-from seismass.records import Suite
+from seismass.records import Pairs, Suite
 from seismass.scaling import scale_asce7_10
 from seismass.spectra import TargetSpectrum
 
@@ -24,7 +24,7 @@ class Shown(NamedTuple):
     ----------
     scene : Scene
         The building with its goods.
-    motion : Record
+    motion : Record or Pair
         The motion, scaled.
     number : int
         Its number in the suite, from 1.
@@ -58,7 +58,7 @@ def _median(drift: FloatArray, among: NDArray[np.int64]) -> int:
     return int(ordered[(len(ordered) - 1) // 2])
 
 
-def shown_motion(building: OwnBuilding, suite: Suite, target: TargetSpectrum | None = None) -> Shown:
+def shown_motion(building: OwnBuilding, suite: Suite | Pairs, target: TargetSpectrum | None = None) -> Shown:
     """Return the building with its goods and a motion: the median by largest drift of those under which goods slide.
 
     Where none slide it is the median of all.
@@ -67,7 +67,7 @@ def shown_motion(building: OwnBuilding, suite: Suite, target: TargetSpectrum | N
     ----------
     building : OwnBuilding
         The building.
-    suite : Suite
+    suite : Suite or Pairs
         Motions, which are scaled to the site as `assess` does.
     target : TargetSpectrum, optional
         Site spectrum; default the building's own.
@@ -80,7 +80,8 @@ def shown_motion(building: OwnBuilding, suite: Suite, target: TargetSpectrum | N
     spectrum = building.site_spectrum(target)
     period = building.scaling_period or building.period(building.goods)
     factors = scale_asce7_10(suite, spectrum, period, between=False).factors
-    scaled = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
+    listed: list[Any] = list(suite)
+    scaled = [record.scaled(float(factor)) for record, factor in zip(listed, factors, strict=True)]
     scene = building.scene(spectrum)
     peaks = solve([scene], named_motions(scaled, "animation", scene))
     among = np.flatnonzero(peaks.slides[0]) if peaks.slides.any() else np.arange(len(scaled))

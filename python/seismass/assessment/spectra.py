@@ -10,7 +10,8 @@ import polars as pl
 
 from seismass.base.quantiles import QUANTILES
 from seismass.base.values import FloatArray
-from seismass.spectra import TargetSpectrum, response_spectrum
+from seismass.scaling.asce7 import spectra_of
+from seismass.spectra import TargetSpectrum
 
 PERIODS: Final[FloatArray] = np.round(np.geomspace(0.05, 5.0, 81), 4)
 """Periods (s) of the table."""
@@ -22,8 +23,8 @@ def spectra_table(motions: Sequence[Any], target: TargetSpectrum | None, *, thre
 
     Parameters
     ----------
-    motions : sequence of Record or Motion
-        Scaled motions.
+    motions : sequence of Record, Motion or Pair
+        Scaled motions; the spectrum of a pair is the geometric mean of those of its components.
     target : TargetSpectrum or None
         Site spectrum.
     threads : int, optional
@@ -35,7 +36,7 @@ def spectra_table(motions: Sequence[Any], target: TargetSpectrum | None, *, thre
         period (s); target, mean, p16, median and p84 of the pseudo-acceleration (m/s2) over the motions; target is null
         without a site spectrum, and outside its range.
     """
-    spectra = response_spectrum(motions, PERIODS, DAMPING, threads=threads)
+    spectra = spectra_of(list(motions), PERIODS, DAMPING, threads=threads)
     wanted = np.full(len(PERIODS), np.nan)
     if target is not None:
         within = (target.shortest <= PERIODS) & (target.longest >= PERIODS)

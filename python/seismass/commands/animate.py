@@ -17,10 +17,12 @@ from seismass.commands.options import (
     check_files,
     positive_option,
     read_motions,
+    read_pairs,
     read_site,
     refuse_given,
 )
 from seismass.commands.scene_or_building import add_site_options, is_building_file
+from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
     from seismass.model.scene import Scene
@@ -46,7 +48,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the animation; return the exit code."""
-    from seismass.animation import animate
+    from seismass.animation import Animation, PlaneAnimation, animate, animate_plane
     from seismass.runs.scene_file import example_scene
 
     if args.code_share is not None and (args.code is not None or args.use is not None):
@@ -59,10 +61,16 @@ def run(args: argparse.Namespace) -> int:
         print(f"seismass: {remark}", file=sys.stderr)
     chosen = {"code": args.code, "use": args.use, "fraction": args.code_share}
     given = shown.options | {name: value for name, value in chosen.items() if value is not None}
-    animation = animate(shown.scene, shown.motion, title=shown.title, note=shown.note, **given)
+    animation: Animation | PlaneAnimation
+    if shown.scene.engine == "plane":
+        refuse_given(args, ("code", "use", "code_share"), "animate", "in two directions, where no model is shown")
+        target = args.out or target.with_suffix(".gif")  # there is no page of it
+        animation = animate_plane(shown.scene, shown.motion, title=shown.title, note=shown.note)
+    else:
+        animation = animate(shown.scene, shown.motion, title=shown.title, note=shown.note, **given)
     animation.write(target, frames_per_second=args.fps, speed=args.speed)
-    print("\n".join(animation.shown.sentences))
-    print(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
+    show("\n".join(animation.sentences))
+    show(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
     return 0
 
 
@@ -83,7 +91,8 @@ def _of_scene(args: argparse.Namespace, path: Path) -> _Shown:
     refuse_given(args, ("records", "suite", "target", "sds", "sd1", "tl"), "animate", "with a scene file")
     file = read_scene(path)
     note = ", ".join(part for part in (file.note, *(record.name for record in file.records[:1])) if part)
-    return _Shown(file.scene, file.motion, file.name or path.stem, note, file.remarks, {})
+    motion: Any = file.motion if file.other_motion is None else (file.motion, file.other_motion)
+    return _Shown(file.scene, motion, file.name or path.stem, note, file.remarks, {})
 
 
 def _of_building(args: argparse.Namespace, path: Path) -> _Shown:
@@ -92,7 +101,7 @@ def _of_building(args: argparse.Namespace, path: Path) -> _Shown:
     from seismass.assessment.shown_motion import shown_motion
 
     building = read_building(path)
-    suite = read_motions(args)
+    suite: Any = read_motions(args) if building.other is None else read_pairs(args)
     found = shown_motion(building, suite, read_site(args, "animate"))
     note = (
         f"{found.motion.name} x {found.factor:.3g}, motion {found.number} of {len(suite)}, that with the median "

@@ -93,7 +93,7 @@ def print_answer(
         show(" " * indent + line)
     page = f", the page is {args.out / PAGE}" if any(file.name == PAGE for file in files) else ""
     written = f"{len(files)} files in {args.out}{page}, " if files else ""
-    print(f"\n{written}{seconds(args)}")
+    show(f"\n{written}{seconds(args)}")
 
 
 def write_figure(figure: Figure, path: Path) -> None:

@@ -22,6 +22,7 @@ from seismass.commands.options import (
     read_site,
 )
 from seismass.commands.progress import progress
+from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
     from seismass.assessment import Assessment
@@ -59,7 +60,10 @@ def options(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Assess the building, write its files and print the page; return the exit code."""
     if args.example or args.codes or args.frictions or args.occupancies:
-        print(_listing(args), end="")
+        if args.example:
+            print(_listing(args), end="")
+        else:
+            show(_listing(args).removesuffix("\n"))
         return 0
     from seismass.assessment import assess
     from seismass.assessment.building_file import read_building
@@ -91,7 +95,7 @@ def run(args: argparse.Namespace) -> int:
     files = write_answer(args, result)
     if files and not args.no_figures:
         files += _live_page(args.out, result)
-    print_answer(args, result, suite, files, answer="ANSWER")
+    print_answer(args, result, suite, files, answer=r"ANSWER| {10}[12]  ")
     return 0
 
 
@@ -149,7 +153,8 @@ building --occupancies
     options=options,
     run=run,
     note="""
-docs/building_file.md explains every key of a building file.
+docs/building_file.md explains every key of a building file. analysis.csv, beside the page and the OpenSees models, has
+what is typed into another program: floor masses and weights of both analyses, and multipliers of the live load.
 """,
     codes={0: "done (a collapse is a result)", 1: "a run failed"},
 )

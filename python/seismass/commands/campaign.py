@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 from seismass.commands.command import Command, seconds
 from seismass.commands.options import add_jobs_option, add_json_option, add_out_option, threads_option
 from seismass.commands.progress import progress
+from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
     from seismass.campaign import Campaign, CampaignFolder
@@ -76,7 +77,7 @@ def run(args: argparse.Namespace) -> int:
     if args.json:
         print(json.dumps(state, indent=2))
     else:
-        print(_text(folder, state))
+        show(_text(folder, state))
         if campaign is not None:
             print(f"time     {seconds(args)}")
         for part, problem in problems:

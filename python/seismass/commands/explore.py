@@ -8,6 +8,7 @@ import webbrowser
 from seismass.base.files import written_whole
 from seismass.commands.command import Command
 from seismass.commands.options import add_out_option, check_files
+from seismass.commands.terminal import show
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -24,7 +25,7 @@ def run(args: argparse.Namespace) -> int:
     html = explorer_html()
     with written_whole(args.out) as temporary:
         temporary.write_text(html, encoding="utf-8")
-    print(f"{args.out}: {args.out.stat().st_size / 1e3:.0f} kB")
+    show(f"{args.out}: {args.out.stat().st_size / 1e3:.0f} kB")
     if args.open:
         webbrowser.open(args.out.absolute().as_uri())
     return 0

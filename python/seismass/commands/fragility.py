@@ -98,7 +98,7 @@ def run(args: argparse.Namespace) -> int:
             )
     result, doubtful = with_doubts(result, doubts)
     head = f"{doubtful}suite     {suite.name}\ncode      {rule}\n"
-    give_answer(args, result, suite, head=head, indent=10, answer="  where code says")
+    give_answer(args, result, suite, head=head, indent=10, answer=r"  at \S+: code")
     return 0
 
 

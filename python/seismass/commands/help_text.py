@@ -9,13 +9,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
 EXAMPLE: Final = "  seismass "
-"""How a line begins that stays as it is: what is typed is not broken."""
+"""How a line begins that is typed."""
 _HANGING: Final = re.compile(r" +(?:\S+(?: \S+)* {2,})?")
 """Indentation of a line in a list, with its first column where there is one."""
 
 
 class HelpText(argparse.HelpFormatter):
-    """Fills paragraphs and indented lines of descriptions and epilogs; examples stay as they are."""
+    """Fills paragraphs and indented lines of descriptions and epilogs; examples can still be typed."""
 
     def _fill_text(self, text: str, width: int, indent: str) -> str:
         return "\n".join(_filled(text, width))
@@ -51,10 +51,24 @@ def _filled(text: str, width: int) -> Iterator[str]:
             yield from textwrap.wrap(" ".join(paragraph), width)
             paragraph = []
         if line.startswith(EXAMPLE):
-            yield line
+            yield from _example(line, width)
         elif line:
             start = _HANGING.match(line)
             hanging = " " * min(start.end() if start else 0, width // 2)
             yield from textwrap.wrap(line, width, subsequent_indent=hanging, break_on_hyphens=False)
         else:
             yield ""
+
+
+def _example(line: str, width: int) -> Iterator[str]:
+    """What is typed: whole, or going on in further lines as a shell takes them; what is said of it stands below."""
+    if len(line) <= width:
+        yield line
+        return
+    typed, _, said = line.strip().partition("    ")
+    together = re.sub(r"(?<= )(--\S+) (?!--)", "\\1\0", typed)  # an option and its value
+    pieces = textwrap.wrap(f"  {together}", width - 2, subsequent_indent=" " * 6, break_on_hyphens=False)
+    pieces = [piece.replace("\0", " ") for piece in pieces]
+    yield from (f"{piece} \\" for piece in pieces[:-1])
+    yield pieces[-1]
+    yield from textwrap.wrap(said.strip(), width, initial_indent=" " * 6, subsequent_indent=" " * 6)

@@ -2,10 +2,24 @@
 
 from __future__ import annotations
 
+from seismass.commands.terminal import columns
 from seismass.media.text_table import text_table
 from seismass.model.codes import MARK, NOT_CHECKED, code_legend, code_table
 from seismass.model.friction import friction_table
 from seismass.model.occupancy import STORAGE, USUAL, occupancy_table, on_surveyed_goods, surveyed_load
+
+
+def _listed(rows: list[list[str]], long: tuple[int, ...]) -> list[str]:
+    """A table; on a terminal that has no room for it the long columns stand below each row."""
+    table = text_table(rows, left=len(rows[0]), indent=0)
+    room = columns()
+    if room is None or max(map(len, table)) <= room:
+        return table
+    short = [[cell for place, cell in enumerate(row) if place not in long] for row in rows]
+    lines = []
+    for row, line in zip(rows, text_table(short, left=len(short[0]), indent=0), strict=True):
+        lines += [line, f"    {'; '.join(row[place] for place in long if row[place])}"]
+    return lines
 
 
 def codes_listing() -> str:
@@ -30,7 +44,7 @@ def codes_listing() -> str:
         f"for the upper end of a range: {storage.share:.2f} of the design live load ({STORAGE}), or {usual.share:.2f} "
         f"({USUAL}).\nAbove 1 the code counts more than is there. The second compares with lambda of the goods present."
     )
-    return "\n".join([*text_table(rows, left=len(rows[0]), indent=0), "", legend, "", code_legend()]) + "\n"
+    return "\n".join([*_listed(rows, (4, 6)), "", legend, "", code_legend()]) + "\n"
 
 
 def frictions_listing() -> str:
@@ -39,7 +53,7 @@ def frictions_listing() -> str:
     for row in friction_table().iter_rows(named=True):
         source = f"{row['source']} ({row['kind']})"
         rows.append([row["pair_id"], f"{row['mu_s']:g}", f"{row['mu_k']:.4g}", row["contact"], source])
-    return "\n".join(text_table(rows, left=len(rows[0]), indent=0)) + "\n"
+    return "\n".join(_listed(rows, (3, 4))) + "\n"
 
 
 def occupancies_listing() -> str:
@@ -54,4 +68,4 @@ def occupancies_listing() -> str:
         f"Surveys: {first['source']} ({first['status']}); floors +/- is the standard deviation of large floors.\n"
         f"{MARK} {NOT_CHECKED}: design live loads of ASCE 7 are from memory"
     )
-    return "\n".join([*text_table(rows, left=len(rows[0]), indent=0), "", legend]) + "\n"
+    return "\n".join([*_listed(rows, (5, 6)), "", legend]) + "\n"

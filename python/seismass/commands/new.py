@@ -79,11 +79,11 @@ def run(args: argparse.Namespace) -> int:
     table = None
     if args.table is not None:
         table = read_storey_table(args.table, units=args.units, order=args.order, direction=args.direction)
-        print(table.text)
+        show(table.text)
     curves = None
     if args.pushover is not None:
         curves = read_pushover(args.pushover, units=args.units, order=args.order, direction=args.direction)
-        print(curves.text)
+        show(curves.text)
     answers: dict[str, Any] = {}
     for question in questions_for(table, curves):
         given = getattr(args, question.name)
@@ -100,12 +100,12 @@ def run(args: argparse.Namespace) -> int:
     with written_whole(args.out) as place:
         place.write_text(text, encoding="utf-8")
     if table is not None and (loads := weight_per_area(table, answers["area"])) is not None:
-        print(f"  floors weigh {min(loads):.3g} to {max(loads):.3g} kPa over {answers['area']:g} m2")
+        show(f"  floors weigh {min(loads):.3g} to {max(loads):.3g} kPa over {answers['area']:g} m2")
     if fit is not None:
         figure = args.out.with_name(f"{args.out.stem}_pushover.png")
         write_figure(fit.plot(), figure)
         show(f"{fit.text}\n{figure} is drawn")
-    print(f"{args.out} is written: look at it, then run\n  seismass building {args.out}")
+    show(f"{args.out} is written: look at it, then run\n  seismass building {args.out}")
     return 0
 
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 import argparse
 import json
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from seismass.commands.command import Command
 from seismass.commands.options import add_json_option, add_reading_options, reading
-from seismass.commands.terminal import show
+from seismass.commands.terminal import columns, show
 
 if TYPE_CHECKING:
     from seismass.records import Record, Suite
@@ -130,34 +131,57 @@ def _table(suite: Suite) -> list[str]:
     from seismass.media.text_table import number_text, text_line
 
     rows = _rows(suite)
-    width = max(len("record"), *(len(printable(row["name"])) for row in rows))
-    widths = (3, -width - 1, -8, 6, 7, 8, 10, 11, 9, 0)
-    heads = ("", "record", "comp.", "points", "dt (s)", "PGA (g)", "PGV (cm/s)", "Arias (m/s)", "D5-95 (s)")
-    head = text_line((*heads, " event, station"), widths, indent=0, gap=1)
-    lines = [f"{suite.name}: {len(suite)} {'record' if len(suite) == 1 else 'records'}", *suite.remarks, "", head]
+    cells = []
     for row in rows:
         label = ", ".join(text for text in (row["event"], row["station"]) if text)
-        cells = (
-            str(row["motion"]),
-            printable(row["name"]),
-            _direction(row["component"]),
-            str(row["samples"]),
-            f"{row['dt']:g}",
-            f"{row['pga_g']:.4f}",
-            f"{100.0 * row['pgv']:.2f}",
-            f"{row['arias']:.3f}",
-            number_text(row["d5_95"]),
-            f" {label}",
+        cells.append(
+            {
+                "": str(row["motion"]),
+                "record": printable(row["name"]),
+                "comp.": _direction(row["component"]),
+                "points": str(row["samples"]),
+                "dt (s)": f"{row['dt']:g}",
+                "PGA (g)": f"{row['pga_g']:.4f}",
+                "PGV (cm/s)": f"{100.0 * row['pgv']:.2f}",
+                "Arias (m/s)": f"{row['arias']:.3f}",
+                "D5-95 (s)": number_text(row["d5_95"]),
+                " event, station": f" {label}",
+            }
         )
-        lines.append(text_line(cells, widths, indent=0, gap=1))
+    widths = {name: max(9 if name == "D5-95 (s)" else len(name), 8 * (name == "comp.")) for name in cells[0]}
+    longest = max(len("record"), *(len(row["record"]) for row in cells))
+    widths |= {"": 3, "record": longest + 1, "dt (s)": 7, "PGA (g)": 8}
+    lengths = widths | {" event, station": max(len(row[" event, station"]) for row in cells)}
+    dropped = _left_out(lengths)
+    shown = [name for name in widths if name not in dropped]
+    left = ("record", "comp.")
+    placed = [0 if name == " event, station" else -widths[name] if name in left else widths[name] for name in shown]
+    lines = [f"{suite.name}: {len(suite)} {'record' if len(suite) == 1 else 'records'}", *suite.remarks, ""]
+    lines.append(text_line(shown, placed, indent=0, gap=1))
+    for row, texts in zip(rows, cells, strict=True):
+        lines.append(text_line([texts[name] for name in shown], placed, indent=0, gap=1))
         where = [f"stands at: {row['place']}"] if row["place"] else []
         lines += [f"{'':5}{remark}" for remark in (*where, *row["remarks"])]
+    if dropped:
+        names = ", ".join(name.strip() for name in dropped)
+        lines += ["", f"left out: {names}; a wider terminal, --json or a pipe shows all"]
     if suite.excluded:
         lines += ["", f"not read: {len(suite.excluded)} {'file' if len(suite.excluded) == 1 else 'files'}"]
         lines += [f"  {printable(one.file.name)}: {one.reason}" for one in suite.excluded[:_UNREADABLE_LISTED]]
         if len(suite.excluded) > _UNREADABLE_LISTED:
             lines.append(f"  and {len(suite.excluded) - _UNREADABLE_LISTED} more")
     return lines
+
+
+def _left_out(widths: Mapping[str, int]) -> list[str]:
+    """Columns of the table that a terminal has no room for, the least needed first."""
+    room, dropped = columns(), []
+    for name in ("Arias (m/s)", "PGV (cm/s)", "points", "comp.", "D5-95 (s)", " event, station"):
+        used = [width for other, width in widths.items() if other not in dropped]
+        if room is None or sum(used) + len(used) <= room + 1:
+            break
+        dropped.append(name)
+    return dropped
 
 
 def _direction(component: str) -> str:
@@ -192,22 +216,22 @@ def _catalogue(as_json: bool) -> int:
     if as_json:
         print(json.dumps(rows, indent=2))
         return 0
-    print("The seven records of the paper's Table 1 (magnitude, distance and pulse period as printed there)\n")
+    lines = ["The seven records of the paper's Table 1 (magnitude, distance and pulse period as printed there)", ""]
     for row in rows:
         pulse = "no pulse" if row["pulse_period"] is None else f"pulse of {row['pulse_period']:g} s"
-        print(
+        lines.append(
             f"{row['number']}  {row['event']}, {row['station']}: M {row['magnitude']:g}, {row['distance_km']:g} km, "
             f"{pulse}; RSN{row['rsn']}"
         )
         if row["nga_magnitude"] is not None:
-            print(
+            lines.append(
                 f"   NGA-West2 flatfile: M {row['nga_magnitude']:g}, closest distance {row['nga_distance_km']:g} km, "
                 f"Vs30 {row['nga_vs30']:g} m/s"
             )
-        if row["remark"]:
-            print(f"   {row['remark']}")
-        print(f"   {row['how_to_get']}")
-    print(f"\n{TERMS}")
+        lines += [f"   {row['remark']}"] if row["remark"] else []
+        lines.append(f"   {row['how_to_get']}")
+    for line in [*lines, "", TERMS]:
+        show(line)
     return 0
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from seismass.commands.command import Command, seconds
 from seismass.commands.options import add_out_option, check_files
 from seismass.commands.progress import progress
+from seismass.commands.terminal import show
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -28,7 +29,7 @@ def run(args: argparse.Namespace) -> int:
     write = write_assessment_page if (args.folder / DOCUMENT).exists() else write_study_page
     with progress("figures") as tell:
         write(args.folder, target, progress=tell)
-    print(f"{target}: {target.stat().st_size / 1e6:.2f} MB, {seconds(args)}")
+    show(f"{target}: {target.stat().st_size / 1e6:.2f} MB, {seconds(args)}")
     return 0
 
 

@@ -116,8 +116,8 @@ def run(args: argparse.Namespace) -> int:
 COMMAND = Command(
     description=(
         "With a hazard curve: annual rates of exceeding a drift limit for the building with sliding goods, "
-        "for the model of a code and for all goods attached, and the share attached whose model has the rate of the "
-        "real building."
+        "for the model of a code and for all goods attached, and the share attached whose model has the rate with "
+        "sliding goods."
     ),
     examples="""
 risk scene.toml --hazard hazard.csv

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from seismass.commands.answer_output import give_answer
@@ -14,6 +15,7 @@ from seismass.commands.options import (
     add_target_options,
     positive_option,
     read_motions,
+    read_pairs,
     read_target,
     refuse_given,
 )
@@ -26,7 +28,7 @@ from seismass.commands.scene_or_building import (
 )
 
 if TYPE_CHECKING:
-    from seismass.records import Suite
+    from seismass.records import Pairs, Suite
     from seismass.slip import Clearance
     from seismass.spectra import TargetSpectrum
 
@@ -65,9 +67,10 @@ def run(args: argparse.Namespace) -> int:
     scene, building = read_scene_or_building(args.file, target)
     blocks = len(scene.goods)
     sizes = _per_block("size", args.size, blocks, parse_size)
-    clearances = _per_block("clearance", args.clearance, blocks, parse_clearance)
+    plane = scene.other_direction is not False
+    clearances = _per_block("clearance", args.clearance, blocks, partial(parse_clearance, plane=plane))
     period = 1.0 if building is None else building.scaling_period or building.period(building.goods)
-    suite, scaling, motions = _motions(args, target, period)
+    suite, scaling, motions = _motions(args, target, period, plane=plane)
     with progress() as tell:
         result = slip_demand(
             scene,
@@ -80,15 +83,18 @@ def run(args: argparse.Namespace) -> int:
             threads=args.jobs,
             progress=tell,
         )
-    given = [side for each in clearances or [] if each is not None for side in (each.plus, each.minus)]
+    given = [side for each in clearances or [] if each is not None for side in each.distances]
     limits = [("clearance", side) for side in given if side is not None]
-    result, doubtful = with_doubts(result, doubts_of_input(scene, building, target, limits, motions))
+    components = [component for pair in motions for component in (pair.first, pair.second)] if plane else motions
+    result, doubtful = with_doubts(result, doubts_of_input(scene, building, target, limits, components))
     give_answer(args, result, suite, head=f"{doubtful}suite       {suite.name}\nscaling     {scaling}\n\n", indent=12)
     return 0
 
 
-def parse_clearance(text: str) -> Clearance:
+def parse_clearance(text: str, *, plane: bool = False) -> Clearance:
     """Return a clearance from its text: a distance for both sides, or one for each with a comma between.
+
+    In two directions four are those of both sides of x and of y; a distance after @ is one in any direction.
 
     Raises
     ------
@@ -99,15 +105,21 @@ def parse_clearance(text: str) -> Clearance:
     from seismass.base.values import brief, refusal
     from seismass.slip import Clearance
 
-    sides = text.split(",")
+    sides, at, reach = text.partition("@")
     try:
-        values = [float(side) if side.strip() else None for side in sides]
+        values = [float(side) if side.strip() else None for side in sides.split(",")]
+        radius = float(reach) if at else None
     except ValueError:
-        values = []
-    if len(values) not in (1, 2) or not any(value is not None for value in values):
+        values, radius = [], None
+    if len(values) not in (1, 2, 4) or (radius is None and not any(value is not None for value in values)):
         requirement = "a distance, or PLUS,MINUS of which one may be empty (m)"
+        if plane:
+            requirement = "a distance, PLUS,MINUS or +X,-X,+Y,-Y (m), each but one empty at will, or @ and one for all"
         raise refusal(InvalidOption, "--clearance", "slip", requirement, brief(text))
-    return Clearance(values[0], values[-1])
+    if len(values) < 3 and radius is None and not plane:
+        return Clearance(values[0], values[-1])
+    plus, minus, plus_y, minus_y = (values * 4)[:4]
+    return Clearance(plus, minus, plus_y, minus_y, radius)
 
 
 def _per_block(name: str, given: list[str], blocks: int, parse: Any) -> list[Any] | None:
@@ -140,8 +152,12 @@ def _targeted(args: argparse.Namespace) -> bool:
     return not args.target is args.sds is args.sd1 is args.tl is None
 
 
-def _motions(args: argparse.Namespace, target: TargetSpectrum | None, default: float) -> tuple[Suite, str, list[Any]]:
+def _motions(
+    args: argparse.Namespace, target: TargetSpectrum | None, default: float, *, plane: bool
+) -> tuple[Suite | Pairs, str, list[Any]]:
     """The suite as it is, how it is scaled, and the motions; without --period to a target for T = `default` (s).
+
+    Scenes in two directions (`plane`) take pairs.
 
     Raises
     ------
@@ -150,7 +166,7 @@ def _motions(args: argparse.Namespace, target: TargetSpectrum | None, default: f
     """
     from seismass.scaling import scale_asce7_10
 
-    suite = read_motions(args)
+    suite: Any = read_pairs(args) if plane else read_motions(args)
     if target is None:
         refuse_given(args, ("period",), "slip", "where no target is given")
         factor = args.factor or 1.0
@@ -177,7 +193,8 @@ slip scene.toml --clearance 0.3 --fragility --measure pga --out slip
     options=options,
     run=run,
     note="""
---clearance: DISTANCE for both sides, PLUS,MINUS for each (one may be left empty), in m; --size: WIDTHxHEIGHT or
+--clearance: DISTANCE for all sides, PLUS,MINUS for each (one may be left empty), +X,-X,+Y,-Y in two directions,
+@DISTANCE for any direction, in m; --size: WIDTHxHEIGHT or
 WIDTHxHEIGHT@CENTRE, in m. BLOCK= before either makes it that of one block, counted from 1.
 """,
     codes={0: "done (a collapse is a result)", 1: "a run failed"},

@@ -176,7 +176,7 @@ class _Answer:
         from seismass.show.study.sensitivity import sensitivity_text
 
         metadata, sensitivity = self.tables.metadata, self.tables.sensitivity
-        head = f"Underestimation of mean peak drift, (real - code) / code, code: {metadata['code']['name']}"
+        head = f"Underestimation of mean peak drift, (goods slide - code) / code, code: {metadata['code']['name']}"
         changed = "" if sensitivity is None else f"\n\nOne choice changed at a time\n{sensitivity_text(sensitivity)}"
         return f"{inputs_text(metadata)}\n\n{head}\n{findings_text(metadata['findings'])}{changed}"
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from seismass.commands.command import Command
 from seismass.commands.exit_codes import RUNS
 from seismass.commands.options import add_out_option, check_files, numbers_option
+from seismass.commands.terminal import show
 from seismass.scaling.target_text import TARGET_HELP
 
 
@@ -43,7 +44,7 @@ def run(args: argparse.Namespace) -> int:
         return 0
     with written_whole(args.out) as temporary:
         write_table(table, "csv", temporary)
-    print(f"{args.out}: {table.height} periods of {target.label}")
+    show(f"{args.out}: {table.height} periods of {target.label}")
     return 0
 
 

@@ -1,14 +1,24 @@
-"""Text for a reader: as it is for a file or another program; on a terminal with its answer in bold, folded to fit."""
+"""Text for a reader: as it is for a file or another program; fitted to a terminal, with its answer in bold."""
 
 from __future__ import annotations
 
+import os
 import re
+import shutil
 import sys
-import textwrap
-from typing import Final
 
-_LABELLED: Final = re.compile(r" *(?:\S+(?: \S+)* {2,})?")
-"""Indentation of a line, with its label where it has one."""
+from seismass.media.fit_text import fitted_blocks, is_row
+
+
+def columns() -> int | None:
+    """Return the width of the terminal, which COLUMNS may state; None where standard output is none."""
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+
+
+def shows_bold() -> bool:
+    """Whether standard output is a terminal that shows bold letters, and they are wanted (https://no-color.org)."""
+    wanted = not os.environ.get("NO_COLOR") and os.environ.get("TERM") not in ("dumb", "unknown")
+    return sys.stdout.isatty() and wanted
 
 
 def show(text: str, answer: str = "") -> None:
@@ -21,24 +31,23 @@ def show(text: str, answer: str = "") -> None:
     answer : str
         Pattern of the beginnings of lines that are the answer; by default there is none.
     """
-    if not sys.stdout.isatty():
+    width = columns()
+    if width is None:
         print(text)
         return
+    pattern = re.compile(answer) if answer and shows_bold() else None
+    for block, lines in fitted_blocks(text, width):
+        whole = pattern is not None and not is_row(block[0]) and pattern.match(block[0])
+        for line in lines:
+            bold = whole or (pattern is not None and pattern.match(line))
+            if bold:
+                _print_bold(line)
+            else:
+                print(line)
+
+
+def _print_bold(line: str) -> None:
     from rich.console import Console
     from rich.text import Text
 
-    console = Console(markup=False, highlight=False, emoji=False)
-    pattern = re.compile(answer)
-    for line in text.split("\n"):
-        style = "bold" if answer and pattern.match(line) else ""
-        for piece in folded(line, console.width):
-            console.print(Text(piece, style), soft_wrap=True)
-
-
-def folded(line: str, width: int) -> list[str]:
-    """Return a line in pieces that fit, below its label; a row of a table, which has columns, stays whole."""
-    label = _LABELLED.match(line)
-    start = label.end() if label else 0
-    if len(line) <= width or "  " in line[start:] or start > width // 2:
-        return [line]
-    return textwrap.wrap(line, width, subsequent_indent=" " * start, break_on_hyphens=False, break_long_words=False)
+    Console(markup=False, highlight=False, emoji=False).print(Text(line, "bold"), soft_wrap=True)

@@ -97,7 +97,8 @@ def effective_mass(
 
     In two directions the real building has friction on the circle, and models have the same share attached in both.
     Nothing couples the directions of a model, so that each is solved by itself; for the vector, as a run in two
-    directions. The rule takes all components of the motions, and the building in x, or in y where `drift` is that.
+    directions. The rule takes all components of the motions, the building in x, or in y where `drift` is that, and 0.8
+    times mu_k (docs/two_directions.md).
 
     Examples
     --------

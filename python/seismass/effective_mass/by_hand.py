@@ -12,6 +12,7 @@ from seismass.effective_mass.estimate import base_shear_by_hand, best_estimate, 
 from seismass.effective_mass.models import building_of, frame_mass, friction, full_weight, goods_mass
 from seismass.effective_mass.plane_runs import LARGER, DriftMeasure
 from seismass.effective_mass.runs import NamedMotions, Peaks
+from seismass.effective_mass.two_directions import friction_factor
 from seismass.model.building import Building
 from seismass.model.scene import Scene
 from seismass.spectra import corner_period, mean_spectrum
@@ -59,7 +60,7 @@ def by_hand(scene: Scene, motions: NamedMotions, full: Peaks, drift: DriftMeasur
     `drift` is, else that in x, and the motions are all components.
     """
     if drift == "y" and isinstance(scene.other_direction, Building):
-        scene = scene._directions()[1]
+        scene = scene.replace(building=scene.other_direction, other_direction=True)
     yields = bool((full.drift.mean(axis=1)[-1] > yield_drift(building_of(scene))).any())
     return rule_by_hand(scene, motions, yields)
 
@@ -92,7 +93,8 @@ def rule_by_hand(scene: Scene, motions: NamedMotions, yields: bool) -> ByHand:
         )
     )
     eta = friction(scene) / coefficient
-    return ByHand(period, corner, yields, heights, power, coefficient, eta, float(best_estimate(eta, power, heights)))
+    estimate = float(best_estimate(friction_factor(scene) * eta, power, heights))
+    return ByHand(period, corner, yields, heights, power, coefficient, eta, estimate)
 
 
 def yield_drift(building: Building) -> FloatArray:

@@ -13,6 +13,7 @@ from seismass.base.views import view
 from seismass.effective_mass.by_hand import ByHand
 from seismass.effective_mass.curve import Kind
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
+from seismass.effective_mass.two_directions import REDUCED_FRICTION
 from seismass.media.result import Result, finite_values
 
 if TYPE_CHECKING:
@@ -85,7 +86,7 @@ class EffectiveMass(Result):
         building and goods.
     estimate, conservative : float
         The rule by period and its conservative form with this eta, see `seismass.effective_mass.estimate`:
-        min(1, eta_h^p) and min(1, eta_h) with eta_h = eta/sqrt(h_g/h_m).
+        min(1, eta_h^p) and min(1, eta_h) with eta_h = eta/sqrt(h_g/h_m); in two directions 0.8 eta in place of eta.
     by_hand : ByHand
         What the rule takes, T, T_c, p, h_g/h_m and whether the building yields, and eta and the estimate with C1 by
         hand, without any run.
@@ -150,7 +151,7 @@ class EffectiveMass(Result):
             drifts = f"none, since the building with sliding goods collapses under {self.collapses['real']} of them"
         lines = [
             f"effective fraction  {self.value_text} ({scatter})",
-            f"                    {self.kind}: {KIND_TEXTS[self.kind]}",
+            f"                    {KIND_TEXTS[self.kind]}",
             f"largest drift       {self.statistic} of {self.records.height} motions: {drifts}",
             *self.rule_lines,
         ]
@@ -175,6 +176,7 @@ class EffectiveMass(Result):
         """The estimates in three lines: with the mean peak base shear of the runs, what the exponent is of, by hand."""
         rule = self.by_hand
         behaviour = "yields" if rule.yields else "stays elastic"
+        in_plane = () if "drift" not in self.metadata else (f"{'':20}two directions: {REDUCED_FRICTION:g} eta in it",)
         return (
             f"estimates           eta = mu_k/C1 = {self.eta:.3f}, C1 = {self.base_shear_coefficient:.4f} (mean peak "
             f"base shear of the runs): {RULE} = {self.estimate:.3f}, conservative {SAFE_RULE} = "
@@ -183,6 +185,7 @@ class EffectiveMass(Result):
             f"{rule.corner_period:.3g} s; h_g/h_m = {rule.height_ratio:.2f}",
             f"by hand             eta = {rule.eta:.3f}, C1 = {rule.base_shear_coefficient:.4f} without a run: {RULE} = "
             f"{rule.estimate:.3f}",
+            *in_plane,
         )
 
     @view

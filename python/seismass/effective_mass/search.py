@@ -43,6 +43,7 @@ from seismass.effective_mass.result import SCHEMA_VERSION, EffectiveMass
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, solve
 from seismass.effective_mass.structure_remarks import remarks_of_structure
 from seismass.effective_mass.tables import curve_table, inputs_digest, record_table, remarks_of, storey_table
+from seismass.effective_mass.two_directions import friction_factor
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.model.springs import SHAPE_FIELDS
@@ -140,7 +141,7 @@ class Search:
         scene = self.scene_at(place)
         full = self._fully_attached(scene, real, model)
         coefficient = float(full.base_shear.mean()) / full_weight(scene)
-        eta = friction(scene) / coefficient
+        eta, shared = friction(scene) / coefficient, friction_factor(scene)
         rule = by_hand(scene, self.motions, full, options.drift)
         real_drift, model_drift = (
             float(over_records(peaks.largest[0], options.statistic)) for peaks in (real_there, model_there)
@@ -168,8 +169,8 @@ class Search:
             excess=excess,
             eta=eta,
             base_shear_coefficient=coefficient,
-            estimate=float(best_estimate(eta, rule.exponent, rule.height_ratio)),
-            conservative=float(conservative_estimate(eta, rule.height_ratio)),
+            estimate=float(best_estimate(shared * eta, rule.exponent, rule.height_ratio)),
+            conservative=float(conservative_estimate(shared * eta, rule.height_ratio)),
             by_hand=rule,
             curve=curve_table(*self._with_larger(model), real, band, options.statistic),
             storeys=storeys,

@@ -107,6 +107,7 @@ def explorer_html(kernel: Path | None = None) -> str:
         "How much of a building's live load acts as mass?",
         [],
         subtitle=f"The exact kernel of seismass {_kernel.VERSION} in this page: move a slider, it solves.",
+        description="A building with goods that slide, solved in the browser: how much of its live load acts as mass.",
         lead=[Markup(content)],
         runs_kernel=True,
     )

@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import brief, counted, refusal
-from seismass.media.roles import GREY, INK
+from seismass.media.roles import GREY, INK, PAPER
 
 
 @dataclass(frozen=True)
@@ -123,6 +123,14 @@ def grid_lines(axes: Axes) -> None:
 def zero_line(axes: Axes) -> None:
     """Draw where a history is zero."""
     axes.axhline(0.0, color=GREY, linewidth=0.6)
+
+
+def say(axes: Axes, words: str, *, at: float | None = None) -> None:
+    """Say in words that there is nothing to show: in the middle of axes, or at a height of their y axis."""
+    transform = axes.transAxes if at is None else axes.get_yaxis_transform()
+    box = {"boxstyle": "square,pad=0.25", "facecolor": PAPER, "edgecolor": "none"}
+    look: Any = {"ha": "center", "va": "center", "fontsize": 8.5, "style": "italic", "color": INK}
+    axes.text(0.5, 0.5 if at is None else at, words, transform=transform, bbox=box, gid="nothing", **look)
 
 
 def ring(label: str) -> Line2D:

@@ -28,6 +28,11 @@ def isolated(text: str) -> Markup:
     return Markup("<bdi>{}</bdi>").format(text) if any(map(runs_leftwards, text)) else escape(text)
 
 
+def apart(text: str) -> str:
+    """Return a name for a line of text, isolated by characters where it runs from right to left."""
+    return f"\N{FIRST STRONG ISOLATE}{text}\N{POP DIRECTIONAL ISOLATE}" if any(map(runs_leftwards, text)) else text
+
+
 def sentence_html(text: str, names: Iterable[str] = ()) -> Markup:
     """Return a sentence of the package as HTML: symbols as Greek letters, names of the user's as they are.
 

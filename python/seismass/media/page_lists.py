@@ -14,6 +14,11 @@ def bullets_html(lines: Iterable[str]) -> Markup:
     return Markup("<ul>{}</ul>").format(Markup("").join(Markup("<li>{}</li>").format(line) for line in lines))
 
 
+def whole_html(names: Iterable[str]) -> Markup:
+    """Return names with commas between, none of which is broken at a hyphen."""
+    return Markup(", ").join(Markup('<span class="whole">{}</span>').format(name) for name in names)
+
+
 def long_html(text: str) -> Markup:
     """Return a text that keeps some width in a table, on a narrow screen too."""
     return Markup('<span class="long">{}</span>').format(isolated(text))

@@ -18,6 +18,8 @@ Format: TypeAlias = str | Callable[[Any], str]
 
 MISSING: Final = "\N{EN DASH}"
 """What stands for a null; such rows are last in either order."""
+LONGEST_WHOLE: Final = 24
+"""Characters of a name that is not broken at its hyphen."""
 LEAST_ROWS_TO_FILTER: Final = 8
 """A table of fewer rows is neither sorted nor filtered."""
 
@@ -94,11 +96,12 @@ def table_html(
 
 def _cell(value: Any, form: Format | None, number: bool, *, heading: bool) -> Markup:
     text: str = MISSING if value is None else _text(value, form)
+    whole = ' class="whole"' if not number and "-" in text and len(text) <= LONGEST_WHOLE else ""
     if not isinstance(text, Markup):
         text = isolated(text)
     start, end = ('<th scope="row"', "</th>") if heading else ("<td", "</td>")
     if not number:
-        return Markup(start + ">{}" + end).format(text)
+        return Markup(start + whole + ">{}" + end).format(text)
     # What sorts; a value that is missing has none.
     missing = value is None or (isinstance(value, float) and math.isnan(value))
     held = "" if missing else Markup(' data-value="{}"').format(f"{float(value):.9g}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import unicodedata
 from collections.abc import Iterable, Sequence
 
 
@@ -24,8 +25,28 @@ def text_line(cells: Iterable[str], widths: Iterable[int], *, indent: int = 2, g
     >>> text_line(["floor 1", "0.40"], (-10, 8))
     '  floor 1       0.40'
     """
-    placed = (cell.ljust(-width) if width < 0 else cell.rjust(width) for cell, width in zip(cells, widths, strict=True))
+    placed = []
+    for cell, width in zip(cells, widths, strict=True):
+        room = " " * max(0, abs(width) - shown_width(cell))
+        placed.append(cell + room if width < 0 else room + cell)
     return (" " * indent + (" " * gap).join(placed)).rstrip()
+
+
+def shown_width(text: str) -> int:
+    """Return how many columns of a terminal a text takes: two for wide letters, none for marks on letters.
+
+    Examples
+    --------
+    >>> from seismass.media.text_table import shown_width
+    >>> shown_width("2 \u5009\u5eab"), shown_width("roof")
+    (6, 4)
+    """
+    if text.isascii():
+        return len(text)
+    return sum(
+        0 if unicodedata.combining(letter) else 2 if unicodedata.east_asian_width(letter) in "WF" else 1
+        for letter in text
+    )
 
 
 def text_table(rows: Sequence[Sequence[str]], *, left: int = 1, indent: int = 2) -> list[str]:
@@ -40,7 +61,7 @@ def text_table(rows: Sequence[Sequence[str]], *, left: int = 1, indent: int = 2)
     indent : int
         Spaces before the first column.
     """
-    sizes = (max(map(len, column)) for column in zip(*rows, strict=True))
+    sizes = (max(map(shown_width, column)) for column in zip(*rows, strict=True))
     widths = [-size if number < left else size for number, size in enumerate(sizes)]
     return [text_line(row, widths, indent=indent, gap=2) for row in rows]
 

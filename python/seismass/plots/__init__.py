@@ -7,6 +7,7 @@ from seismass.media.svg import DARK_CSS, figure_svg, inline_svg
 from seismass.plots.batches import fragility, fragility_fit, ida, scatter
 from seismass.plots.contacts import contacts
 from seismass.plots.drift_profiles import drift_profiles
+from seismass.plots.floor_plan import FloorPlan, Footprint, floor_paths
 from seismass.plots.growth import energy, slip_path
 from seismass.plots.histories import acceleration, drift, slip
 from seismass.plots.hysteresis import loops
@@ -17,6 +18,8 @@ from seismass.plots.timeline import events
 
 __all__ = [
     "DARK_CSS",
+    "FloorPlan",
+    "Footprint",
     "acceleration",
     "contacts",
     "drift",
@@ -24,6 +27,7 @@ __all__ = [
     "energy",
     "events",
     "figure_svg",
+    "floor_paths",
     "floor_spectra",
     "fragility",
     "fragility_fit",

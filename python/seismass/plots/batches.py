@@ -16,7 +16,7 @@ from seismass.base.errors import InvalidOption
 from seismass.base.quantiles import quantile
 from seismass.base.values import FloatArray, as_number, refusal
 from seismass.fragility.fits import fit_counts
-from seismass.media.axes import grid_lines, single
+from seismass.media.axes import grid_lines, say, single
 from seismass.media.roles import BLOCK_COLOURS, BLUE, GREY, INK, LIMIT, PAPER, SKY
 from seismass.media.style import STYLE, plain
 from seismass.plots.columns import checked_table, demand_of, in_unit, label_of, one_value
@@ -164,6 +164,10 @@ def fragility(
             curve = norm.cdf(np.log(way / median) / beta)
             label = f"lognormal, median {median:.3g}, dispersion {beta:.2f}"
             axes.plot(way, curve, color=BLUE, linewidth=1.8, label=label, gid="curve")
+        elif not exceeded.any():
+            say(axes, "never exceeded")
+        elif (exceeded == len(demands)).all():
+            say(axes, "always exceeded")
         axes.set_xlim(0.0, end)
         axes.set_ylim(-0.02, 1.02)
         axes.set_xlabel(label_of(intensity))
@@ -242,9 +246,12 @@ def scatter(table: pl.DataFrame, x: str, y: str, *, by: str | None = None, ax: A
     with mpl.rc_context(STYLE):
         place = single(ax, "scatter figure")
         axes = place.axes[0]
-        for group, (colour, marker) in zip(groups, _POINTS, strict=False):
+        for place_of, (group, (colour, marker)) in enumerate(zip(groups, _POINTS, strict=False)):
             here = points.filter(pl.col("by").eq_missing(group))
-            look: Any = {"color": colour, "linestyle": "", "marker": marker, "markersize": 4.0, "alpha": 0.75}
+            # Open, and smaller from one series to the next, so that points at one place are seen within one another.
+            size = 4.0 if len(groups) == 1 else 7.5 - 4.0 * place_of / (len(groups) - 1)
+            look: Any = {"color": colour, "linestyle": "", "marker": marker, "markersize": size}
+            look |= {"markerfacecolor": "none", "markeredgewidth": 0.9} if len(groups) > 1 else {"alpha": 0.75}
             name = (
                 "" if by is None else f"{plain(by)} = {plain(f'{group:g}' if isinstance(group, float) else str(group))}"
             )

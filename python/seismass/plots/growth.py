@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_count
-from seismass.media.axes import grid_lines, single
+from seismass.media.axes import grid_lines, say, single
 from seismass.media.roles import BLUE, GREEN, GREY, INK, PURPLE, VERMILION
 from seismass.media.style import SERIES, STYLE
 from seismass.model.places import goods_names
@@ -76,6 +76,8 @@ def energy(response: Response, *, points: int = DEFAULT_POINTS, ax: Axes | None 
         total = values["initial"] + values["input"]
         axes.plot(times, total, color=INK, linewidth=1.4, label="input", gid="input")
         axes.axhline(0.0, color=GREY, linewidth=0.6)
+        if not handles:
+            say(axes, "no energy")
         axes.set_xlim(0.0, times[-1] or 1.0)
         axes.set_xlabel("time (s)")
         axes.set_ylabel(f"energy ({unit})")
@@ -134,6 +136,8 @@ def slip_path(
             axes.plot(times, paths[:, number - 1], **SERIES[position % len(SERIES)], linewidth=1.4, label=label)
         axes.set_xlim(0.0, times[-1] or 1.0)
         axes.set_ylim(0.0, None if paths.any() else 1.0)
+        if not paths[:, [number - 1 for number in chosen]].any():
+            say(axes, "nothing slides")
         axes.set_xlabel("time (s)")
         axes.set_ylabel("path slipped (mm)")
         grid_lines(axes)

@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_count, brief, refusal
-from seismass.media.axes import RING, Panels, grid_lines, panels, ring, zero_line
+from seismass.media.axes import RING, Panels, grid_lines, panels, ring, say, zero_line
 from seismass.media.roles import BLUE, INK, PURPLE
 from seismass.media.style import SERIES, STYLE
 from seismass.model.places import goods_names
@@ -61,7 +61,7 @@ def drift(
             lambda number: 1e3 * response.drift[:, number - 1],
             lambda number: (response.peak_drift_time[number - 1], 1e3 * response.peak_drift[number - 1]),
             chosen_kinds(events, ("yield", "close"), "drift figure"),
-            ("drift (mm)", "storey {}".format),
+            ("drift (mm)", "storey {}".format, "does not drift"),
         )
     return place.figure
 
@@ -107,7 +107,7 @@ def slip(
             lambda number: 1e3 * response.slip[:, number - 1],
             lambda number: (response.peak_slip_time[number - 1], 1e3 * response.peak_slip[number - 1]),
             chosen_kinds(events, ("slip", "stick", "touch_stop"), "slip figure"),
-            ("slip (mm)", lambda number: f"block {number}, {places[number - 1]}"),
+            ("slip (mm)", lambda number: f"block {number}, {places[number - 1]}", "does not slide"),
         )
         if len(chosen) == 1 or not place.shared:
             for number, axes in zip(chosen, place.axes, strict=True):
@@ -159,7 +159,7 @@ def acceleration(
                 response.peak_floor_acceleration[number - 1] / STANDARD_GRAVITY,
             ),
             chosen_kinds(events, ("yield", "close"), "acceleration figure"),
-            ("acceleration (g)", "floor {}".format),
+            ("acceleration (g)", "floor {}".format, "is not accelerated"),
         )
     return place.figure
 
@@ -198,13 +198,16 @@ def histories(
     values_of: Callable[[int], FloatArray],
     peak_of: Callable[[int], tuple[float, float]],
     kinds: tuple[str, ...],
-    labels: tuple[str, Callable[[int], str]],
+    labels: tuple[str, Callable[[int], str], str],
 ) -> None:
-    """Draw a history of each number into its panel."""
-    unit, called = labels
+    """Draw a history of each number into its panel.
+
+    `labels` are the unit, what a number is called, and what is said where there is nothing but zero.
+    """
+    unit, called, nothing = labels
     time, found = response.time, set[str]()
     overlaid = place.shared and len(chosen) > 1
-    lines, peaked = [], False
+    lines, peaked, still = [], False, 0
     for position, (number, axes) in enumerate(zip(chosen, place.axes, strict=True)):
         values = values_of(number)
         look = SERIES[position % len(SERIES)] if overlaid else {"color": BLUE}
@@ -219,8 +222,12 @@ def histories(
             peaked = True
             height = np.copysign(peak, np.interp(at, time, np.nan_to_num(values)))
             axes.plot(at, height, **RING, linestyle="", zorder=4, gid="peak")
+        still += not peak > 0.0
         if not overlaid:
             text = f"{name}: peak {peak:.3g} {unit.partition('(')[2].rstrip(')')} at {at:.2f} s"
+            if not peak > 0.0:
+                text = name
+                say(axes, nothing)
             axes.set_title(text, loc="left", fontsize=8.0, pad=3.0)
     for axes in dict.fromkeys(place.axes):
         zero_line(axes)
@@ -229,6 +236,10 @@ def histories(
         axes.set_xlim(0.0, response.end_time or 1.0)
         if response.status == "collapsed":
             axes.axvline(response.end_time, color=INK, linewidth=1.2)
+    if still == len(chosen):
+        place.axes[0].set_ylim(-1.0, 1.0)
+        if overlaid:
+            say(place.axes[0], nothing)
     place.axes[0].set_xlabel("time (s)")
     if not place.own and not place.shared:
         for axes in place.axes:

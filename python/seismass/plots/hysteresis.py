@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, refusal
-from seismass.media.axes import columns, grid_lines
+from seismass.media.axes import columns, grid_lines, say
 from seismass.media.roles import BLUE, GREY, VERMILION
 from seismass.media.style import STYLE
 from seismass.model.building import Building
@@ -24,6 +24,8 @@ from seismass.runs.response import Response
 BACKBONE_POINTS: Final = 121
 """Drifts to one side at which a backbone is computed, beside its corners."""
 
+_ROW: Final = 4
+"""Most storeys beside one another."""
 _BACKBONE: Final[dict[str, Any]] = {"color": VERMILION, "linestyle": (0, (5, 2)), "linewidth": 1.3}
 
 
@@ -68,13 +70,14 @@ def loops(
     scale, unit = (1e-3, "kN") if building.mass_is_stated else (1.0 / building.weight, "V/W")
     forces, found = scale * response.storey_force, set[str]()
     with mpl.rc_context(STYLE):
-        place = columns(ax, len(chosen), owner, width=2.6, height=3.2)
+        place = columns(ax, len(chosen), owner, width=2.6, height=3.2, most=_ROW)
         for number, axes in zip(chosen, place.axes, strict=True):
             drift, force = 1e3 * response.drift[:, number - 1], forces[:, number - 1]
-            way, strength = backbone(building, number, float(response.peak_drift[number - 1]))
-            axes.plot(
-                1e3 * way, scale * strength, color=VERMILION, linestyle=(0, (5, 2)), linewidth=1.3, gid="backbone"
-            )
+            if response.peak_drift[number - 1] > 0.0:
+                way, strength = backbone(building, number, float(response.peak_drift[number - 1]))
+                axes.plot(1e3 * way, scale * strength, **_BACKBONE, gid="backbone")
+            else:
+                say(axes, "does not drift")
             axes.plot(drift, force, color=BLUE, linewidth=0.7, gid="loop")
             if response.has_events:
                 for kind in kinds:
@@ -87,7 +90,7 @@ def loops(
             axes.locator_params(axis="x", nbins=5)
             axes.set_title(f"storey {number}")
             axes.set_xlabel("drift (mm)")
-        for axes in place.axes if not place.own else place.axes[:1]:
+        for axes in place.left:
             axes.set_ylabel(f"spring force ({unit})" if unit == "kN" else "spring force / weight")
         handles = [
             Line2D([], [], color=BLUE, linewidth=0.9, label="run"),

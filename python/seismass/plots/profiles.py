@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
@@ -16,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import as_number, brief, is_one_of, refusal
-from seismass.media.axes import columns, grid_lines, single
+from seismass.media.axes import columns, grid_lines, say
 from seismass.media.roles import BLUE, GREY, INK, LIMIT
 from seismass.media.style import PERIOD_TICKS, SERIES, STYLE
 from seismass.model.motion import Motion
@@ -34,6 +35,7 @@ class _Quantity:
 
     label: str
     per_storey: bool
+    nothing: str
     values: NDArray[Any]
     levels: NDArray[Any]
 
@@ -112,23 +114,24 @@ def _quantities(response: Response) -> dict[str, _Quantity]:
     storey = np.arange(building.storeys) + 0.5
     ratio = response.peak_drift_ratio
     drift = 1e3 * response.peak_drift if ratio is None else 100.0 * ratio
+    label = "peak drift (mm)" if ratio is None else "peak drift / height (%)"
     shear = response.peak_storey_shear
     found = {
-        "drift": _Quantity("peak drift (mm)" if ratio is None else "peak drift / height (%)", True, drift, storey),
+        "drift": _Quantity(label, True, "no drift", drift, storey),
         "acceleration": _Quantity(
             "peak acceleration (g)",
             False,
+            "no acceleration",
             np.append(response.motion.pga, response.peak_floor_acceleration) / STANDARD_GRAVITY,
             np.arange(building.storeys + 1.0),
         ),
-        "shear": _Quantity("peak storey shear (kN)", True, 1e-3 * shear, storey)
+        "shear": _Quantity("peak storey shear (kN)", True, "no shear", 1e-3 * shear, storey)
         if building.mass_is_stated
-        else _Quantity("peak storey shear / weight", True, shear / building.weight, storey),
+        else _Quantity("peak storey shear / weight", True, "no shear", shear / building.weight, storey),
     }
     if any(floors):
-        found["slip"] = _Quantity(
-            "peak slip (mm)", False, 1e3 * response.peak_slip[: len(floors)], np.array(floors, dtype=float)
-        )
+        slip, levels = 1e3 * response.peak_slip[: len(floors)], np.array(floors, dtype=float)
+        found["slip"] = _Quantity("peak slip (mm)", False, "nothing slides", slip, levels)
     return found
 
 
@@ -144,6 +147,8 @@ def _panel(axes: Axes, quantity: _Quantity, limit: float | None) -> None:
         axes.plot(values[order], levels[order], **look)
     largest = max(float(np.max(values, initial=0.0)), 0.0 if limit is None else limit)
     axes.set_xlim(0.0, 1.12 * largest or 1.0)
+    if not np.any(values > 0.0):
+        say(axes, quantity.nothing)
     if limit is not None:
         axes.axvline(limit, **_LIMIT)
     axes.set_xlabel(quantity.label)
@@ -199,24 +204,49 @@ def floor_spectra(
     motions = [Motion(response.floor_acceleration[:, number - 1], ground.dt) for number in chosen]
     spectra = response_spectrum([ground, *motions], at, damping) / STANDARD_GRAVITY
     with mpl.rc_context(STYLE):
-        place = single(ax, owner)
-        axes = place.axes[0]
-        axes.plot(at, spectra[0], color=GREY, linewidth=2.2, label="ground")
-        for position, (number, spectrum) in enumerate(zip(chosen, spectra[1:], strict=True)):
-            axes.plot(at, spectrum, **SERIES[position % len(SERIES)], linewidth=1.4, label=f"floor {number}")
-        axes.set_xscale("log")
-        axes.set_xlim(at[0], at[-1])
-        ticks = [tick for tick in PERIOD_TICKS if at[0] <= tick <= at[-1] * 1.0001]
-        axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
-        axes.minorticks_off()
-        axes.set_ylim(0.0, 1.1 * float(spectra.max()) or 1.0)
+        groups = _in_groups(len(chosen)) if ax is None else [range(len(chosen))]
+        place = columns(ax, len(groups), owner, width=5.6, height=4.2 if len(groups) == 1 else 3.4, most=1)
         building = response.scene.building
         assert building is not None
-        axes.axvline(building.periods[0], color=INK, linewidth=0.8, linestyle=(0, (1, 2)))
-        place_of_text: Any = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points", "xytext": (2, -9)}
-        axes.annotate("T1", (building.periods[0], 1.0), **place_of_text, fontsize=7.5)
-        axes.set_xlabel("period (s)")
-        axes.set_ylabel(f"pseudo-acceleration, {100.0 * damping:g} % damping (g)")
-        grid_lines(axes)
-        place.legend(axes.get_legend_handles_labels()[0], columns=5)
+        for group, axes in zip(groups, place.axes, strict=True):
+            axes.plot(at, spectra[0], color=GREY, linewidth=2.2, label="ground")
+            for position, look in zip(group, _looks(len(group)), strict=True):
+                label = f"floor {chosen[position]}"
+                axes.plot(at, spectra[1 + position], **look, linewidth=1.4, label=label)
+            axes.set_xscale("log")
+            axes.set_xlim(at[0], at[-1])
+            ticks = [tick for tick in PERIOD_TICKS if at[0] <= tick <= at[-1] * 1.0001]
+            axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+            axes.minorticks_off()
+            axes.set_ylim(0.0, 1.1 * float(spectra.max()) or 1.0)
+            axes.axvline(building.periods[0], color=INK, linewidth=0.8, linestyle=(0, (1, 2)))
+            place_of_text: Any = {
+                "xycoords": ("data", "axes fraction"),
+                "textcoords": "offset points",
+                "xytext": (2, -9),
+            }
+            axes.annotate("T1", (building.periods[0], 1.0), **place_of_text, fontsize=7.5)
+            axes.set_ylabel(f"pseudo-acceleration, {100.0 * damping:g} % damping (g)")
+            grid_lines(axes)
+            if len(groups) > 1:
+                axes.legend(fontsize=8.0, frameon=False, loc="upper right")
+        place.axes[-1].set_xlabel("period (s)")
+        if len(groups) == 1:
+            place.legend(place.axes[0].get_legend_handles_labels()[0], columns=5)
     return place.figure
+
+
+def _in_groups(count: int) -> list[range]:
+    """Floors of each panel: so many that their lines can be told apart, the highest above."""
+    rows = -(-count // len(SERIES))
+    ends = [round(count * row / rows) for row in range(rows + 1)]
+    return [range(first, end) for first, end in itertools.pairwise(ends)][::-1]
+
+
+def _looks(count: int) -> list[dict[str, Any]]:
+    """Looks of lines of floors: those of series where they suffice, else from dark to light up the building."""
+    if count <= len(SERIES):
+        return list(SERIES[:count])
+    shades = mpl.colormaps["viridis"](np.linspace(0.0, 0.9, count))
+    dashes: list[Any] = ["-", (0, (6, 2)), (0, (1.2, 1.2))]
+    return [{"color": tuple(shade), "linestyle": dashes[i % len(dashes)]} for i, shade in enumerate(shades)]

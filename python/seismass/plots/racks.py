@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
-from seismass.media.axes import columns, grid_lines, panels
+from seismass.media.axes import columns, grid_lines, panels, say
 from seismass.media.style import SERIES, STYLE
 from seismass.model.places import floor_name, goods_levels, rack_levels, spring_names
 from seismass.plots.histories import histories, numbers
@@ -73,7 +73,8 @@ def rack_drift(
     kinds = chosen_kinds(events, ("yield", "close"), owner)
     with mpl.rc_context(STYLE):
         place = panels(ax, len(chosen), owner)
-        histories(place, response, chosen, history, peak, kinds, ("drift (mm)", lambda number: names[number - 1]))
+        labels = ("drift (mm)", lambda number: names[number - 1], "does not drift")
+        histories(place, response, chosen, history, peak, kinds, labels)
     return place.figure
 
 
@@ -134,6 +135,8 @@ def rack_profile(
                 place.axes[3].plot([slip for slip, _ in own], [level for _, level in own], **unjoined)
         for axes, label in zip(place.axes, labels, strict=True):
             axes.set_xlim(0.0, 1.12 * max(axes.dataLim.x1, 0.0) or 1.0)
+            if not axes.dataLim.x1 > 0.0:
+                say(axes, "none")
             axes.set_ylim(0.5, levels + 0.5)
             axes.set_yticks(range(1, levels + 1) if levels <= 12 else range(1, levels + 1, levels // 6))
             axes.set_xlabel(label)

@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, brief, is_one_of, refusal
-from seismass.media.axes import grid_lines, single
+from seismass.media.axes import grid_lines, say, single
 from seismass.media.roles import BLUE, GREEN, INK, PAPER, PURPLE, YIELDS
 from seismass.media.style import STYLE
 from seismass.model.places import goods_names, spring_names
@@ -136,6 +136,9 @@ def events(response: Response, *, ax: Axes | None = None) -> Figure:
             if len(spans):
                 widths = [(start, end - start) for start, end in spans]
                 axes.broken_barh(widths, (springs + number - 1.28, 0.56), facecolor=GREEN, alpha=0.25, linewidth=0.0)
+        for row in range(len(rows)):
+            if not any(np.any(line.get_ydata() == row) for line in axes.lines):
+                say(axes, "does not yield" if row < springs else "does not slide", at=row)
         axes.set_yticks(range(len(rows)), rows)
         axes.set_ylim(-0.6, max(len(rows), 1) - 0.4)
         axes.set_xlim(0.0, response.end_time or 1.0)

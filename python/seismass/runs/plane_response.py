@@ -205,6 +205,16 @@ class PlaneResponse(Card):
         return self._pair("rack_drift")
 
     @property
+    def rack_velocity(self) -> FloatArray:
+        """Velocity of rack levels relative to the ground (m/s), shape (rows, levels, 2)."""
+        return self._pair("rack_velocity")
+
+    @property
+    def rack_acceleration(self) -> FloatArray:
+        """Absolute acceleration of rack levels (m/s2), shape (rows, levels, 2)."""
+        return self._pair("rack_acceleration")
+
+    @property
     def events(self) -> pl.DataFrame:
         """Event log in order of time.
 

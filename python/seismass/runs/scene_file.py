@@ -27,6 +27,7 @@ from seismass.records import Record, builtin_record, read_record
 from seismass.records.builtin import builtin_names, data_directory
 from seismass.runs.plane_motion import motions_in_plane
 from seismass.runs.scene_goods import GOODS_KEYS, read_base, read_block, read_rack
+from seismass.runs.scene_pair import PAIR_KEYS, pair_of_scene
 from seismass.runs.scene_walls import WALL_KEYS, check_walls, matrix_of_walls, with_walls
 
 _SPRING_KEYS: Final = (*SPRING_FIELDS, "heights", "gravity_load", "geometric_stiffness")
@@ -43,6 +44,7 @@ KEYS: Final = {
         "base",
         "motion",
         "other_motion",
+        "pair",
         "vertical_motion",
         "duration",
         "initial",
@@ -65,6 +67,7 @@ KEYS: Final = {
     "walls": WALL_KEYS,
     **GOODS_KEYS,
     "motion": ("file", "builtin", "acceleration", "dt", "unit", "scale", "dt_scale"),
+    "pair": PAIR_KEYS,
     "initial": ("drift", "velocity"),
 }
 """Keys of each table of a scene file, the file itself first; `vertical_motion` and `other_motion` have those of
@@ -159,18 +162,23 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
     top = load_table(source, "scene file", InvalidSceneFile)
     refuse_other_kind(top, SCENE_FILE)
     top.known(KEYS[""])
-    top.needed("motion")
+    if "pair" not in top.values:
+        top.needed("motion")
     scene = _scene(top)
-    motion, records = _motions(top, source.parent)
-    other_motion = None
+    other_motion, pair = None, pair_of_scene(top, scene, source.parent)
+    if pair is not None:
+        records: tuple[Record, ...] = (pair.first, pair.second)
+        motion, other_motion = motions_in_plane(pair)
+    else:
+        motion, records = _motions(top, source.parent)
     if "other_motion" in top.values:
         if scene.engine != "plane":
             top.refuse("other_motion", "left out where there is no other_direction", "a motion")
         samples, dt, record = _samples(top.table("other_motion"), source.parent)
         records = records if record is None else (*records, record)
         motion, other_motion = motions_in_plane((motion, Motion(samples, dt)))
-    elif scene.engine == "plane":
-        top.needed("other_motion")
+    elif scene.engine == "plane" and other_motion is None:
+        top.needed("other_motion", "pair")
     duration = top.values.get("duration")
     if duration is not None:
         duration = as_number(duration, "duration", source.name, InvalidSceneFile)

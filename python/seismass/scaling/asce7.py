@@ -95,7 +95,9 @@ def scale_asce7_10(
     )
     if any(_is_pair(item) for item in given):
         names = tuple(item.name or name for item, name in zip(given, suite.names, strict=True))
-        suite = replace(suite, spectra=frozen(_mean_spectra(given, suite, suite.periods, threads)), names=names)
+        suite = replace(
+            suite, spectra=frozen(spectra_of(given, suite.periods, suite.damping, threads=threads)), names=names
+        )
     individual = suite.log_factors()
     common = suite.common_factor(individual, 1.0)
     if as_flag(between, "between", "scaling", InvalidOption):
@@ -118,13 +120,15 @@ def _first_components(given: list[Any]) -> list[Any]:
     return [item.first if _is_pair(item) else item for item in given]
 
 
-def _mean_spectra(given: list[Any], suite: SuiteSpectra, periods: FloatArray, threads: int | None) -> FloatArray:
-    """Spectra of motions (m/s2, motions x periods); of a pair the geometric mean of its components'."""
+def spectra_of(
+    given: list[Any], periods: FloatArray, damping: float = 0.05, *, threads: int | None = None
+) -> FloatArray:
+    """Return spectra of motions (m/s2, motions x periods); of a pair the geometric mean of its components'."""
     if not any(_is_pair(item) for item in given):
-        alone: FloatArray = response_spectrum(given, periods, suite.damping, threads=threads)
+        alone: FloatArray = response_spectrum(given, periods, damping, threads=threads)
         return alone
     both = [_first_components(given), [item.second if _is_pair(item) else item for item in given]]
-    first, second = (response_spectrum(each, periods, suite.damping, threads=threads) for each in both)
+    first, second = (response_spectrum(each, periods, damping, threads=threads) for each in both)
     check_not_zero(second)
     mean: FloatArray = np.sqrt(first * second)
     return mean
@@ -140,7 +144,9 @@ def _least_between(
     """Return the least ratio of the mean to the target over the range, of motions times their own factors."""
 
     def over(periods: FloatArray) -> FloatArray:
-        ratios: FloatArray = np.mean(individual[:, None] * _mean_spectra(given, suite, periods, threads), axis=0)
+        ratios: FloatArray = np.mean(
+            individual[:, None] * spectra_of(given, periods, suite.damping, threads=threads), axis=0
+        )
         ratios /= target(periods)
         return ratios
 

@@ -11,6 +11,7 @@ VIEWS: Final = {
     "Animation.html": "seismass.show.animation.html:page",
     "Animation.write": "seismass.show.animation.write:write_animation",
     "Assessment._repr_html_": "seismass.show.cards.assessments:assessment_html",
+    "PlaneAnimation.write": "seismass.show.animation.write:write_plane_animation",
     "Assessment.plot": "seismass.show.assessment.figures:assessment_figure",
     "Assessment.text": "seismass.show.assessment.text:assessment_text",
     "Assessment.write": "seismass.show.assessment.write:write_assessment",

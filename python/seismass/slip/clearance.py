@@ -14,17 +14,23 @@ from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_positive, brief, refusal
 
 OWNER: Final = "clearance"
+SIDES: Final = {"plus": "+", "minus": "-", "plus_y": "+y", "minus_y": "-y", "reach": "reach"}
+"""Distances of a clearance, and what tables call their sides; "+" and "-" are of x."""
 
 
 @dataclass(frozen=True)
 class Clearance:
-    """How far a block may slide in the positive and in the negative direction.
+    """How far a block may slide in the positive and in the negative direction, and in two directions to four sides.
 
     Attributes
     ----------
     plus, minus : float or None
         Distance (m) to a wall or a neighbour, or from the block's centre of gravity to the edge over which it falls,
         in the direction in which displacements are positive and in the other; None: no limit there.
+    plus_y, minus_y : float or None
+        The same in y, of scenes in two directions.
+    reach : float or None
+        Distance (m) in any direction, of scenes in two directions: that of the length of the slip.
 
     Raises
     ------
@@ -39,11 +45,14 @@ class Clearance:
 
     plus: float | None = None
     minus: float | None = None
+    plus_y: float | None = None
+    minus_y: float | None = None
+    reach: float | None = None
 
     def __post_init__(self) -> None:
-        if self.plus is None and self.minus is None:
+        if all(getattr(self, name) is None for name in SIDES):
             raise refusal(InvalidOption, "plus", OWNER, "given, or minus", "neither")
-        for name in ("plus", "minus"):
+        for name in SIDES:
             value = getattr(self, name)
             if value is not None:
                 object.__setattr__(self, name, as_positive(value, name, OWNER, InvalidOption))
@@ -51,7 +60,17 @@ class Clearance:
     @property
     def smallest(self) -> float:
         """The smaller of the distances (m): the limit of an absolute slip."""
-        return min(value for value in (self.plus, self.minus) if value is not None)
+        return min(value for value in self.distances if value is not None)
+
+    @property
+    def distances(self) -> tuple[float | None, ...]:
+        """The distances (m): plus, minus, plus_y, minus_y, reach."""
+        return tuple(getattr(self, name) for name in SIDES)
+
+    @property
+    def of_plane(self) -> bool:
+        """Whether a distance is given that only two directions give a meaning."""
+        return any(value is not None for value in self.distances[2:])
 
     @property
     def one_sided(self) -> bool:
@@ -59,29 +78,40 @@ class Clearance:
         return self.plus != self.minus
 
 
-def as_clearances(clearance: Any, blocks: int) -> tuple[Clearance | None, ...]:
+def as_clearances(clearance: Any, blocks: int, *, plane: bool = False) -> tuple[Clearance | None, ...]:
     """Return one clearance per block: a distance or a Clearance for all, or a list with None for none.
+
+    A distance counts on all sides, in two directions (`plane`) on those of y too.
 
     Raises
     ------
     InvalidOption
-        Something else, or another number of them than of blocks.
+        Something else, another number of them than of blocks, or a distance in y where there is one direction.
     """
+    found = _clearances(clearance, blocks, 4 if plane else 2)
+    for number, each in enumerate(found, start=1):
+        if not plane and each is not None and each.of_plane:
+            requirement = "of plus and minus alone where there is one direction"
+            raise refusal(InvalidOption, f"clearance of block {number}", "slip demand", requirement, brief(each))
+    return found
+
+
+def _clearances(clearance: Any, blocks: int, sides: int) -> tuple[Clearance | None, ...]:
     if clearance is None or _single(clearance):
-        return (_clearance(clearance),) * blocks
+        return (_clearance(clearance, sides),) * blocks
     requirement = f"a distance in m, a Clearance, or a list of {blocks}, one per block or None"
     listed = list(clearance) if isinstance(clearance, Iterable) and not isinstance(clearance, str) else [clearance]
     if len(listed) != blocks or not all(each is None or _single(each) for each in listed):
         raise refusal(InvalidOption, "clearance", "slip demand", requirement, brief(clearance))
-    return tuple(_clearance(each) for each in listed)
+    return tuple(_clearance(each, sides) for each in listed)
 
 
 def _single(value: Any) -> bool:
     return isinstance(value, Clearance) or (isinstance(value, Real) and not isinstance(value, bool))
 
 
-def _clearance(value: Any) -> Clearance | None:
-    return value if value is None or isinstance(value, Clearance) else Clearance(value, value)
+def _clearance(value: Any, sides: int) -> Clearance | None:
+    return value if value is None or isinstance(value, Clearance) else Clearance(*[value] * sides)
 
 
 def signed_peaks(slip: FloatArray, rate: FloatArray, dt: float, peak: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -122,7 +152,11 @@ def signed_peaks(slip: FloatArray, rate: FloatArray, dt: float, peak: FloatArray
 
 
 def exceedance_table(
-    plus: FloatArray, minus: FloatArray, clearances: tuple[Clearance | None, ...], confidence: float
+    plus: FloatArray,
+    minus: FloatArray,
+    clearances: tuple[Clearance | None, ...],
+    confidence: float,
+    plane: tuple[FloatArray, FloatArray, FloatArray] | None = None,
 ) -> pl.DataFrame:
     """Return how many motions bring each block to its clearance, by side and on any side.
 
@@ -134,23 +168,26 @@ def exceedance_table(
         One per block.
     confidence : float
         Probability of the interval.
+    plane : tuple of ndarray, optional
+        In two directions, the same to each side of y, and the largest length of the slip vector.
 
     Returns
     -------
     polars.DataFrame
-        block, side ("+", "-", "any"), clearance (m; of "any" the smaller), motions, exceeding, probability, low, high.
-        The interval is that of Wilson (1927), J. Am. Stat. Assoc. 22:209-212, for independent motions.
+        block, side ("+", "-", "+y", "-y", "reach", "any"), clearance (m; of "any" the smaller), motions, exceeding,
+        probability, low, high. The interval is that of Wilson (1927), J. Am. Stat. Assoc. 22:209-212, for independent
+        motions.
     """
     rows = []
     for number, clearance in enumerate(clearances):
         if clearance is None:
             continue
+        limits = {**dict(zip(SIDES.values(), clearance.distances, strict=True)), "any": clearance.smallest}
         exceeded = {
             side: values[:, number] > limit
-            for side, values, limit in (("+", plus, clearance.plus), ("-", minus, clearance.minus))
-            if limit is not None
+            for side, values in zip(SIDES.values(), (plus, minus, *(plane or ())), strict=False)
+            if (limit := limits[side]) is not None
         }
-        limits = {"+": clearance.plus, "-": clearance.minus, "any": clearance.smallest}
         exceeded["any"] = np.logical_or.reduce(list(exceeded.values()))
         for side, each in exceeded.items():
             count = int(each.sum())

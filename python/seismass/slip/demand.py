@@ -17,8 +17,10 @@ from seismass.effective_mass.runs import NamedMotions, named_motions
 from seismass.effective_mass.tables import inputs_digest
 from seismass.fragility.fragility import Fragility
 from seismass.fragility.measures import IntensityMeasure, MeasureName, measure_for
-from seismass.model.motion import HasMotion, Motion, MotionLike
+from seismass.model.motion import HasMotion, Motion
 from seismass.model.scene import Scene
+from seismass.records.pair import Pair
+from seismass.runs.batch import MotionsLike
 from seismass.runs.simulate import instruction_set
 from seismass.slip.clearance import Clearance, as_clearances, exceedance_table
 from seismass.slip.fragility import slip_fragilities
@@ -42,7 +44,7 @@ OWNER: Final = "slip demand"
 
 def slip_demand(
     scene: Scene,
-    motions: MotionLike | Iterable[MotionLike],
+    motions: MotionsLike,
     *,
     sizes: BlockSize | Iterable[BlockSize | None] | None = None,
     clearance: float | Clearance | Iterable[float | Clearance | None] | None = None,
@@ -62,12 +64,14 @@ def slip_demand(
     ----------
     scene : Scene
         Building and goods; goods on the ground slab, or without any building, are allowed, and those on racks.
-    motions : Motion, Record or iterable of them
-        The suite, scaled as it is to act. Records of one event are resampled together.
+    motions : Motion, Record, Pair or iterable of them
+        The suite, scaled as it is to act. Records of one event are resampled together. A scene in two directions takes
+        pairs.
     sizes : BlockSize, or list with one per block or None, optional
         Widths and heights, for the check whether a block slides or rocks. One size is that of all blocks.
     clearance : float, Clearance, or list with one per block or None, optional
-        How far each block may slide (m); a number counts on both sides.
+        How far each block may slide (m); a number counts on both sides, in two directions on all four. A Clearance may
+        have a `reach` in any direction.
     fragility : bool, default False
         Also scale every motion until each block reaches its clearance, and fit the probability by intensity. Needs a
         clearance.
@@ -114,6 +118,10 @@ def slip_demand(
     in the building; on the ground and in the estimates the goods are free. Fragilities are of scenes without racks,
     walls and stops.
 
+    In two directions friction is of the circle. Slips, accelerations and velocities are lengths of vectors; the tables
+    have slips by direction and side too, and those of each direction under its own motion alone, which an analysis of
+    one direction gives. The published estimates are of one direction and left out, as are fragilities.
+
     Examples
     --------
     >>> import seismass as sm
@@ -128,12 +136,12 @@ def slip_demand(
     if not scene.goods:
         raise refusal(InvalidScene, "blocks", OWNER, "at least one", "none")
     given: Any = motions
-    if not isinstance(motions, Motion | HasMotion) and isinstance(motions, Iterable):
+    if not isinstance(motions, Motion | HasMotion | Pair) and isinstance(motions, Iterable):
         given = list(motions)
     scene.on_ground("slip_demand")
-    named = named_motions(given, OWNER)
-    count = len(scene.goods)
-    measured, limits = as_sizes(sizes, count), as_clearances(clearance, count)
+    named = named_motions(given, OWNER, scene)
+    count, in_plane = len(scene.goods), scene.other_direction is not False
+    measured, limits = as_sizes(sizes, count), as_clearances(clearance, count, plane=in_plane)
     probability = as_number(confidence, "confidence", OWNER, InvalidOption)
     if not 0.0 < probability < 1.0:
         raise refusal(InvalidOption, "confidence", OWNER, "above 0 and below 1", f"{probability:g}")
@@ -144,8 +152,11 @@ def slip_demand(
         raise refusal(InvalidOption, "clearance", OWNER, "given for a fragility", "None")
     models = SlipModels.of(scene, check_damping(damping, OWNER))
     solved = []
-    for number, motion in enumerate(named.motions, start=1):
-        solved.append(solve_motion(models, motion))
+    if fragility:
+        scene.of_chain("slip_demand with a fragility")
+    others: list[Any] = [None] * len(named) if named.others is None else list(named.others)
+    for number, (motion, other) in enumerate(zip(named.motions, others, strict=True), start=1):
+        solved.append(solve_motion(models, motion, other))
         if report is not None:
             report(number, len(named))
     runs = SlipRuns.of(solved)
@@ -155,7 +166,7 @@ def slip_demand(
         "resamples": draws,
         "seed": start,
         "sizes": [None if size is None else [size.width, size.height, size.centre_height] for size in measured],
-        "clearances": [None if each is None else [each.plus, each.minus] for each in limits],
+        "clearances": [None if each is None else each.distances[: 5 if in_plane else 2] for each in limits],
     }
     fragilities: dict[int, Fragility] = {}
     of_fragilities: tuple[str, ...] = ()
@@ -176,10 +187,15 @@ def slip_demand(
     squat = squat_table(scene, by_run, measured)
     compared = estimate_table(named, solved, scene)
     plus, minus = runs.or_infinite(runs.plus), runs.or_infinite(runs.minus)
+    of_y = None
+    if runs.plane is not None:
+        sides = (runs.plane.plus[:, :, 1], runs.plane.minus[:, :, 1], runs.peak)
+        in_y, against_y, length = (runs.or_infinite(values) for values in sides)
+        of_y = (in_y, against_y, length)
     return SlipDemand(
         blocks=block_table(scene, named, runs, probability, draws, start),
         runs=by_run,
-        exceedance=exceedance_table(plus, minus, limits, probability),
+        exceedance=exceedance_table(plus, minus, limits, probability, of_y),
         squat=squat,
         estimates=estimate_summary(compared),
         estimate_runs=compared,
@@ -204,7 +220,7 @@ def _digest(scene: Scene, motions: NamedMotions, chosen: dict[str, Any]) -> str:
         return inputs_digest(scene, motions, chosen)
     digest = hashlib.sha256(json.dumps(chosen, sort_keys=True).encode())
     digest.update(repr((scene.blocks, *(rack._arguments() for rack in scene.racks))).encode())
-    for motion in motions.motions:
+    for motion in motions.components:
         digest.update(np.float64(motion.dt).tobytes())
         for part in (motion.acceleration, motion.vertical):
             digest.update(b"none" if part is None else np.ascontiguousarray(part, dtype="<f8").tobytes())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import polars as pl
@@ -79,6 +79,18 @@ def without_loose_goods(scene: Scene, *, attached: bool) -> Scene:
 
     Springs of racks keep stiffness and strength; their damping is the ratio in their modes with what is attached.
     """
+    if scene.other_direction is not False:
+        x, y = (without_loose_goods(each, attached=attached) for each in scene._directions())
+        of_both = zip(x.racks, y.racks, scene.racks, strict=True)
+        return Scene(
+            x.building,
+            racks=[_with_springs_in_y(*each) for each in of_both],
+            other_direction=True if y.building is None else y.building,
+            initial_drift=scene.initial_drift,
+            initial_velocity=scene.initial_velocity,
+            collapse_drift=scene.collapse_drift,
+            name=scene.name,
+        )
     building = scene.building
     scale = np.ones(scene.storeys + 1)
     if building is not None:
@@ -103,6 +115,19 @@ def without_loose_goods(scene: Scene, *, attached: bool) -> Scene:
         collapse_drift=scene.collapse_drift,
         name=scene.name,
     )
+
+
+def _with_springs_in_y(rack: Rack, in_y: Rack, given: Rack) -> Rack:
+    """A rack with the springs of another in y; what else differs there stays as it was given."""
+    other = {key: value for key, value in (given.other_direction or {}).items() if key not in _MADE_ANEW}
+    other["stiffness"] = in_y.stiffness
+    if in_y.yield_shear is not None:
+        other["yield_shear"] = in_y.yield_shear
+    return rack.replace(other_direction=other)
+
+
+_MADE_ANEW: Final = ("period", "stiffness", "yield_shear", "yield_shear_over_weight")
+"""What a rack without goods has as numbers of its own."""
 
 
 def _emptied(rack: Rack, floor_masses: FloatArray, scale: float, *, attached: bool) -> Rack:

@@ -40,13 +40,18 @@ class SlipDemand(Result):
         with all of them attached; `mu_over_attached`: mean of mu_s g over the latter, below 1 where it slides. With
         racks `rack` and `level` follow `floor`, 0 where the block stands on the floor itself, and "floor" is the level
         in the names of what follows. With stops: `touches`, the share of motions under which it meets one, and of the
-        velocity at contact (m/s) and of the contact force (N) `..._p84` and `..._largest`.
+        velocity at contact (m/s) and of the contact force (N) `..._p84` and `..._largest`. In two directions slips are
+        lengths of vectors; `x_mean`, `x_largest`, `y_mean`, `y_largest` are of the peaks in each; `one_direction_mean`
+        of the peaks of each direction under its motion alone, `over_one_direction` the peaks in each over these (sums
+        over motions and directions), `length_over_one_direction` the lengths over their mean.
     runs : polars.DataFrame
         One row per motion and block: motion, record, event, block, floor, collapsed, peak_slip, slip_plus, slip_minus
         (to each side; see `seismass.slip.signed_peaks`), residual_slip (signed), slip_path, moving_at_end, ground_slip,
         ground_residual, amplification, floor_acceleration_g, alone_acceleration_g, attached_acceleration_g,
         mu_over_attached, floor_velocity (m/s), acceleration_over_weight (largest abs(a)/(g + a_v)), uplift and
         overturning_limits_exceeded (null without a size), and with stops contact_velocity (m/s) and contact_force (N).
+        In two directions slip_plus and slip_minus are sides of x; besides peak_slip_x, residual_slip_x,
+        one_direction_x, these in y, slip_plus_y and slip_minus_y.
     exceedance : polars.DataFrame
         Probability of reaching the clearances at the given intensity; see `seismass.slip.exceedance_table`.
     squat : polars.DataFrame

@@ -14,11 +14,13 @@ from seismass.model.block import Block
 from seismass.model.motion import Motion
 from seismass.model.scene import Scene
 from seismass.records.intensity import integrals, peak_velocity
+from seismass.runs.plane_motion import PlaneMotion
 from seismass.runs.response import Response
 from seismass.runs.simulate import simulate
 from seismass.slip.clearance import signed_peaks
 from seismass.slip.estimates import Base, estimates
 from seismass.slip.places import at_nodes, histories_at_nodes, places_of, without_loose_goods
+from seismass.slip.plane_runs import VECTOR, PlaneSlip, solve_pair
 from seismass.slip.squat import demand_in_g
 
 
@@ -37,7 +39,8 @@ class SlipModels:
     @classmethod
     def of(cls, scene: Scene, damping: ModelDamping) -> SlipModels:
         """Return the models of a scene."""
-        ground = Scene(None, [on_ground(block) for block in scene.goods])
+        goods = [on_ground(block) for block in scene.goods]
+        ground = Scene(None, goods, other_direction=scene.other_direction is not False)
         if scene.racks:
             alone, full = (without_loose_goods(scene, attached=share) for share in (False, True))
             return cls(scene, ground, alone, full)
@@ -48,7 +51,7 @@ class SlipModels:
 
 def on_ground(block: Block) -> Block:
     """Return a block with the same friction on the ground, without stops, where its mass does not matter."""
-    return block.replace(floor=0, mass=1.0, mass_ratio=None, velocity=None, stops=None)
+    return block.replace(floor=0, mass=1.0, mass_ratio=None, velocity=None, stops=None, stops_y=None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,6 +98,9 @@ class SolvedMotion:
         that collapsed.
     estimates : list of EstimateRow
         Published estimates.
+    plane : PlaneSlip or None
+        Slips by direction, where there are two; then the others are of lengths of vectors, `plus` and `minus` of the
+        sides of x, and there are no estimates.
     """
 
     peak: FloatArray
@@ -114,6 +120,7 @@ class SolvedMotion:
     alone_acceleration: FloatArray
     full_acceleration: FloatArray
     estimates: list[EstimateRow]
+    plane: PlaneSlip | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,25 +143,31 @@ class SlipRuns:
     demand: FloatArray
     alone_acceleration: FloatArray
     full_acceleration: FloatArray
+    plane: PlaneSlip | None = None
 
     @classmethod
     def of(cls, solved: list[SolvedMotion]) -> SlipRuns:
         """Return the runs under all motions."""
-        return cls(*(np.array([getattr(each, field.name) for each in solved]) for field in fields(cls)))
+        names = [field.name for field in fields(cls) if field.name != "plane"]
+        in_plane = [each.plane for each in solved if each.plane is not None]
+        arrays = {name: np.array([getattr(each, name) for each in solved]) for name in names}
+        return cls(**arrays, plane=PlaneSlip.of_all(in_plane) if in_plane else None)
 
     def or_infinite(self, values: FloatArray) -> FloatArray:
         """Return values (motions, blocks) with infinity in runs that collapsed: goods of a fallen building are lost."""
         return np.where(self.collapsed[:, None], np.inf, values)
 
 
-def solve_motion(models: SlipModels, motion: Motion) -> SolvedMotion:
-    """Solve the models under one motion.
+def solve_motion(models: SlipModels, motion: Motion, other: Motion | None = None) -> SolvedMotion:
+    """Solve the models under one motion, or in two directions under that in x and the other one in y.
 
     Raises
     ------
     SimulationError
         A run could not be carried to its end.
     """
+    if other is not None:
+        return _solve_pair(models, (motion, other))
     scene = models.scene
     nodes = np.array([place.node for place in places_of(scene)], dtype=np.int64)
     real = simulate(scene, motion, histories=True, events=False)
@@ -193,6 +206,32 @@ def solve_motion(models: SlipModels, motion: Motion) -> SolvedMotion:
         alone_acceleration=_peaks(alone, nodes, base.acceleration),
         full_acceleration=_peaks(full, nodes, base.acceleration),
         estimates=rows,
+    )
+
+
+def _solve_pair(models: SlipModels, motions: PlaneMotion) -> SolvedMotion:
+    """Solve the models in two directions."""
+    found = solve_pair(models.scene, models.ground, models.alone, models.full, motions)
+    real, ground, sides = found.real, found.ground, found.slip
+    return SolvedMotion(
+        peak=real.peak_slip[:, VECTOR],
+        plus=sides.plus[:, 0],
+        minus=sides.minus[:, 0],
+        residual=np.hypot(*real.residual_slip.T),
+        path=real.slip_path,
+        contact_force=real.peak_contact_force.max(axis=1),
+        contact_velocity=real.peak_contact_velocity.max(axis=1),
+        moving=found.moving,
+        collapsed=real.status == "collapsed",
+        ground_peak=ground.peak_slip[:, VECTOR],
+        ground_residual=np.hypot(*ground.residual_slip.T),
+        acceleration=found.acceleration,
+        velocity=found.velocity,
+        demand=found.demand,
+        alone_acceleration=found.alone_acceleration,
+        full_acceleration=found.full_acceleration,
+        estimates=[],
+        plane=sides,
     )
 
 

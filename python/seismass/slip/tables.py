@@ -13,6 +13,7 @@ from seismass.base.quantiles import QUANTILES, interval_of, quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, counted
 from seismass.effective_mass.runs import NamedMotions
+from seismass.effective_mass.two_directions import one_direction_of_slip
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.slip.clearance import Clearance
@@ -72,6 +73,7 @@ def block_table(
                 **{name: _mean(values) / STANDARD_GRAVITY for name, values in accelerations.items()},
                 "mu_over_attached": _mean(block.mu_s * STANDARD_GRAVITY / accelerations["attached_acceleration_g"]),
                 **_contact(scene, runs, number),
+                **_in_plane(runs, number),
             }
         )
     kinds = dict.fromkeys(("block", "slides_on_floor_only", *place_names(scene)), pl.UInt32)
@@ -80,7 +82,7 @@ def block_table(
 
 def has_stops(scene: Scene) -> bool:
     """Whether tables have the columns of stops: some goods have them."""
-    return any(block.stops is not None for block in scene.goods)
+    return any(block.stops is not None or block.stops_y is not None for block in scene.goods)
 
 
 def _contact(scene: Scene, runs: SlipRuns, number: int) -> dict[str, float]:
@@ -95,6 +97,33 @@ def _contact(scene: Scene, runs: SlipRuns, number: int) -> dict[str, float]:
         "contact_force_p84": float(quantile(force[None, :], 0.84)[0]),
         "contact_force_largest": float(force.max()),
     }
+
+
+def _in_plane(runs: SlipRuns, number: int) -> dict[str, float]:
+    """Slip of a block by direction, and over that of one direction alone; nothing where there is one."""
+    if runs.plane is None:
+        return {}
+    own, alone = (values[:, number] for values in (runs.plane.peak, runs.plane.alone))
+    lost = runs.collapsed[:, None]
+    kept = ~runs.collapsed
+    pooled = float(alone[kept].sum())
+    by_axis = {
+        f"{axis}_{name}": value
+        for index, axis in enumerate("xy")
+        for name, value in zip(
+            ("mean", "largest"), _mean_and_largest(np.where(lost, np.inf, own)[:, index]), strict=True
+        )
+    }
+    return {
+        **by_axis,
+        "one_direction_mean": _mean(alone[kept].ravel()),
+        "over_one_direction": float(own[kept].sum()) / pooled if pooled > 0.0 else np.nan,
+        "length_over_one_direction": 2.0 * float(runs.peak[kept, number].sum()) / pooled if pooled > 0.0 else np.nan,
+    }
+
+
+def _mean_and_largest(values: FloatArray) -> tuple[float, float]:
+    return _mean(values), float(values.max())
 
 
 def amplification(floor: FloatArray, ground: FloatArray) -> FloatArray:
@@ -143,6 +172,15 @@ def run_table(scene: Scene, motions: NamedMotions, runs: SlipRuns, sizes: tuple[
     columns["acceleration_over_weight"] = runs.demand.ravel()
     columns["uplift"] = _known(rocks, np.isfinite(uplift))
     columns["overturning_limits_exceeded"] = _known(reached, np.isfinite(velocity))
+    if runs.plane is not None:
+        for index, axis in enumerate("xy"):
+            columns |= {
+                f"peak_slip_{axis}": runs.plane.peak[:, :, index].ravel(),
+                f"residual_slip_{axis}": pl.Series(runs.plane.residual[:, :, index].ravel(), nan_to_null=True),
+                f"one_direction_{axis}": runs.plane.alone[:, :, index].ravel(),
+            }
+        of_y = (runs.plane.plus[:, :, 1].ravel(), runs.plane.minus[:, :, 1].ravel())
+        columns |= dict(zip(("slip_plus_y", "slip_minus_y"), of_y, strict=True))
     if has_stops(scene):
         columns |= {"contact_velocity": runs.contact_velocity.ravel(), "contact_force": runs.contact_force.ravel()}
     return pl.DataFrame(columns, schema_overrides={"event": pl.String})
@@ -268,22 +306,30 @@ def demand_remarks(
     fragilities: bool,
 ) -> tuple[str, ...]:
     """Return assumptions, and what a user must know beside the numbers."""
-    given = (side for each in clearances if each is not None for side in (each.plus, each.minus) if side is not None)
-    remarks = usage_remarks(scene.remarks, motions.motions, (("clearance", side) for side in given))
-    meeting = "goods are rigid, slide in one direction and meet no obstacle: slip beyond a clearance is notional"
+    given = (side for each in clearances if each is not None for side in each.distances if side is not None)
+    remarks = usage_remarks(scene.remarks, motions.components, (("clearance", side) for side in given))
+    where = "in one direction" if runs.plane is None else "in the plane"
+    meeting = f"goods are rigid, slide {where} and meet no obstacle: slip beyond a clearance is notional"
     if has_stops(scene):
         meeting = (
-            "goods are rigid and slide in one direction, between their stops where they have them; on the ground and "
+            f"goods are rigid and slide {where}, between their stops where they have them; on the ground and "
             "in estimates they are free; slip beyond a clearance that is no stop is notional"
         )
     remarks.append(meeting)
+    if runs.plane is not None:
+        remarks.append(
+            "slips, accelerations and velocities are lengths of vectors, + and - of clearances are sides of x; "
+            "published estimates, which are of one direction, are left out"
+        )
+    elif (runs.peak > 0.0).any():
+        remarks.append(one_direction_of_slip())
     if scene.racks:
         remarks.append(
             "goods on racks slide on their level, whose acceleration is set beside their friction; racks do not "
             "uplift, and goods do not fall"
         )
     if not (runs.peak > 0.0).any() and not runs.collapsed.any():
-        remarks.append("stuck: no block slides under any motion")
+        remarks.append("no block slides under any motion")
     for row in squat.filter(pl.col("rocks_first")).iter_rows(named=True):
         remarks.append(
             f"block {row['block']} rocks before it slides (mu_s = {row['mu_s']:g} above b/(2 h_c) = "

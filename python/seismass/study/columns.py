@@ -81,7 +81,7 @@ FRACTION_COLUMNS: Final[dict[str, tuple[str, str]]] = {
     "exponent": ("1", "p of the rule: 1.2 (1 + x) where the building yields, else 1 + x/2, x = T/T_c, at most 1.5"),
     "estimate": ("1", "min(1, eta_h^p), eta_h = eta/sqrt(h_g/h_m): best estimate of the effective fraction"),
     "conservative": ("1", "min(1, eta_h): its conservative estimate"),
-    "effective": ("1", "effective fraction lambda_eff; null without `--effective` and where a run collapsed"),
+    "effective": ("1", "effective fraction; null without `--effective` and where a run collapsed"),
     "kind": ("", "stuck, root, multiple, zero, one or collapsed, as `seismass.effective_mass` has it"),
     "low": ("1", "lower end of the bootstrap interval of the effective fraction over the motions"),
     "high": ("1", "its upper end"),

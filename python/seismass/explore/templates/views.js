@@ -61,7 +61,7 @@ function fractionWords(found, corner) {
     short: `Over the built-in motions: effective fraction of the goods ${fixed(found.value, 2)}, 90 % interval ${fixed(found.low, 2)} to ${fixed(found.high, 2)}.`,
     long:
       `Effective fraction ${fixed(found.value, 3)} (90 % interval over the built-in motions ${fixed(found.low, 2)} to ${fixed(found.high, 2)}); ` +
-      `${found.kind}: ${KIND_WORDS[found.kind]}. By the rule, ${rule}.`,
+      `${KIND_WORDS[found.kind].replace(/^./, (letter) => letter.toUpperCase())}. By the rule, ${rule}.`,
   };
 }
 

@@ -7,17 +7,13 @@ import subprocess
 from collections.abc import Iterator
 from math import ceil
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import Final, Protocol
 
 from PIL import Image
 
 from seismass.base.errors import InvalidOption, MissingPackage
 from seismass.base.files import written_whole
 from seismass.base.values import as_positive, refusal
-from seismass.show.animation.picture import Picture
-
-if TYPE_CHECKING:
-    from seismass.animation.animation import Animation
 
 GIF_FRAMES: Final = 12.5
 """Default frames per second of a GIF, whose unit of time is 10 ms."""
@@ -29,7 +25,25 @@ COLOURS: Final = 32
 """Colours of a GIF."""
 
 
-def write_film(animation: Animation, path: Path, frames_per_second: float | None, speed: float) -> None:
+class Pictured(Protocol):
+    """What draws frames at any time."""
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height (pixels), both even."""
+
+    @property
+    def duration(self) -> float:
+        """Time of the last frame (s)."""
+
+    def sample(self) -> Image.Image:
+        """Return a frame in which every colour is to be seen."""
+
+    def frame(self, time: float, lasting: float = 0.0) -> Image.Image:
+        """Return the frame at a time (s), shown for `lasting`."""
+
+
+def write_film(picture: Pictured, path: Path, frames_per_second: float | None, speed: float) -> None:
     """Write a GIF or an MP4, by the suffix of the path; see `Animation.write`."""
     gif = path.suffix.lower() == ".gif"
     default = GIF_FRAMES if gif else FILM_FRAMES
@@ -44,7 +58,6 @@ def write_film(animation: Animation, path: Path, frames_per_second: float | None
             "ffmpeg of a film must be on the path (Debian, Ubuntu: apt-get install ffmpeg), or the file a .gif or "
             ".html; got none"
         )
-    picture = Picture(animation)
     with written_whole(path) as temporary:
         if ffmpeg is None:
             _write_gif(picture, temporary, rate, pace)
@@ -52,14 +65,14 @@ def write_film(animation: Animation, path: Path, frames_per_second: float | None
             _write_mp4(picture, temporary, rate, pace, ffmpeg)
 
 
-def _frames(picture: Picture, rate: float, speed: float) -> Iterator[Image.Image]:
+def _frames(picture: Pictured, rate: float, speed: float) -> Iterator[Image.Image]:
     """Frames from the start to the end, which is one of them."""
     count = ceil(picture.duration * rate / speed - 1e-6)
     for number in range(count + 1):
         yield picture.frame(min(number * speed / rate, picture.duration), lasting=speed / rate)
 
 
-def _write_gif(picture: Picture, path: Path, rate: float, speed: float) -> None:
+def _write_gif(picture: Pictured, path: Path, rate: float, speed: float) -> None:
     # One palette for all frames, of one in which everything is to be seen.
     palette = picture.sample().quantize(COLOURS, dither=Image.Dither.NONE)
     frames = (frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in _frames(picture, rate, speed))
@@ -68,7 +81,7 @@ def _write_gif(picture: Picture, path: Path, rate: float, speed: float) -> None:
     first.save(path, format="GIF", save_all=True, append_images=frames, duration=each, loop=0, optimize=True)
 
 
-def _write_mp4(picture: Picture, path: Path, rate: float, speed: float, ffmpeg: str) -> None:
+def _write_mp4(picture: Pictured, path: Path, rate: float, speed: float, ffmpeg: str) -> None:
     width, height = picture.size
     command = [ffmpeg, "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}"]
     command += ["-r", f"{rate:g}", "-i", "-", "-an", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"]

@@ -31,7 +31,8 @@ FACTORS: Final = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 
 def page(animation: Animation) -> str:
     """Return a page with one animation, which plays when it is opened unless the reader prefers less motion."""
-    return page_html(animation.title, [], subtitle=animation.note, lead=[_element(animation, autoplay=True)])
+    lead = [_element(animation, autoplay=True)]
+    return page_html(animation.title, [], subtitle=animation.note, description=description(animation), lead=lead)
 
 
 def fragment(animation: Animation) -> Markup:

@@ -11,6 +11,7 @@ from seismass.base.values import as_path, brief, refusal
 
 if TYPE_CHECKING:
     from seismass.animation.animation import Animation
+    from seismass.animation.plane import PlaneAnimation
 
 SUFFIXES: Final = (".html", ".gif", ".mp4")
 """Kinds of files that an animation is written as."""
@@ -32,5 +33,20 @@ def write_animation(
             temporary.write_text(animation.html(), encoding="utf-8")
         return
     from seismass.show.animation.film import write_film  # Pillow and matplotlib, which a page does not need
+    from seismass.show.animation.picture import Picture
 
-    write_film(animation, target, frames_per_second, speed)
+    write_film(Picture(animation), target, frames_per_second, speed)
+
+
+def write_plane_animation(
+    animation: PlaneAnimation, path: str | Path, *, frames_per_second: float | None = None, speed: float = 1.0
+) -> None:
+    """Write an animation in two directions; see `PlaneAnimation.write`."""
+    from seismass.show.animation.film import write_film  # Pillow and matplotlib
+    from seismass.show.animation.plane_picture import PlanePicture
+
+    target = as_path(path, "animation", InvalidOption)
+    if target.suffix.lower() not in SUFFIXES[1:]:
+        requirement = f"one of {', '.join(SUFFIXES[1:])} in two directions"
+        raise refusal(InvalidOption, "suffix", "animation", requirement, brief(target.suffix))
+    write_film(PlanePicture(animation), target, frames_per_second, speed)

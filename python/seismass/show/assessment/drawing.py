@@ -9,6 +9,7 @@ from markupsafe import Markup, escape
 
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import counted
+from seismass.media.isolate import apart
 from seismass.media.roles import BARE, MU, SLIDE
 from seismass.media.style import shortened
 from seismass.show.assessment.tables import AssessmentTables
@@ -40,7 +41,7 @@ def building_drawing(result: AssessmentTables) -> Markup:
         parts.append(_line(LEFT, top, LEFT + BAY, top, min(4.0, 0.25 * (bottom - top))))
         if number % every:
             continue
-        name = shortened(row["name"], NAME)
+        name = apart(shortened(row["name"], NAME))
         parts.append(_text(LEFT - 8.0, top + 4.0, f"{row['storey']} {name}".rstrip(), "end"))
         if row["height"] is not None and every == 1:
             parts.append(_text(LEFT + BAY + 10.0, 0.5 * (bottom + top) + 4.0, f"{row['height']:.3g} m", soft=True))

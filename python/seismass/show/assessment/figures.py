@@ -135,7 +135,8 @@ def _mark_shares(axes: Axes, result: AssessmentTables, size: Size) -> None:
         axes.axvline(result.advised, **ADVISED_ROLE.look, linewidth=1.2, label=label)
     if code["share_of_design_live_load"] <= present:
         label = (
-            f"{plain(code['code'])}: {code['share_of_design_live_load']:.3g} of the design live load{_unchecked(code)}"
+            f"{plain(code['code'])}: {code['share_of_design_live_load'] / present:.2f} of the goods present "
+            f"({code['share_of_design_live_load']:.3g} of the design live load{_unchecked(code)})"
         )
         at = code["share_of_design_live_load"] / present
         axes.axvline(at, **MODELS[CODE].look, linewidth=1.4, label=_wrapped(label, size))
@@ -143,7 +144,7 @@ def _mark_shares(axes: Axes, result: AssessmentTables, size: Size) -> None:
         return
     marks = {name: share / present for name, share in STORAGE_CODES.items() if share <= present}
     upper = axes.secondary_xaxis("top")
-    names = [f"{name} {STORAGE_CODES[name]:g}" for name in marks]
+    names = [f"{name} {share:.2f}" for name, share in marks.items()]
     upper.set_xticks(list(marks.values()), names, rotation=35.0, ha="left", fontsize=7.0)
 
 

@@ -39,6 +39,10 @@ def own_case(result: AssessmentTables) -> OwnCase:
     reasons = []
     if len(storeys) > MOST_STOREYS:
         reasons.append(f"it has {len(storeys)} storeys, and the live page solves up to {MOST_STOREYS}")
+    if given["other_direction"] is not None:
+        reasons.append("it moves in two directions")
+    if given["base"] is not None:
+        reasons.append("it stands on a sliding base")
     if given["walls"]:
         reasons.append("it has walls")
     if any(kind["rack"] is not None for kind in goods):

@@ -14,15 +14,12 @@ from seismass.effective_mass.estimate import RULE, RULE_IN_WORDS, SAFE_RULE
 from seismass.effective_mass.result import KIND_TEXTS
 from seismass.effective_mass.rules import BY_HAND
 from seismass.media.isolate import sentence_html
-from seismass.media.live_address import PAGE as LIVE_PAGE
-from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
+from seismass.media.page import Section, facts_html, page_html, table_html, text_html
 from seismass.media.page_lists import bullets_html, long_html
 from seismass.media.roles import EFFECTIVE, ETA, LAMBDA, MU, OMEGA, OVER_MODEL, lettered
-from seismass.media.svg import short_svg
 from seismass.media.text_table import number_text
-from seismass.show.animation.html import element_html
-from seismass.show.assessment.live import own_case
 from seismass.show.assessment.page_input import input_html
+from seismass.show.assessment.page_motion import Pictures, in_motion_html, motions_html, names_of
 from seismass.show.assessment.sheet import NOT_COVERED, sheet_html, signed_percent
 from seismass.show.assessment.tables import AssessmentTables, Fraction
 
@@ -69,7 +66,7 @@ def building_page(
         A page that needs nothing but itself; equal tables give equal pages.
     """
     document = result.document
-    pictures = _Pictures(drawings, for_phones or {})
+    pictures = Pictures(drawings, for_phones or {})
     names = names_of(result)
 
     def listed(lines: list[str]) -> Markup:
@@ -83,8 +80,8 @@ def building_page(
         *([Section("Slip of the goods", _slip(result, pictures))] if result.slip.height else []),
         Section("In an analysis", [listed(document["advice"]), *_analysis(result)]),
         Section("Checks", [_checks(result)]),
-        Section("Motions", _motions(result, pictures)),
-        Section("The building in motion", _in_motion(result)),
+        Section("Motions", motions_html(result, pictures)),
+        Section("The building in motion", in_motion_html(result)),
         Section("Remarks", [listed(document["remarks"] or ["None."])]),
         Section("Assumptions", [listed(document["assumptions"])]),
         Section("Limits of this page", [bullets_html(LIMITS)]),
@@ -95,27 +92,6 @@ def building_page(
     title = document["name"] or "Building"
     description = f"{title}: how much of its live load acts as mass in an earthquake, drifts, stability and slips."
     return page_html(title, sections, subtitle=subtitle, description=description, lead=[sheet_html(result)])
-
-
-def names_of(result: AssessmentTables) -> list[str]:
-    """Return the names of the user's that sentences may contain."""
-    document = result.document
-    goods = [kind["name"] for kind in document["input"]["goods"]]
-    return [document["name"], document["suite"]["name"], *result.storey_names, *goods, *document["suite"]["motions"]]
-
-
-class _Pictures:
-    """Drawings by name, as figures of the page, each with the one for phones."""
-
-    def __init__(self, drawings: Mapping[str, str], for_phones: Mapping[str, str]) -> None:
-        self._drawings, self._for_phones = drawings, for_phones
-
-    def figure(self, name: str, caption: str, alt: str) -> Markup:
-        """Return one figure; nothing where there is no such drawing."""
-        if name not in self._drawings:
-            return Markup("")
-        narrow = short_svg(self._for_phones[name]) if name in self._for_phones else None
-        return figure_html(short_svg(self._drawings[name]), caption, alt, narrow=narrow)
 
 
 def _number(value: float | None, digits: int = 2) -> str:
@@ -162,7 +138,7 @@ def _verdict(text: str) -> Markup:
     return Markup('<span class="{}">{}</span>').format(looks.get(text, ""), text)
 
 
-def _fractions(result: AssessmentTables, pictures: _Pictures) -> list[Markup]:
+def _fractions(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     if not result.effective:
         return [text_html("There are no goods on the floors.")]
     low, high = result.mu_factors
@@ -214,7 +190,7 @@ def _fractions(result: AssessmentTables, pictures: _Pictures) -> list[Markup]:
     ]
 
 
-def _drifts(result: AssessmentTables, pictures: _Pictures) -> list[Markup]:
+def _drifts(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     ratio = result.drift_limit is not None
     scale, unit = (1e2, "%") if ratio else (1e3, "mm")
     names = {name: f"{name} ({unit})" for name in ("mean", "p16", "median", "p84", "max")}
@@ -312,7 +288,7 @@ def _analysis(result: AssessmentTables) -> list[Markup]:
     ]
 
 
-def _slip(result: AssessmentTables, pictures: _Pictures) -> list[Markup]:
+def _slip(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     names = {
         "peak_mean": "peak, mean (mm)",
         "peak_median": "median (mm)",
@@ -342,68 +318,6 @@ def _slip(result: AssessmentTables, pictures: _Pictures) -> list[Markup]:
             formats={**dict.fromkeys(names, lambda value: f"{1e3 * value:.1f}"), "mu_s": ".3g", "mu_k": ".3g"},
         ),
     ]
-
-
-def _motions(result: AssessmentTables, pictures: _Pictures) -> list[Markup]:
-    given, target = result.document["input"], result.document["target"]
-    site = "" if target is None else " beside the site spectrum"
-    parts = [
-        text_html(sentence_html(f"The answer stands {result.document['on_motions']}.")),
-        pictures.figure(
-            "spectrum",
-            f"Spectra of the motions as they load the building{site}; first periods without goods and with all.",
-            f"Mean and scatter of the spectra of the motions{site}; first periods {given['period_bare']:.3g} and "
-            f"{given['period_attached']:.3g} s.",
-        ),
-    ]
-    if result.scaling is not None:
-        parts.append(
-            table_html(
-                result.scaling,
-                "Scaling factors: that of each motion is its own times the common one.",
-                headers={
-                    "motion": "number",
-                    "record": "motion",
-                    "individual_factor": "own factor",
-                    "common_factor": "common factor",
-                },
-                formats=dict.fromkeys(("individual_factor", "common_factor", "factor"), ".4f"),
-            )
-        )
-    return parts
-
-
-def _in_motion(result: AssessmentTables) -> list[Markup]:
-    """The building under one motion, and the way to the live page."""
-    parts = []
-    if result.animation is not None:
-        about = result.animation["about"]
-        beside = (
-            f", beside a model with {100.0 * about['fraction']:.0f} % of the goods present attached, the code's share"
-        )
-        parts += [
-            text_html(
-                sentence_html(
-                    f"Under {about['motion']}, motion {about['number']}, scaled by {about['factor']:.3g} to a peak of "
-                    f"{about['peak_g']:.2f} g: the motion with the median drift of those under which goods slide"
-                    f"{beside if result.effective else ''}.",
-                    names_of(result),
-                )
-            ),
-            element_html(result.animation["element"]),
-        ]
-    return [*parts, *_live(result)]
-
-
-def _live(result: AssessmentTables) -> list[Markup]:
-    case, reasons, differences = own_case(result)
-    if case is None:
-        return [text_html(f"The live page cannot show this building: {'; '.join(reasons)}.")]
-    link = Markup(
-        '<a class="live" href="{page}#{address}">Open it in the live page</a> ({page} in the folder of this page, '
-        "which <code>seismass building</code> writes where the package carries the kernel for browsers). There:"
-    ).format(page=LIVE_PAGE, address=case.address)
-    return [text_html(link), bullets_html(f"{lettered(line)}." for line in differences)]
 
 
 def _provenance(result: AssessmentTables) -> list[Markup]:

@@ -11,12 +11,13 @@ from markupsafe import Markup
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.media.isolate import isolated, sentence_html
 from seismass.media.page import facts_html, table_html
-from seismass.media.page_lists import long_html
+from seismass.media.page_lists import long_html, whole_html
 from seismass.media.roles import MU, OMEGA
 from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
 from seismass.show.assessment.tables import AssessmentTables
 
-BY_DESIGN: Final = "by design, see strength"
+MOST_MOTIONS: Final = 12
+"""Motions that are named here."""
 
 
 def input_html(result: AssessmentTables) -> list[Markup]:
@@ -26,7 +27,6 @@ def input_html(result: AssessmentTables) -> list[Markup]:
 
 def _facts(result: AssessmentTables) -> dict[str, str]:
     given, code, document = result.document["input"], result.code, result.document
-    names = [document["suite"]["name"], *document["suite"]["motions"]]
     facts: dict[str, str] = {}
     if given["file"]:
         facts["File"] = isolated(given["file"])
@@ -48,6 +48,7 @@ def _facts(result: AssessmentTables) -> dict[str, str]:
         "Damping": _with_source(
             f"{100.0 * given['damping']:g} % of critical in the modes of the building without goods", given, "damping"
         ),
+        **_further(given),
         "P-Delta": _with_source(
             "with the weight of building and goods" if given["p_delta"] else "none", given, "p_delta"
         ),
@@ -65,8 +66,35 @@ def _facts(result: AssessmentTables) -> dict[str, str]:
         "Site spectrum": _with_source(
             "none" if document["target"] is None else document["target"]["label"], given, "site"
         ),
-        "Motions": sentence_html(", ".join([f"{names[0]}: {', '.join(names[1:])}"]), names),
+        "Motions": _motions(document["suite"]),
     }
+    return facts
+
+
+def _motions(suite: dict[str, Any]) -> Markup:
+    names = suite["motions"]
+    if len(names) > MOST_MOTIONS:
+        return Markup("{}: {} motions, listed below with their factors").format(isolated(suite["name"]), len(names))
+    return Markup("{}: {}").format(isolated(suite["name"]), whole_html(map(isolated, names)))
+
+
+def _further(given: dict[str, Any]) -> dict[str, str]:
+    """What few buildings have: another direction, a sliding base."""
+    facts: dict[str, str] = {}
+    other, base = given["other_direction"], given["base"]
+    if other is not None:
+        rule = "as stated" if other["R"] is None else f"by design with R = {other['R']:g}"
+        strength = [1e-3 * value for value in other["yield_shear"] if value is not None]
+        said = f", V_y {min(strength):.0f} to {max(strength):.0f} kN" if strength else ", elastic"
+        stiffness = [1e-6 * value for value in other["stiffness"]]
+        facts["Other direction, y"] = (
+            f"first period {other['period_bare']:.3f} s without goods, {other['period_attached']:.3f} s with all; "
+            f"stiffness {min(stiffness):.1f} to {max(stiffness):.1f} kN/mm; strengths {rule}{said}; the table of "
+            "storeys is that of x"
+        )
+    if base is not None:
+        pendulum = "" if base["radius"] is None else f", pendulum of radius {base['radius']:g} m"
+        facts["Sliding base"] = f"{MU}_s {base['mu_s']:g}, {MU}_k {base['mu_k']:g}{pendulum}"
     return facts
 
 

@@ -8,8 +8,9 @@ import polars as pl
 from markupsafe import Markup
 
 from seismass.assessment.models import ADVISED, BARE, NAMES
-from seismass.media.isolate import isolated, sentence_html
+from seismass.media.isolate import apart, isolated, sentence_html
 from seismass.media.page import table_html, text_html
+from seismass.media.page_lists import whole_html
 from seismass.show.assessment.box import answer_lines, box_class
 from seismass.show.assessment.drawing import building_drawing
 from seismass.show.assessment.tables import AssessmentTables
@@ -59,8 +60,14 @@ def _drawing_caption(result: AssessmentTables) -> str:
     racks = any(kind["rack"] is not None for kind in result.document["input"]["goods"])
     return (
         "The building with its goods: what is present of the design live load, and friction, static/kinetic"
-        f"{'; grey: bolted' * bolted}{'; on racks' * racks}."
+        f"{'; grey: bolted' * bolted}{'; on racks' * racks}{_support(result)}."
     )
+
+
+def _support(result: AssessmentTables) -> str:
+    given = result.document["input"]
+    base = "; it stands on a sliding base" if given["base"] is not None else ""
+    return base + ("; it moves in two directions" if given["other_direction"] is not None else "")
 
 
 def _verdicts(result: AssessmentTables) -> Markup:
@@ -152,7 +159,7 @@ def _storeys(result: AssessmentTables) -> list[Markup]:
     shown = shown.sort("storey", descending=True)
     rows = []
     for row in shown.iter_rows(named=True):
-        cells: dict[str, Any] = {"storey": f"{row['storey']} {row['name'] or ''}".rstrip()}
+        cells: dict[str, Any] = {"storey": f"{row['storey']} {apart(row['name'] or '')}".rstrip()}
         for name, words in ((ADVISED, "analysis 1"), (BARE, "analysis 2"), ("sliding", "goods slide")):
             value = row.get(name)
             cells[f"{words} ({unit})"] = None if value is None else f"{scale * value:.2f}"
@@ -172,12 +179,9 @@ def _motions(result: AssessmentTables) -> Markup:
     """Which motions, with their factors where they are few."""
     suite = result.document["suite"]
     names, factors = suite["motions"], result.document["factors"]
-    shown = names[:MOST_MOTIONS]
+    shown = [isolated(name) for name in names[:MOST_MOTIONS]]
     if factors is not None:
-        listed = [f"{name} \N{MULTIPLICATION SIGN} {factor:.2f}" for name, factor in zip(shown, factors, strict=False)]
-    else:
-        listed = list(shown)
+        times = Markup("{} \N{MULTIPLICATION SIGN} {:.2f}")
+        shown = [times.format(name, factor) for name, factor in zip(shown, factors, strict=False)]
     more = f" and {len(names) - len(shown)} more, in the table of motions" if len(names) > len(shown) else ""
-    return Markup("<strong>Motions.</strong> {}").format(
-        sentence_html(f"{suite['name']}: {', '.join(listed)}{more}.", [suite["name"], *names])
-    )
+    return Markup("<strong>Motions.</strong> {}: {}{}.").format(isolated(suite["name"]), whole_html(shown), more)

@@ -19,6 +19,7 @@ from seismass.base.values import brief, refusal
 from seismass.effective_mass import ByHand
 from seismass.effective_mass.curve import Kind
 from seismass.media.folder import as_written
+from seismass.model.scene import Scene
 from seismass.show.animation.html import element_content
 
 DOCUMENT: Final = "assessment.json"
@@ -121,8 +122,17 @@ class AssessmentTables:
 
 
 def assessment_tables(result: Assessment, *, animated: bool = False) -> AssessmentTables:
-    """Return what a folder of the assessment holds; the animation, which is solved for, only where it is asked for."""
-    return _made(json.loads(result.to_json()), result.tables, _animation(result) if animated else None)
+    """Return what a folder of the assessment holds; the animation, which is solved for, only where it is asked for.
+
+    In two directions there is none in a page.
+    """
+    shown = _animation(result) if animated and result.example.scene.other_direction is False else None
+    return _made(json.loads(result.to_json()), result.tables, shown)
+
+
+def _is_animated(scene: Scene) -> bool:
+    """Whether an animation can show a scene: one direction, on firm ground."""
+    return scene.base is None and scene.other_direction is False
 
 
 def read_assessment_tables(folder: Path) -> AssessmentTables:
@@ -156,9 +166,11 @@ def read_assessment_tables(folder: Path) -> AssessmentTables:
         return _made(document, tables, json.loads(read_file(path)) if path.exists() else None)
 
 
-def _animation(result: Assessment) -> dict[str, Any]:
+def _animation(result: Assessment) -> dict[str, Any] | None:
     """The building under the motion in the middle, beside the model with the code's share, as values of JSON."""
     shown, building = result.example, result.building
+    if not _is_animated(shown.scene):
+        return None
     share = building.code_share / building.present_share if building.present_share > 0.0 else 0.0
     fraction = min(1.0, share)
     animation = animate(shown.scene, shown.motion, fraction=fraction, title=building.name)

@@ -52,7 +52,8 @@ def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figu
     drawn: dict[str, Figure] = {}
     if figures:
         tables = assessment_tables(result, animated=True)
-        documents[ANIMATION] = json.dumps(tables.animation) + "\n"
+        if tables.animation is not None:
+            documents[ANIMATION] = json.dumps(tables.animation) + "\n"
         drawn, drawings = _drawn(tables)
         documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
         documents[PAGE] = _page(tables, drawings)

@@ -37,7 +37,9 @@ def _drifts(result: Assessment) -> str:
     scale, unit = (1e3, " mm") if result.building.heights is None else (1e2, " %")
     names = {"advised": "analysis 1", "bare": "analysis 2", REAL: "goods slide", "governing": "governs"}
     shown = {name: title for name, title in names.items() if table[name].is_not_null().any()}
-    drifts = [column_texts(table[name].to_list(), scale=scale, unit=unit) for name in shown]
+    # One quantity in all columns: the same decimals in all of them.
+    texts = column_texts([value for name in shown for value in table[name].to_list()], scale=scale, unit=unit)
+    drifts = [texts[place * table.height : (place + 1) * table.height] for place in range(len(shown))]
     labels = [f"storey {number} {name}".rstrip() for number, name in table.select("storey", "name").iter_rows()]
     left_out = result.building.storeys - table.height
     more = line(f"and {left_out} storeys above") if left_out > 0 else ""

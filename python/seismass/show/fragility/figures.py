@@ -16,12 +16,14 @@ from matplotlib.patches import Patch
 from seismass.base.values import FloatArray
 from seismass.fragility.limits import LimitState
 from seismass.fragility.result import FragilityAnalysis
-from seismass.media.axes import grid_lines
+from seismass.media.axes import grid_lines, say
 from seismass.media.result import named_figure
 from seismass.media.roles import GREY, INK, LIMIT, MODELS, PAPER, SLIDE, model_name
 from seismass.media.style import SERIES, STYLE, plain
 
 _MARKERS: Final = ("o", "s", "^", "D", "v", "P")
+NEARLY_ONE: Final = 0.97
+"""Probability behind which a curve has nothing more to show."""
 _FRACTILE_LOOKS: Final[dict[str, Any]] = {"p16": (0, (1.2, 1.2)), "p50": "-", "p84": (0, (5, 2))}
 _FRACTILE_NAMES: Final = {"p16": "16 %", "p50": "median", "p84": "84 %"}
 
@@ -52,10 +54,13 @@ def fragility_figure(result: FragilityAnalysis) -> Figure:
                     _curve(axes, result, limit, model, look, marker)
             axes.set_title(plain(limit.text))
             axes.set_ylim(-0.02, 1.02)
-            axes.set_xlim(left=0.0)
+            axes.set_xlim(0.0, _highest_drawn(result, limit))
             axes.set_xlabel(_intensity_label(result))
             axes.set_ylabel("probability of exceedance")
             grid_lines(axes)
+            own = [fit for (_, name), fit in result.fits.items() if name == limit.name]
+            if all(fit.kind == "never" for fit in own):
+                say(axes, "never exceeded")
         for axes in panels[count:]:
             axes.set_axis_off()
         handles: list[Any] = [
@@ -65,9 +70,29 @@ def fragility_figure(result: FragilityAnalysis) -> Figure:
         if any(len(fit.samples) for fit in result.fits.values()):
             share = f"{100.0 * result.metadata['confidence']:g} % interval"
             handles.append(Patch(facecolor=GREY, alpha=0.3, label=share))
-        figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
+        if count < len(panels):
+            panels[count].legend(handles=handles, loc="center", frameon=False)
+        else:
+            figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
         figure.supxlabel(_caption(result), fontsize=7.5)
     return figure
+
+
+def _highest_drawn(result: FragilityAnalysis, limit: LimitState) -> float | None:
+    """Intensity up to which curves are drawn: to where the last of them is nearly one, or all motions are beyond it."""
+    own = result.curves.filter(pl.col("limit") == limit.name)
+    if own.is_empty():
+        return None
+    known = [
+        rows.filter(pl.col("probability") >= NEARLY_ONE)["intensity"].min()
+        for _, rows in own.group_by("model", maintain_order=True)
+    ]
+    ends = [float(end) for end in known if isinstance(end, float)]
+    seen = [observed(result, limit, str(model))[0] for model in own["model"].unique(maintain_order=True)]
+    points = np.concatenate([at[np.isfinite(at)] for at in seen])
+    nearly = [1.15 * max(ends)] if ends else []
+    nearly += [1.25 * float(points.max())] if points.size else []
+    return min(nearly) if nearly else None
 
 
 def _looks(result: FragilityAnalysis) -> dict[str, tuple[dict[str, Any], str]]:
@@ -204,7 +229,7 @@ def _intensity_label(result: FragilityAnalysis) -> str:
 
 def _caption(result: FragilityAnalysis) -> str:
     """One line on what the curves depend on."""
-    method = {"hunt_fill": "hunt and fill", "stripes": "stripes", "cloud": "cloud"}[result.method]
+    method = {"hunt_fill": "incremental dynamic analysis", "stripes": "stripes", "cloud": "cloud"}[result.method]
     share = result.metadata.get("code_share")
     rule = "" if share is None else f";  code: {100.0 * share:g} % of the goods attached"
     return f"{method}, {result.motions.height} motions, whose scatter alone is shown{rule}"

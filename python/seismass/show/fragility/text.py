@@ -7,6 +7,7 @@ import textwrap
 from typing import TYPE_CHECKING, Any, Final
 
 from seismass.base.values import counted
+from seismass.media.roles import model_name
 from seismass.media.text_table import ends_text, number_text
 
 if TYPE_CHECKING:
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 
 _WIDTH: Final = 120
 _METHODS: Final = {
-    "hunt_fill": "incremental dynamic analysis, hunt and fill",
+    "hunt_fill": "incremental dynamic analysis",
     "stripes": "stripes",
     "cloud": "cloud",
 }
@@ -29,12 +30,13 @@ def analysis_text(result: FragilityAnalysis) -> str:
     for limit in result.limits:
         lines += ["", f"limit     {limit.text}"]
         own = result.fragilities.filter(limit=limit.name)
-        width = max(len(name) for name in result.models) + 2
+        names = {name: model_name(name) for name in result.models}
+        width = max(map(len, names.values())) + 2
         lines.append(f"  {'':{width}}{'median capacity':24}dispersion [{share} interval over the motions]")
         for row in own.iter_rows(named=True):
-            lines.append(f"  {row['model']:{width}}{_fitted(row)}")
+            lines.append(f"  {names[row['model']]:{width}}{_fitted(row)}")
         missing = [name for name in result.models if name not in own["model"].to_list()]
-        lines += [f"  {name:{width}}has no such quantity" for name in missing]
+        lines += [f"  {names[name]:{width}}has no such quantity" for name in missing]
         lines += [
             _ratio(row, result.reference) for row in result.comparison.filter(limit=limit.name).iter_rows(named=True)
         ]
@@ -70,9 +72,10 @@ def _known(row: dict[str, Any], name: str, form: str) -> str:
 
 def _ratio(row: dict[str, Any], reference: str) -> str:
     if row["median_ratio"] is None or not math.isfinite(row["median_ratio"]):
-        return f"  capacity of {row['model']} over {reference}: not known"
+        return f"  capacity of {model_name(row['model'])} over {model_name(reference)}: not known"
     interval = ends_text(row["median_ratio_low"], row["median_ratio_high"], infinite="none")
-    return f"  capacity of {row['model']} over {reference}: {row['median_ratio']:.2f}{interval}"
+    over = f"{model_name(row['model'])} over {model_name(reference)}"
+    return f"  capacity of {over}: {row['median_ratio']:.2f}{interval}"
 
 
 def _exceedance(row: dict[str, Any], reference: str) -> str:
@@ -83,12 +86,12 @@ def _exceedance(row: dict[str, Any], reference: str) -> str:
         return f"{100.0 * row[name]:.1f} %{ends}"
 
     if row["model"] == reference:
-        return f"  at {row['intensity']:.3g}: {reference} {percent('reference')}"
+        return f"  at intensity {row['intensity']:.3g}: {model_name(reference)} {percent('reference')}"
     difference = ""
     if row["difference"] is not None:
         points = f"{100.0 * row['difference']:+.1f} points"
         ends = ends_text(row["difference_low"], row["difference_high"], "+.1f", scale=100.0, infinite="none")
         difference = f"; {points}{ends}"
     said = "unknown" if row["probability"] is None else f"{100.0 * row['probability']:.1f} %"
-    where = f"where {row['model']} says {said} (at {row['intensity']:.3g})"
-    return f"  {where}, {reference} has {percent('reference')}{difference}"
+    model = f"at {row['intensity']:.3g}: {model_name(row['model'])} {said}"
+    return f"  {model}, {model_name(reference)} {percent('reference')}{difference}"

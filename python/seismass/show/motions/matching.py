@@ -15,7 +15,7 @@ from matplotlib.patches import Patch
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, counted
 from seismass.media.figure_file import CAPTION_CHARACTERS
-from seismass.media.roles import BLUE, GREY, INK, VERMILION
+from seismass.media.roles import BLUE, GREY, INK, ORANGE, VERMILION
 from seismass.media.style import PERIOD_TICKS, STYLE, plain
 
 if TYPE_CHECKING:
@@ -23,13 +23,13 @@ if TYPE_CHECKING:
 
 BAND: Final = 0.05
 """Half-width of the band about the target."""
-BEFORE: Final[dict[str, Any]] = {"color": GREY, "linewidth": 1.0}
-AFTER: Final[dict[str, Any]] = {"color": BLUE, "linewidth": 1.0, "linestyle": (0, (4, 1))}
+BEFORE: Final[dict[str, Any]] = {"color": ORANGE, "linewidth": 1.6}
+AFTER: Final[dict[str, Any]] = {"color": BLUE, "linewidth": 0.9}
 _WIDTH: Final = 9.6
 
 
 def matching_figure(matched: MatchedRecord) -> Figure:
-    """Return the figure of a matched record; the scaled record is grey and drawn through, the matched one blue."""
+    """Return the figure of a matched record; the scaled record is orange, the matched one blue and thinner."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(_WIDTH, 7.4), layout="constrained")
         grid = figure.add_gridspec(4, 2, width_ratios=(1.0, 1.15))
@@ -88,6 +88,19 @@ def _ratios(matched: MatchedRecord, axes: Axes) -> None:
     axes.set_ylabel("over the target")
 
 
+def _one_above_the_other(axes: Axes, time: FloatArray, histories: tuple[FloatArray, FloatArray], reach: float) -> None:
+    """The history before above the one after, each about its own zero, on one scale."""
+    tick = float(f"{0.8 * reach:.1g}")
+    places, labels = [], []
+    for history, zero, look in zip(histories, (2.2 * reach, 0.0), (BEFORE, AFTER), strict=True):
+        axes.plot(time, zero + history, **look | {"linewidth": 0.8, "linestyle": "-"})
+        axes.axhline(zero, color=INK, linewidth=0.5)
+        places += [zero - tick, zero, zero + tick]
+        labels += [f"{-tick:g}", "0", f"{tick:g}"]
+    axes.set_yticks(places, labels)
+    axes.set_ylim(-1.1 * reach, 3.6 * reach)
+
+
 def _period_axis(axes: Axes, first: float, last: float) -> None:
     axes.set_xscale("log")
     axes.set_xlim(first, last)
@@ -124,10 +137,13 @@ def _histories(matched: MatchedRecord, panels: list[Axes], last: Axes) -> None:
         ("displacement (m)", before.displacement, after.displacement, f"PGD {before.pgd:.3f} to {after.pgd:.3f} m"),
     )
     for axes, (label, first, second, peaks) in zip(panels, rows, strict=True):
-        reach = 1.35 * max(float(np.max(np.abs(first))), float(np.max(np.abs(second)))) or 1.0
-        axes.plot(time, first, **BEFORE | {"linewidth": 0.8})
-        axes.plot(time, second, **AFTER | {"linewidth": 0.8, "linestyle": "-"})
-        axes.set_ylim(-reach, reach)
+        reach = 1.1 * max(float(np.max(np.abs(first))), float(np.max(np.abs(second)))) or 1.0
+        if axes is panels[0]:  # too dense to lie on one another
+            _one_above_the_other(axes, time, (first, second), reach)
+        else:
+            axes.plot(time, first, **BEFORE | {"linewidth": 2.4})
+            axes.plot(time, second, **AFTER | {"linewidth": 0.9, "linestyle": "-"})
+            axes.set_ylim(-1.25 * reach, 1.25 * reach)
         axes.set_ylabel(label)
         axes.set_xlim(0.0, time[-1])
         axes.tick_params(labelbottom=False)

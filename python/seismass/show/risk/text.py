@@ -35,7 +35,7 @@ def risk_text(result: RiskTargetedShare) -> str:
     motions = counted(about["motions"], "motion")
     lines = [
         f"risk-targeted share  {result.value:.3f}{_interval(result.interval, percent)}",
-        f"                     {result.kind}: {KIND_TEXTS[result.kind]}",
+        f"                     {KIND_TEXTS[result.kind]}",
         f"limit                {result.limit.text} under {motions}; {result.measure.label}, "
         f"{result.estimator} fragilities",
         f"hazard               {result.hazard.label or 'as given'}: {result.hazard.sa_g[0]:g} to "

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass.media.axes import grid_lines
+from seismass.media.axes import grid_lines, say
 from seismass.media.figure_file import CAPTION_CHARACTERS
 from seismass.media.result import named_figure
 from seismass.media.roles import GREY, INK, LIMIT, MU, SLIDE
@@ -27,11 +27,11 @@ _HEIGHT = 4.6
 def slip_demand_figure(result: SlipDemand, name: str | None = None) -> Figure:
     """Return `SlipDemand.plot`."""
     named_figure(result, name)
-    panels = 3 if result.fragilities else 2
-    width = 4.2 * panels
+    rows = 2 if result.fragilities else 1
+    width = 8.4
     with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(width, _HEIGHT), layout="constrained")
-        axes = figure.subplots(1, panels, squeeze=False)[0]
+        figure = Figure(figsize=(width, _HEIGHT * (0.85 * rows + 0.15)), layout="constrained")
+        axes = figure.subplots(rows, 2, squeeze=False).ravel()
         _by_block(axes[0], result)
         _against_acceleration(axes[1], result)
         if result.fragilities:
@@ -62,7 +62,11 @@ def slip_demand_figure(result: SlipDemand, name: str | None = None) -> Figure:
         ]
         if result.exceedance.height:
             handles.append(Line2D([], [], color=LIMIT.colour, linestyle=LIMIT.line, linewidth=1.2, label="clearance"))
-        figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
+        if result.fragilities:
+            axes[3].set_axis_off()
+            axes[3].legend(handles=handles, loc="center", frameon=False)
+        else:
+            figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
         figure.supxlabel(textwrap.fill(_caption(result), int(CAPTION_CHARACTERS * width)), fontsize=7.5)
     return figure
 
@@ -102,7 +106,10 @@ def _by_block(axes: Axes, result: SlipDemand) -> None:
         labels.append(f"block {row['block']}, {name}\n{MU} = {row['mu_s']:g}{collapses}")
     axes.set_yticks(range(len(labels)), labels)
     axes.set_ylim(-0.6, len(labels) - 0.4)
-    axes.set_xlim(0.0, None)
+    slides = bool((result.runs["peak_slip"] > 0.0).any())
+    axes.set_xlim(0.0, None if slides or axes.dataLim.x1 > 0.0 else 1.0)
+    if not slides:
+        say(axes, "nothing slides in the building")
     axes.set_xlabel("peak slip (mm)")
     grid_lines(axes)
 
@@ -117,7 +124,10 @@ def _against_acceleration(axes: Axes, result: SlipDemand) -> None:
         handles.append(Line2D([], [], **look, markersize=5.0, label=f"block {row['block']}"))
     axes.axvline(1.0, color=INK, linewidth=0.8)
     axes.set_xlim(0.0, max(1.1, axes.get_xlim()[1]))
-    axes.set_ylim(0.0, None)
+    slides = bool((result.runs["peak_slip"] > 0.0).any())
+    axes.set_ylim(0.0, None if slides else 1.0)
+    if not slides:
+        say(axes, "nothing slides")
     axes.set_xlabel(f"{MU} g / peak floor acceleration, all goods attached")
     axes.set_ylabel("peak slip (mm)")
     axes.legend(handles=handles, fontsize=8.0, frameon=False)

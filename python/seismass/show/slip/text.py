@@ -18,13 +18,14 @@ if TYPE_CHECKING:
 _LABEL: Final = 12
 _SLIPS: Final = (-16, 30, 9, 8, 30, 8)
 _RATIOS: Final = (-16, 24, 26, 24, 12)
+_DIRECTIONS: Final = (-16, 14, 14, 9, 9, 9)
 _ESTIMATES: Final = (-8, -14, -34, 8, 9, 8)
 
 
 def slip_demand_text(result: SlipDemand) -> str:
     """Return `SlipDemand.text`."""
     lines = _blocks(result)
-    for part in (_contacts(result), _exceedance(result), _squat(result), _estimates(result)):
+    for part in (_directions(result), _contacts(result), _exceedance(result), _squat(result), _estimates(result)):
         if part:
             lines += ["", *part]
     return "\n".join([*lines, "", *remark_lines(result.remarks, _LABEL)])
@@ -41,8 +42,9 @@ def remark_lines(remarks: Iterable[str], indent: int) -> list[str]:
 
 def _blocks(result: SlipDemand) -> list[str]:
     motions = counted(result.metadata["motions"], "motion")
+    what = "Length of the peak slip" if "x_mean" in result.blocks.columns else "Peak slip"
     lines = [
-        f"Peak slip (mm): mean of {motions} [16 %, 84 % of them], largest; share of motions that slide",
+        f"{what} (mm): mean of {motions} [16 %, 84 % of them], largest; share of motions that slide",
         text_line(("block", "in the building", "largest", "slides", "on the ground", "slides"), _SLIPS),
     ]
     for row in result.blocks.iter_rows(named=True):
@@ -69,6 +71,21 @@ def _blocks(result: SlipDemand) -> list[str]:
     )
     lines.append("  PFA: peak floor acceleration with all goods attached, mean of the ratio")
     return lines
+
+
+def _directions(result: SlipDemand) -> list[str]:
+    """Slip by direction, beside that of one direction alone; nothing in one direction."""
+    if "x_mean" not in result.blocks.columns:
+        return []
+    lines = [
+        "Peak slip by direction (mm): mean and largest in x and in y; mean path; over that of one direction alone",
+        text_line(("block", "x", "y", "path", "in each", "length"), _DIRECTIONS),
+    ]
+    for row in result.blocks.iter_rows(named=True):
+        of_axes = (f"{_mm(row[f'{axis}_mean'])}, {_mm(row[f'{axis}_largest'])}" for axis in "xy")
+        over = (number_text(row[name]) for name in ("over_one_direction", "length_over_one_direction"))
+        lines.append(text_line((f"{row['block']}, {_place(row)}", *of_axes, _mm(row["path_mean"]), *over), _DIRECTIONS))
+    return [*lines, "  in each: means of the peaks in x and in y over those of each direction under its motion alone"]
 
 
 def _contacts(result: SlipDemand) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from seismass.media.roles import EFFECTIVE
 from seismass.media.text_table import change_text, number_text, text_line
 
 
@@ -54,8 +55,8 @@ def _scatter(row: dict[str, Any]) -> list[str]:
     """What the largest is made of, and how it scatters."""
     median, low, high = (row[f"{name}_underestimation_percent"] for name in ("median", "p16", "p84"))
     lines = [
-        f"    by mass, by sliding     {change_text(row['mass_percent'])} (attached over code), "
-        f"{change_text(row['sliding_percent'])} (real over attached)",
+        f"    by mass, by sliding     {change_text(row['mass_percent'])} (all attached over code), "
+        f"{change_text(row['sliding_percent'])} (goods slide over all attached)",
         f"    motion by motion        median {change_text(median)}, 16 to 84 %: {change_text(low)} to "
         f"{change_text(high)}",
     ]
@@ -72,15 +73,15 @@ def _growth_text(growth: dict[str, dict[str, int]], varied: str) -> str:
 
 
 def _first_storey_tables(rows: list[dict[str, Any]]) -> list[str]:
-    """Underestimation, real over attached, and estimate of lambda side by side, a row for each R."""
+    """Underestimation, what sliding does, and estimate of lambda side by side, a row for each R."""
     alphas = sorted({row["alpha"] for row in rows})
     at = {(row["R"], row["alpha"]): row for row in rows}
     effective = any(row["effective"] is not None for row in rows)
     shown: list[tuple[str, str, Callable[[float | None], str]]] = [
-        ("real over code", "underestimation_percent", change_text),
-        ("real over attached", "sliding_percent", change_text),
+        ("goods slide / code", "underestimation_percent", change_text),
+        ("goods slide / all", "sliding_percent", change_text),
         ("lambda, estimate", "estimate", number_text),
-        *([("lambda_eff", "effective", number_text)] if effective else []),
+        *([(EFFECTIVE, "effective", number_text)] if effective else []),
     ]
     widths = (-20, *(max(7 * len(alphas), 19) + 2 for _ in shown))
     lines = [

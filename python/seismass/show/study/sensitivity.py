@@ -6,7 +6,7 @@ import polars as pl
 
 from seismass.media.text_table import change_text, text_table
 
-_HEADS = ("choice", "setting", "largest", "R least", "R most", "mass", "sliding")
+_HEADS = ("choice", "setting", "largest", "smallest R", "largest R", "mass", "sliding")
 _VALUES = ("largest_percent", "least_R_percent", "most_R_percent", "mass_percent", "sliding_percent")
 
 
@@ -20,11 +20,14 @@ def sensitivity_text(table: pl.DataFrame) -> str:
     """
     blocks = []
     for title, rows in _groups(table):
-        lines = [f"{title}: first storeys, underestimation (real - code) / code", *text_table([_HEADS, *rows], left=2)]
+        lines = [
+            f"{title}: first storeys, underestimation (goods slide - code) / code",
+            *text_table([_HEADS, *rows], left=2),
+        ]
         blocks.append("\n".join(lines))
     notes = (
-        "largest: of all first storeys. R least, R most: mean of those with the largest alpha, at the smallest and\n"
-        "the largest R. mass, sliding: what the last one is made of, attached over code and real over attached."
+        "largest: of all first storeys. smallest R, largest R: mean of those with the largest alpha, at that\n"
+        "R. mass, sliding: what the last one is made of, all attached over code and goods slide over all."
     )
     if (table["collapses"] > 0).any():
         notes += "\n-: runs collapsed, and there is no mean."

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 def study_text(result: StudyResult) -> str:
     """Return the underestimation of drift by the code's model, with its scatter, as lines."""
     document = result.to_dict()
-    head = f"Underestimation of mean peak drift, (real - code) / code, code: {document['code']['name']}"
+    head = f"Underestimation of mean peak drift, (goods slide - code) / code, code: {document['code']['name']}"
     return f"{head}\n{findings_text(document['findings'])}"
 
 

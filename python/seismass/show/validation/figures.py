@@ -57,6 +57,8 @@ def section4_figure(result: Section4, component: str, second_slope: float) -> Fi
                 axes.set_ylabel("mm")
                 if np.abs(getattr(exact, name)[:, storey]).max() == 0.0:
                     axes.set_ylim(-1.0, 1.0)
+                    said = "does not slide" if name == "slip" else "does not drift"
+                    axes.text(0.5, 0.62, said, transform=axes.transAxes, ha="center", fontsize=8.0)
         for axes in panels[-1]:
             axes.set_xlabel("time (s)")
         figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False)

@@ -3,6 +3,7 @@
 //! Each direction is a state of the general engine: its springs, dampers, stops and guards are those. What joins them is the
 //! friction of blocks: decisions, starts, stops and breakaways are of vectors.
 
+mod collocation;
 mod decide;
 mod energy;
 mod guards;

@@ -1,5 +1,6 @@
 //! The Taylor series of both directions over a step, coupled by friction on the circle (`numerics`, section 9.7).
 
+use crate::general::plane::collocation::Stiff;
 use crate::general::plane::slide_series::{Beginning, ORDER, SlideSeries};
 use crate::general::plane::state::PlaneState;
 use crate::general::plane::vector::{Vector2, dot, length, plus, times};
@@ -7,11 +8,14 @@ use crate::general::series::Series;
 use crate::lanes::Plain;
 use crate::polynomial::orders::terms;
 use crate::polynomial::power::Polynomial;
-use crate::tolerances::{AT_STOPS_ROUNDING, SERIES_PHASE, SERIES_ROUNDING};
+use crate::tolerances::{ARRIVED_ON_CIRCLE, AT_STOPS_ROUNDING, SERIES_PHASE, SERIES_ROUNDING};
 use crate::units::STANDARD_GRAVITY;
 
 /// Where a series has left the range of numbers it is formed anew over this part of its length.
 const SHORTER: f64 = 1e-3;
+
+/// What the turn of a velocity on the way to its stop may be, as a part of the largest velocity so far.
+const STRAIGHT: f64 = 0.25 * f64::EPSILON;
 
 /// The lowest order at which an asymptotic series is ended.
 const LEAST_ORDER: usize = 6;
@@ -22,6 +26,9 @@ pub(super) struct PlaneSeries {
     pub(super) axes: [Series; 2],
     /// Of the blocks that slide.
     pub(super) slides: Vec<SlideSeries>,
+    /// Blocks on the straight line to their stops.
+    straight: Vec<usize>,
+    stiff: Stiff,
     order: usize,
 }
 
@@ -40,17 +47,52 @@ impl PlaneSeries {
     /// acceleration does not rise: it grazes its limit.
     pub(super) fn form(&mut self, state: &PlaneState, tau: f64, remaining: f64) -> Option<usize> {
         let frequency = state.axes[0].regime.frequency.max(state.axes[1].regime.frequency);
-        let mut h = remaining / (frequency * remaining / SERIES_PHASE).ceil().max(1.0);
+        let longest = remaining / (frequency * remaining / SERIES_PHASE).ceil().max(1.0);
+        self.straight.clear();
         self.begin(state);
         if self.slides.is_empty() {
             for (series, axis) in self.axes.iter_mut().zip(&state.axes) {
-                series.form(axis, tau, h);
+                series.form(axis, tau, longest);
             }
             return None;
         }
+        let grazes = self.form_slides(state, tau, longest);
+        if grazes.is_some() {
+            return grazes;
+        }
+        let (h, least) = (self.h(), STRAIGHT * state.fastest);
+        let straight = self.slides.iter().filter(|slide| slide.is_straight(longest / h, least));
+        self.straight.extend(straight.map(|slide| slide.block));
+        if !self.straight.is_empty() {
+            self.form_slides(state, tau, longest);
+        }
+        let (mut end, mut order) = self.end(frequency * self.h());
+        if let Some(longer) = self.stiff.longer(&self.slides, self.h(), end, longest) {
+            let formed = self.collocate(state, tau, longer);
+            self.stiff.note(longer, formed);
+            if formed {
+                (end, order) = (self.before_stops(1.0, ORDER), ORDER);
+            } else {
+                self.form_slides(state, tau, longest);
+            }
+        }
+        self.order = order;
+        for series in &mut self.axes {
+            series.shorten(end, order);
+            series.bound_changes();
+        }
+        self.slides.iter_mut().for_each(|slide| slide.shorten(end));
+        None
+    }
+
+    /// Forms all terms in a time unit of at most `longest`; None, or a block that grazes its limit.
+    fn form_slides(&mut self, state: &PlaneState, tau: f64, longest: f64) -> Option<usize> {
         let (system, inverse_mass) = (state.system(), &state.axes[0].regime.inverse_mass);
         let contact = state.axes[0].contact_at(tau);
-        for slide in self.slides.iter().filter(|slide| slide.beginning == Beginning::Moving) {
+        let mut h = longest;
+        self.begin(state);
+        let turns = |slide: &&SlideSeries| slide.beginning == Beginning::Moving && slide.straight_to.is_none();
+        for slide in self.slides.iter().filter(turns) {
             let law = &system.blocks[slide.block];
             let slowing = state.friction(slide.block).1 * contact * (1.0 + law.mass * inverse_mass[law.floor]);
             h = h.min(length(state.velocity(slide.block)) / slowing);
@@ -63,22 +105,14 @@ impl PlaneSeries {
             }
             let is_finite = self.slides.iter().all(|slide| length(slide.direction[ORDER]).is_finite());
             if is_finite || h < f64::MIN_POSITIVE / SHORTER {
-                break;
+                return None;
             }
             h *= SHORTER;
         }
-        let (end, order) = self.end(frequency * h);
-        self.order = order;
-        for series in &mut self.axes {
-            series.shorten(end, order);
-            series.bound_changes();
-        }
-        self.slides.iter_mut().for_each(|slide| slide.shorten(end));
-        None
     }
 
     /// The blocks that slide.
-    fn begin(&mut self, state: &PlaneState) {
+    pub(super) fn begin(&mut self, state: &PlaneState) {
         self.slides.clear();
         for (position, &block) in state.axes[0].moving.iter().enumerate() {
             if state.slides(block) {
@@ -88,7 +122,9 @@ impl PlaneSeries {
                     (true, false) => Beginning::Jump,
                     (false, _) => Beginning::Moving,
                 };
-                self.slides.push(SlideSeries::new(position, block, beginning, start.unwrap_or_default()));
+                let mut slide = SlideSeries::new(position, block, beginning, start.unwrap_or_default());
+                slide.straight_to = self.straight.contains(&block).then_some(0.25 * ARRIVED_ON_CIRCLE * state.fastest);
+                self.slides.push(slide);
             }
         }
     }
@@ -142,20 +178,20 @@ impl PlaneSeries {
         });
     }
 
-    fn form_order(&mut self, state: &PlaneState, k: usize) {
+    pub(super) fn form_order(&mut self, state: &PlaneState, k: usize) {
         for (series, axis) in self.axes.iter_mut().zip(&state.axes) {
             series.form_order(axis, k);
         }
     }
 
     /// Term of order k of the relative velocity of a sliding block.
-    fn term(&self, slide: usize, k: usize) -> Vector2 {
+    pub(super) fn term(&self, slide: usize, k: usize) -> Vector2 {
         let position = self.slides[slide].position;
         self.axes.each_ref().map(|series| series.blocks[position].velocity[k])
     }
 
     /// Friction of order k over mass: mu_k (N_0 d_k + N_1 d_(k-1)).
-    fn set_friction(&mut self, state: &PlaneState, i: usize, k: usize, contact: [f64; 2]) {
+    pub(super) fn set_friction(&mut self, state: &PlaneState, i: usize, k: usize, contact: [f64; 2]) {
         let slide = &self.slides[i];
         let before = if k > 0 { slide.direction[k - 1] } else { [0.0; 2] };
         let of_order = plus(times(contact[0], slide.direction[k]), times(contact[1], before));
@@ -244,7 +280,12 @@ impl PlaneSeries {
                 (best, best_order) = (end, order);
             }
         }
-        (self.slides.iter().fold(best, |end, slide| slide.before_stop(best_order, end)), best_order)
+        (self.before_stops(best, best_order), best_order)
+    }
+
+    /// The part of a series up to its place `end` in which no relative velocity comes to zero.
+    fn before_stops(&self, end: f64, order: usize) -> f64 {
+        self.slides.iter().fold(end, |end, slide| slide.before_stop(order, end))
     }
 
     /// Lengths of the relative velocities of the blocks that slide, as polynomials.

@@ -1,6 +1,7 @@
 //! The series of a block that slides on the circle: direction and length of its relative velocity (`numerics`, section 9.7).
 
 use crate::general::plane::vector::{Vector2, across, dot, length, minus, plus, times};
+use crate::lanes::Plain;
 use crate::polynomial::power::{MAX_DEGREE, Polynomial};
 
 /// Highest order of accelerations where a block slides.
@@ -43,6 +44,8 @@ pub(super) struct SlideSeries {
     pub(super) position: usize,
     pub(super) block: usize,
     pub(super) beginning: Beginning,
+    /// Velocity at which it ends on the straight line to its stop: its direction turns by less than shows. None: it turns.
+    pub(super) straight_to: Option<f64>,
     /// Terms of the direction.
     pub(super) direction: [Vector2; MAX_DEGREE + 1],
     /// Terms of the length of R.
@@ -54,8 +57,9 @@ pub(super) struct SlideSeries {
 impl SlideSeries {
     pub(super) fn new(position: usize, block: usize, beginning: Beginning, direction: Vector2) -> Self {
         let none = [[0.0; 2]; MAX_DEGREE + 1];
+        let length = [0.0; MAX_DEGREE + 1];
         let mut series =
-            Self { position, block, beginning, direction: none, length: [0.0; MAX_DEGREE + 1], relative: none };
+            Self { position, block, beginning, straight_to: None, direction: none, length, relative: none };
         series.direction[0] = direction;
         series
     }
@@ -67,6 +71,10 @@ impl SlideSeries {
         if k == 0 {
             self.length[0] = length(r);
             self.direction[0] = times(1.0 / self.length[0], r);
+            return;
+        }
+        if self.straight_to.is_some() {
+            self.length[k] = dot(self.direction[0], r);
             return;
         }
         let mut squares = 2.0 * dot(self.relative[0], r);
@@ -127,6 +135,13 @@ impl SlideSeries {
         self.length[k] = dot(term, first) - known;
     }
 
+    /// Takes the length of a velocity whose direction is known, by its terms.
+    pub(super) fn take_length(&mut self, terms: &[Vector2]) {
+        for k in 0..terms.len() {
+            self.length[k] = (0..=k).map(|i| dot(terms[i], self.direction[k - i])).sum();
+        }
+    }
+
     /// Order of the last known term of R in a series of accelerations to an order.
     fn last(&self, order: usize) -> usize {
         order.min((order + 1).saturating_sub(self.beginning.power()))
@@ -151,9 +166,37 @@ impl SlideSeries {
         self.length.iter_mut().for_each(|term| *term *= unit);
     }
 
+    /// Whether a velocity that falls comes to its stop before the place `last` and turns so little until then that less than
+    /// `least` of it would be seen.
+    pub(super) fn is_straight(&self, last: f64, least: f64) -> bool {
+        let [speed, rate] = [self.length[0], -self.length[1]];
+        // The turn is at most that of the first two terms over the time that is left, where that is within the series.
+        let rest = speed / rate;
+        let turn = rest * (length(self.direction[1]) + rest * length(self.direction[2]));
+        self.beginning == Beginning::Moving && rate > 0.0 && rest < last && turn * speed < least
+    }
+
+    /// The place where the length has fallen to a velocity, if it does, from a first guess by its rate.
+    fn falls_to(&self, velocity: f64, order: usize) -> Option<f64> {
+        let speed = self.speed(order);
+        let mut s = (velocity - self.length[0]) / self.length[1];
+        for _ in 0..20 {
+            let (value, rate) = speed.at_with_rate::<Plain>(s);
+            let change = (velocity - value) / rate;
+            s += change;
+            if change.abs() <= f64::EPSILON * s {
+                break;
+            }
+        }
+        (s > 0.0 && s < 1.0 && (speed.at::<Plain>(s) - velocity).abs() < 0.5 * velocity).then_some(s)
+    }
+
     /// The longest part of the series in which the negative terms of the length are at most 3/4 of its first: along a
-    /// straight line a longer step would jump over a stop.
+    /// straight line a longer step would jump over a stop. On the straight line to a stop it is the whole way.
     pub(super) fn before_stop(&self, order: usize, mut end: f64) -> f64 {
+        if let Some(place) = self.straight_to.and_then(|velocity| self.falls_to(velocity, order)) {
+            return end.min(place);
+        }
         let first = self.length[0];
         loop {
             let (mut sum, mut rate, mut power) = (0.0, 0.0, 1.0);

@@ -1,0 +1,170 @@
+"""Frames of an animation in two directions: from the side on the left, from above on the right, histories below."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+from PIL import Image, ImageDraw
+
+from seismass.base.values import FloatArray
+from seismass.media.roles import ATTACHED, CODE, SLIDE
+from seismass.show.animation.canvas import FINER, INK, LINE, PALE_SLIDE, PAPER, SLAB, SOFT, Canvas
+
+if TYPE_CHECKING:
+    from seismass.animation.plane import PlaneAnimation
+
+WIDTH: Final = 720
+SCENES: Final = 330
+PANEL: Final = 84
+FOOT: Final = 26
+"""Sizes (pixels): of a frame, of the pictures of the building, of each history, of the axis of time."""
+SIDE: Final = 6.0
+"""Side (m) of the floor as drawn."""
+GOODS: Final = 0.9
+"""Side (m) of goods as drawn, where they have room."""
+COLOURS: Final = (SLIDE.text, CODE.text, ATTACHED.text, INK)
+"""Colours of blocks and of storeys, in their order."""
+
+
+class PlanePicture(Canvas):
+    """Draws an animation in two directions at any time.
+
+    Parameters
+    ----------
+    animation : PlaneAnimation
+        What is drawn.
+    """
+
+    def __init__(self, animation: PlaneAnimation) -> None:
+        super().__init__()
+        self._animation = animation
+        self._sway = animation.floor_displacement
+        self._slip = animation.response.slip[: animation.rows]
+        self._still = self._histories()
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height (pixels), both even, as films need them."""
+        return WIDTH, SCENES + 2 * PANEL + FOOT
+
+    @property
+    def duration(self) -> float:
+        """Time of the last row (s)."""
+        return (self._animation.rows - 1) * self._animation.step
+
+    def sample(self) -> Image.Image:
+        """Return a frame in which every colour is to be seen."""
+        frame = self.frame(0.5 * self.duration)
+        draw = ImageDraw.Draw(frame)
+        for place, colour in enumerate((PAPER, INK, SOFT, LINE, SLAB, PALE_SLIDE, *COLOURS)):
+            draw.rectangle((20 * place, 0, 20 * place + 19, 39), fill=colour)
+        return frame
+
+    def frame(self, time: float, lasting: float = 0.0) -> Image.Image:
+        """Return the frame at a time (s); `lasting` is of no effect, as no event flashes."""
+        image = self._still.copy()
+        draw = ImageDraw.Draw(image)
+        place = min(time / self._animation.step, self._animation.rows - 1.0)
+        row, part = int(place), place - int(place)
+        after = min(row + 1, self._animation.rows - 1)
+        sway, slip = ((1.0 - part) * each[row] + part * each[after] for each in (self._sway, self._slip))
+        self._from_the_side(draw, sway, slip)
+        self._from_above(draw, sway, slip, row)
+        x = 52.0 + (WIDTH - 64.0) * time / max(self.duration, 1e-9)
+        self._line(draw, [(x, SCENES + 14.0), (x, self.size[1] - FOOT)], INK, 1.5)
+        self._text(draw, (WIDTH - 8, SCENES + 2), f"{time:.2f} s", INK, 12, "ra")
+        return image.reduce(FINER)
+
+    def _goods(self, floor: int) -> list[tuple[int, float, float]]:
+        """Index, place along x and along y (m, from the middle of the floor) of the goods on a floor."""
+        on_floor = [index for index, of in enumerate(self._animation.response.scene.block_floor) if of == floor]
+        columns = max(1, int(np.ceil(np.sqrt(len(on_floor)))))
+        rows = max(1, -(-len(on_floor) // columns))
+        return [
+            (index, SIDE * ((place % columns + 0.5) / columns - 0.5), SIDE * (0.5 - (place // columns + 0.5) / rows))
+            for place, index in enumerate(on_floor)
+        ]
+
+    def _from_the_side(self, draw: ImageDraw.ImageDraw, sway: FloatArray, slip: FloatArray) -> None:
+        """Displacements in x of floors and goods."""
+        animation = self._animation
+        heights, middle, ground = animation.heights, 0.25 * WIDTH, SCENES - 24.0
+        total = float(heights.sum()) or 3.0
+        scale = min((ground - 84.0) / total, 0.3 * WIDTH / SIDE)
+        half = 0.5 * SIDE * min(scale, 0.3 * WIDTH / SIDE)
+        self._text(draw, (middle, 4), "From the side, x", SLIDE.text, 14, "ma")
+        self._line(draw, [(0.03 * WIDTH, ground + 1), (0.47 * WIDTH, ground + 1)], SOFT, 2)
+        xs = [middle, *(middle + animation.factor * scale * sway[:, 0]).tolist()]
+        ys = [ground, *(ground - scale * np.cumsum(heights)).tolist()]
+        for number in range(len(heights)):
+            for side in (-0.88 * half, 0.88 * half):
+                foot, head = (xs[number] + side, ys[number]), (xs[number + 1] + side, ys[number + 1])
+                self._line(draw, [foot, head], SLIDE.text, 2.0)
+            self._box(draw, (xs[number + 1] - half, ys[number + 1], xs[number + 1] + half, ys[number + 1] + 5.0), SLAB)
+        size = scale * GOODS
+        for floor in range(len(xs)):
+            for index, along, _ in self._goods(floor):
+                x = xs[floor] + scale * along * half / (0.5 * SIDE * scale) + animation.factor * scale * slip[index, 0]
+                box = (x - 0.5 * size, ys[floor] - size, x + 0.5 * size, ys[floor])
+                self._box(draw, box, PALE_SLIDE, COLOURS[index % len(COLOURS)])
+
+    def _from_above(self, draw: ImageDraw.ImageDraw, sway: FloatArray, slip: FloatArray, row: int) -> None:
+        """The floor over the ground, with its goods and their paths so far."""
+        animation, floor = self._animation, self._animation.floor
+        scale, x0, y0 = 228.0 / (1.35 * SIDE), 0.75 * WIDTH, 0.5 * SCENES + 22.0
+        name = "The ground from above" if floor == 0 else f"Floor {floor} from above"
+        self._text(draw, (x0, 4), name, SLIDE.text, 14, "ma")
+        words = f"displacements {animation.factor:g} times, paths of goods on their floor"
+        self._text(draw, (0.5 * WIDTH, 23), words, SOFT, 12, "ma")
+        half = 0.5 * SIDE * scale
+        self._box(draw, (x0 - half, y0 - half, x0 + half, y0 + half), None, LINE)
+        moved = sway[floor - 1] if floor else np.zeros(2)
+        x = x0 + animation.factor * scale * moved[0]
+        y = y0 - animation.factor * scale * moved[1]
+        self._box(draw, (x - half, y - half, x + half, y + half), None, SLAB)
+        size = scale * min(GOODS, 0.5 * SIDE / max(1.0, np.sqrt(len(self._goods(floor)))))
+        for index, along, across in self._goods(floor):
+            colour = COLOURS[index % len(COLOURS)]
+            path = animation.factor * scale * self._slip[: row + 1, index] * [1.0, -1.0]
+            home = np.array([x + scale * along, y - scale * across])
+            at = home + animation.factor * scale * slip[index] * [1.0, -1.0]
+            self._box(draw, (*(at - 0.5 * size), *(at + 0.5 * size)), PALE_SLIDE, colour)
+            points = [(float(one), float(other)) for one, other in [*(home + path), at]]
+            self._line(draw, points, colour, 1.5)
+        self._text(draw, (x0 + half + 14.0, y0 + half + 6.0), "x", SOFT, 12, "mm")
+        self._text(draw, (x0 - half - 12.0, y0 - half - 4.0), "y", SOFT, 12, "mm")
+
+    def _histories(self) -> Image.Image:
+        """Lengths of drift and slip vectors over time, behind every frame."""
+        image = Image.new("RGB", (WIDTH * FINER, self.size[1] * FINER), PAPER)
+        draw = ImageDraw.Draw(image)
+        drift = self._animation.response.drift[: self._animation.rows]
+        storeys = [
+            (1e3 * np.hypot(*drift[:, number].T), f"storey {number + 1}") for number in range(min(4, drift.shape[1]))
+        ]
+        blocks = [
+            (1e3 * np.hypot(*self._slip[:, number].T), f"block {number + 1}")
+            for number in range(min(4, self._slip.shape[1]))
+        ]
+        for place, (title, curves) in enumerate((("length of drift (mm)", storeys), ("length of slip (mm)", blocks))):
+            top, low = SCENES + place * PANEL + 18.0, SCENES + (place + 1) * PANEL - 6.0
+            self._text(draw, (52, top - 14), title, INK, 12)
+            high = max((float(values.max()) for values, _ in curves), default=0.0) or 1.0
+            for value, words in ((0.0, "0"), (high, f"{high:.3g}")):
+                y = low - value / high * (low - top)
+                self._line(draw, [(52, y), (WIDTH - 12, y)], LINE, 1)
+                self._text(draw, (46, y), words, SOFT, 11, "rm")
+            left = 190
+            for (values, named), colour in zip(curves, COLOURS, strict=False):
+                along = 52.0 + (WIDTH - 64.0) * np.linspace(0.0, 1.0, len(values))
+                across = low - values / high * (low - top)
+                self._line(draw, list(zip(along.tolist(), across.tolist(), strict=True)), colour, 1.5)
+                self._text(draw, (left, top - 14), named, colour, 12)
+                left += 80
+        seconds = next((one for one in (1, 2, 5, 10, 20, 50, 100) if self.duration / one <= 14.0), 200)
+        for second in range(0, int(self.duration) + 1, seconds):
+            x = 52.0 + (WIDTH - 64.0) * second / max(self.duration, 1e-9)
+            self._text(draw, (x, self.size[1] - FOOT + 2), f"{second}", SOFT, 11, "ma")
+        self._text(draw, (WIDTH - 6, self.size[1] - 2), "time (s)", SOFT, 11, "rs")
+        return image

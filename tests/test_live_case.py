@@ -1,0 +1,59 @@
+"""The link from a calculation page into the live page: its address, and what is said where it cannot be opened."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import seismass as sm
+from seismass import explore
+from seismass.assessment.building_file import example_file
+from seismass.media.live_address import LIMITS, MOST_STOREYS
+from seismass.show.assessment.live import OwnCase, own_case
+from seismass.show.assessment.tables import assessment_tables
+
+SCRIPT = (Path(explore.__file__).parent / "templates" / "case.js").read_text(encoding="utf-8")
+
+
+def case_of(**changes: Any) -> OwnCase:
+    """What the live page opens of the example, its tables changed as told."""
+    tables = tomllib.loads(example_file().read_text(encoding="utf-8"))
+    for table, values in changes.items():
+        tables[table] = values if table == "storeys" else {**tables[table], **values}
+    return own_case(assessment_tables(sm.assess(tables, mu_factors=(1.0, 1.0), resamples=2)))
+
+
+def test_ranges_are_those_of_the_page() -> None:
+    table = SCRIPT.partition("const LIMITS = {")[2].partition("};")[0]
+    rows = re.findall(r"\w+: \[([\d.]+|MOST_STOREYS), ([\d.]+|MOST_STOREYS), \"(\w+)\"", table)
+    page = {letters: (low, high) for low, high, letters in rows}
+    assert {key: tuple(map(float, page[key])) for key in LIMITS} == LIMITS
+    assert f"const MOST_STOREYS = {MOST_STOREYS};" in SCRIPT
+
+
+def test_the_example_is_opened_and_its_differences_are_said() -> None:
+    case, reasons, differences = case_of()
+    assert reasons == ()
+    assert case is not None
+    said = dict(part.split("=") for part in case.address.split("&"))
+    # Dead loads of 6, 6, 6 and 4 kPa, goods of 0.8 times 7.2 kPa on three floors, over the mean floor.
+    assert [float(value) for value in said["a"].split(",")] == pytest.approx([0.8 * 7.2 / 5.5] * 3 + [0.0], rel=1e-9)
+    assert (said["n"], said["by"], said["T"], said["z"], said["h"]) == ("4", "hand", "0.57", "0.05", "4.5")
+    assert said["c"] == "0.3125"  # 0.25 of the design live load, of which 0.8 is present
+    assert [words.split(":")[0] for words in differences[1:]] == ["floor masses are equal", "there is no P-Delta"]
+
+
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [
+        ({"storeys": [{}] * 5}, "it has 5 storeys, and the live page solves up to 4"),
+        ({"goods": {"stops": {"clearance_m": 0.05}}}, "its goods have stops"),
+        ({"building": {"damping_from_storey": 2}}, "its lowest storeys are not damped"),
+    ],
+)
+def test_what_cannot_be_expressed_is_said(changes: dict[str, Any], reason: str) -> None:
+    assert case_of(**changes) == OwnCase(None, (reason,), ())

@@ -1,0 +1,142 @@
+"""One table says how models are drawn and called: no figure has a colour or a name of its own for them."""
+
+from __future__ import annotations
+
+import ast
+import itertools
+import re
+from pathlib import Path
+
+import pytest
+
+import seismass
+from seismass.assessment import models
+from seismass.media import roles
+from seismass.media.page import templates
+from seismass.media.roles import (
+    ALPHA,
+    BLOCK_COLOURS,
+    CSS_NAMES,
+    ETA,
+    LAMBDA,
+    MODELS,
+    MU,
+    Role,
+    css,
+    lettered,
+    model_name,
+)
+from seismass.media.style import SERIES
+
+PACKAGE = Path(seismass.__file__).parent
+SHOWN = [path for part in ("show", "plots", "explore", "animation") for path in sorted((PACKAGE / part).rglob("*.py"))]
+HUES = {"BLUE", "VERMILION", "GREEN", "PURPLE", "ORANGE", "SKY", "DEEP_BLUE", "MAGENTA"}
+WITHOUT_MODELS = {
+    "plots/batches.py": "fractiles of runs",
+    "plots/contacts.py": "kinds of contact",
+    "plots/floor_plan.py": "aisles, places of goods, and who has passed an edge",
+    "plots/growth.py": "kinds of energy",
+    "plots/histories.py": "one run, and stops",
+    "plots/hysteresis.py": "one run, and backbones",
+    "plots/profiles.py": "one run",
+    "plots/pushover.py": "a curve, and what happens on it",
+    "plots/timeline.py": "kinds of events",
+    "show/animation/canvas.py": "paper, slabs, pale flashes",
+    "show/design/pushover_fit.py": "a measured curve and its fit",
+    "show/effective_mass/map.py": "classes of the exponent of the rule",
+    "show/motions/matching.py": "records and their target",
+    "show/motions/pulse.py": "pulses of a record",
+    "show/motions/record.py": "one record",
+    "show/motions/scaling.py": "motions and their target",
+    "show/study/captions.py": "motions and their target",
+    "show/study/underestimation.py": "shades of one colour for alpha",
+    "show/validation/figures.py": "programs",
+}
+"""Files that may name hues, and what these stand for: none of it is a model."""
+LITERALS = {"show/animation/canvas.py", "explore/still.py"}
+"""Files with colours of their own: of paper, slabs, an empty bar, and pale ones that flash."""
+
+
+def name_of(path: Path) -> str:
+    return path.relative_to(PACKAGE).as_posix()
+
+
+def test_no_figure_names_the_colour_of_a_model_by_itself() -> None:
+    for path in SHOWN:
+        text = path.read_text(encoding="utf-8")
+        if name_of(path) not in LITERALS:
+            assert not re.findall(r"#[0-9a-fA-F]{6}\b", text), path
+        imported = {
+            alias.name for node in ast.walk(ast.parse(text)) if isinstance(node, ast.ImportFrom) for alias in node.names
+        }
+        if imported & HUES:
+            assert name_of(path) in WITHOUT_MODELS, f"{path} names {imported & HUES}"
+
+
+def test_no_template_names_the_colour_of_a_model_by_itself() -> None:
+    """Colours of the style sheets are those of paper, ink, lines, links and verdicts."""
+    of_roles = {colour.lower() for role in MODELS.values() for colour in (role.colour, role.text, role.dark)}
+    of_roles -= {roles.ADVISED.text, roles.ADVISED.dark, roles.BARE.text, roles.BARE.dark}  # those of ink and soft ink
+    for path in itertools.chain(*((PACKAGE / part).rglob("*.*") for part in ("media/templates", "explore/templates"))):
+        found = {colour.lower() for colour in re.findall(r"#[0-9a-fA-F]{6}\b", path.read_text(encoding="utf-8"))}
+        assert not found & of_roles, path
+
+
+def test_no_figure_calls_a_simulation_real() -> None:
+    said = re.compile(r"""["'][^"']*\breal (?:building|/|over|\()|/ real\b[^"']*["']|"real: """)
+    for path in (*SHOWN, *sorted((PACKAGE / "explore/templates").iterdir())):
+        for line in path.read_text(encoding="utf-8").splitlines():
+            if not line.lstrip().startswith(('"""', "#", "//")):
+                assert not said.search(line), f"{path}: {line}"
+
+
+def test_roles_differ_in_more_than_colour() -> None:
+    compared = [roles.SLIDE, roles.CODE, roles.ATTACHED, roles.BARE, roles.ADVISED, roles.SLIDE_LOW, roles.SLIDE_HIGH]
+    for one, other in itertools.combinations(compared, 2):
+        assert one.name != other.name
+        assert one.colour != other.colour
+        assert (one.line, one.marker) != (other.line, other.marker)
+
+
+def luminance(colour: str) -> float:
+    """WCAG 2.2, relative luminance."""
+    parts = (int(colour[at : at + 2], 16) / 255.0 for at in (1, 3, 5))
+    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+
+@pytest.mark.parametrize("role", [*MODELS.values(), roles.YIELDS], ids=lambda role: role.name)
+def test_words_in_the_colour_of_a_role_are_legible(role: Role) -> None:
+    """WCAG 2.2, 1.4.3: contrast 4.5, on white and on the paper of dark mode, #191919."""
+    assert 1.05 / (luminance(role.text) + 0.05) >= 4.5
+    assert (luminance(role.dark) + 0.05) / (luminance("#191919") + 0.05) >= 4.5
+
+
+def test_pages_animations_and_the_live_page_have_the_colours_of_the_roles() -> None:
+    light, dark = css(dark=False), css(dark=True)
+    for variable, role in CSS_NAMES.items():
+        assert f"{variable}: {role.text};" in light
+        assert f"{variable}: {role.dark};" in dark
+    environment = templates()
+    assert (environment.globals["role_colours"], environment.globals["role_colours_dark"]) == (light, dark)
+    for path in ("media/templates/animation.css", "explore/templates/explore.css"):
+        text = (PACKAGE / path).read_text(encoding="utf-8")
+        assert "{{ role_colours }}" in text
+        assert "{{ role_colours_dark }}" in text
+
+
+def test_names_of_an_assessment_are_those_of_the_roles() -> None:
+    assert {name: model_name(name) for name in models.NAMES} == models.NAMES
+    assert models.NAMES["real"] == "goods slide"
+    assert model_name("my own model") == "my own model"
+
+
+def test_blocks_have_one_order_of_colours() -> None:
+    assert tuple(look["color"] for look in SERIES) == BLOCK_COLOURS
+
+
+def test_symbols_are_greek_letters_in_figures_and_words_are_left() -> None:
+    said = lettered("eta = mu_k/C1, eta_h^p, lambda = 0.8 at alpha = 1, mu x 1.5; beta, metal, museum, lambdas")
+    assert (
+        said == f"{ETA} = {MU}_k/C1, {ETA}_h^p, {LAMBDA} = 0.8 at {ALPHA} = 1, {MU} x 1.5; beta, metal, museum, lambdas"
+    )

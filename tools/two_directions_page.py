@@ -1,0 +1,282 @@
+"""Writes docs/two_directions.md from the cases that benchmarks/two_directions.py solved.
+
+    tools/two_directions_page.py [--check]
+
+Every number of the page comes from benchmarks/results/two_directions.json; a test compares the page with it.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from matplotlib.figure import Figure
+
+import seismass as sm
+from seismass.base.values import FloatArray
+from seismass.effective_mass.estimate import best_estimate, conservative_estimate
+from seismass.effective_mass.rules import by_period
+from seismass.effective_mass.two_directions import REDUCED_FRICTION
+from seismass.media.figure_file import save_figure
+from seismass.plots import FloorPlan, Footprint, floor_paths
+
+ROOT: Final = Path(__file__).parents[1]
+RESULTS: Final = ROOT / "benchmarks" / "results" / "two_directions.json"
+PAGE: Final = ROOT / "docs" / "two_directions.md"
+TEXT: Final = ROOT / "tools" / "pages" / "two_directions.md"
+TITLES: Final = {
+    "far_field": "18 recorded pairs, FEMA P-695 far field (the factor was chosen on these)",
+    "other": "7 recorded pairs of other stations",
+    "forty": "16 of the built-in synthetic pairs",
+}
+CODES: Final = {
+    "none, 0": 0.0,
+    "ASCE 7 storage, 0.25": 0.25,
+    "IS 1893, 0.5": 0.5,
+    "NBC and NZS 1170.5, 0.6": 0.6,
+    "Eurocode 8, 0.8": 0.8,
+    "all, 1": 1.0,
+}
+
+Case = dict[str, Any]
+
+
+def kept() -> dict[str, Any]:
+    """Return what is stored."""
+    found: dict[str, Any] = json.loads(RESULTS.read_text(encoding="utf-8"))
+    return found
+
+
+def sliding(cases: Sequence[Case], suite: str) -> list[Case]:
+    """Return the cases of a suite in which goods slide in one direction."""
+    return [case for case in cases if case["suite"] == suite and case["slides"]]
+
+
+def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Return a table in Markdown."""
+    lines = ["| " + " | ".join(heads) + " |", "| " + " | ".join("---" for _ in heads) + " |"]
+    return "\n".join([*lines, *("| " + " | ".join(row) + " |" for row in rows)])
+
+
+def groups(cases: Sequence[Case]) -> list[tuple[str, list[Case]]]:
+    """Return all cases, and those by eta, period and R, each with its name."""
+    found = [("all", list(cases))]
+    for key, name in (("eta", "eta = {:g}"), ("period", "T = {:g} s"), ("R", "R = {:g}")):
+        values = sorted({case[key] for case in cases})
+        found += [(name.format(value), [case for case in cases if case[key] == value]) for value in values]
+    return found
+
+
+def numbers(cases: Sequence[Case], name: str) -> FloatArray:
+    """Return a number of every case that has it."""
+    return np.array([case[name] for case in cases if case[name] is not None])
+
+
+def spread(values: FloatArray, form: str = ".2f") -> str:
+    """Return the mean of values with the smallest and the largest."""
+    return f"{values.mean():{form}} ({values.min():{form}} to {values.max():{form}})" if len(values) else "-"
+
+
+def drift_table(cases: Sequence[Case]) -> str:
+    """Return drift and effective fraction of two directions beside one."""
+    rows = []
+    for name, own in groups(cases):
+        one, two, larger = (numbers(own, f"value_{which}") for which in ("one", "two", "larger"))
+        between = np.mean([[case["drift_ratios"][1], case["drift_ratios"][3]] for case in own], axis=0)
+        rows.append(
+            [
+                name,
+                str(len(own)),
+                spread(numbers(own, "drift_ratio")),
+                f"{between[0]:.2f} to {between[1]:.2f}",
+                f"{one.mean():.2f}",
+                f"{two.mean():.2f}",
+                spread(two - one, "+.2f"),
+                f"{larger.mean():.2f}",
+            ]
+        )
+    heads = ("cases", "number", "drift, two over one", "pairs, 16 to 84 %", "lambda, one", "two", "change")
+    return table((*heads, "two, larger of x and y"), rows)
+
+
+def slip_rows(cases: Sequence[Case]) -> str:
+    """Return slip of two directions over that of one."""
+    rows = []
+    for name, own in groups(cases):
+        slid = [case for case in own if case["slip_one"] > 1e-3]
+        if not slid:
+            continue
+        of_pairs = [case["slip_ratios"] for case in slid if case["slip_ratios"] is not None]
+        between = np.mean([[each[1], each[3]] for each in of_pairs], axis=0)
+        rows.append(
+            [
+                name,
+                str(len(slid)),
+                spread(numbers(slid, "slip_ratio")),
+                f"{between[0]:.2f} to {between[1]:.2f}",
+                spread(numbers(slid, "length_ratio")),
+                f"{1e3 * numbers(slid, 'slip_one').mean():.0f} mm",
+            ]
+        )
+    heads = ("cases", "number", "slip in x or y, two over one", "pairs, 16 to 84 %", "length over one")
+    return table((*heads, "slip, one"), rows)
+
+
+def in_sum(cases: Sequence[Case], name: str) -> float:
+    """Return a ratio of slips over that of one direction, of the sums over all cases."""
+    weights = [case["slip_one"] * case["pairs"] for case in cases]
+    return float(np.average([case[name] for case in cases], weights=weights))
+
+
+def model_ratio(case: Case, share: float, real: str) -> float:
+    """Return the drift of the model with a share attached over the real one, "real_one" or "real_two"."""
+    curve = np.array(case["curve"])
+    return float(np.interp(share, np.linspace(0.0, 1.0, len(curve)), curve) / case[real])
+
+
+def code_table(cases: Sequence[Case]) -> str:
+    """Return how often a code's share is too little, in one direction and in two."""
+    rows = []
+    for name, share in CODES.items():
+        cells = [name]
+        for real in ("real_one", "real_two"):
+            ratio = np.array([model_ratio(case, share, real) for case in cases])
+            cells += [f"{np.exp(np.log(ratio).mean()):.2f}", f"{100.0 * np.mean(1.0 / ratio > 1.05):.0f} %"]
+        rows.append(cells)
+    return table(("share attached", "model/real, one", "unsafe, one", "model/real, two", "unsafe, two"), rows)
+
+
+RULES: Final[dict[str, Callable[[Case], float]]] = {
+    "min(1, eta_h^p), of one direction": lambda case: _best(case, 1.0),
+    "min(1, eta_h), of one direction": lambda case: _safe(case, 1.0),
+    "two directions: min(1, (0.8 eta_h)^p)": lambda case: _best(case, REDUCED_FRICTION),
+    "two directions, safe: min(1, 0.8 eta_h)": lambda case: _safe(case, REDUCED_FRICTION),
+}
+"""Rules that are compared with the runs in two directions."""
+
+
+def _best(case: Case, factor: float) -> float:
+    return float(best_estimate(factor * case["eta"], case["exponent"], case["height_ratio"]))
+
+
+def _safe(case: Case, factor: float) -> float:
+    return float(conservative_estimate(factor * case["eta"], case["height_ratio"]))
+
+
+def rule_table(cases: Sequence[Case]) -> str:
+    """Return how rules do in two directions by class of period."""
+    period = numbers(cases, "period")
+    rows = []
+    for name, rule in RULES.items():
+        ratio = np.array([model_ratio(case, rule(case), "real_two") for case in cases])
+        whole = by_period(name, ratio, np.full(len(ratio), 1.0))[0]
+        cells = [name, _judged(whole)]
+        rows.append([*cells, *(_judged(row) for row in by_period(name, ratio, period))])
+    classes = [f"T = {value:g} s" for value in sorted(set(period.tolist()))]
+    return table(("rule", "all", *classes), rows)
+
+
+def _judged(row: dict[str, Any]) -> str:
+    return f"{row['bias']:.2f}, {row['worst']:.2f}, {100.0 * row['unsafe']:.0f} %"
+
+
+def bias_of_factor(cases: Sequence[Case], factor: float) -> float:
+    """Return the geometric mean of model over real drift of the rule with a factor of friction."""
+    ratio = np.array([model_ratio(case, _best(case, factor), "real_two") for case in cases])
+    return float(np.exp(np.log(ratio).mean()))
+
+
+def factor_table(cases: Sequence[Case]) -> str:
+    """Return what other factors of friction would give."""
+    suites = [suite for suite in TITLES if sliding(cases, suite)]
+    rows = [
+        [f"{factor:.2f}", *(f"{bias_of_factor(sliding(cases, suite), factor):.3f}" for suite in suites)]
+        for factor in (0.7, 0.75, 0.8, 0.85, 0.9, 1.0)
+    ]
+    return table(("factor of mu", *suites), rows)
+
+
+def failed_text(cases: Sequence[Case]) -> str:
+    """Return how many runs did not reach their end."""
+    failed, runs = (sum(case[name] for case in cases) for name in ("failed", "pairs"))
+    if not failed:
+        return f"All {runs} runs in two directions reach their end."
+    return (
+        f"{failed} of {failed + runs} runs in two directions do not reach their end; their pairs are left out, in one "
+        "direction too."
+    )
+
+
+def time_text(stored: dict[str, Any]) -> str:
+    """Return the time of an assessment under 42 pairs."""
+    found = stored.get("assess")
+    if found is None:
+        return "The time of 42 pairs was not measured."
+    return (
+        f"`assess` of a building of {found['storeys']} storeys with stated strengths in two directions under "
+        f"{found['pairs']} pairs ({found['turned']} of them turned in plan), with its three frictions, takes "
+        f"{found['seconds']:.0f} s of {found['cores']} cores, {found['processor_seconds']:.0f} s of processor time."
+    )
+
+
+def page(stored: dict[str, Any] | None = None) -> str:
+    """Return the page."""
+    found = kept() if stored is None else stored
+    cases = found["cases"]
+    base = sliding(cases, "far_field")
+    one, two = numbers(base, "value_one"), numbers(base, "value_two")
+    slid = [case for case in base if case["slip_one"] > 1e-3]
+    values = {
+        "DRIFT_RATIO": spread(numbers(base, "drift_ratio")),
+        "CHANGE": spread(two - one, "+.2f"),
+        "HIGHER": f"{int(np.sum(two > one + 0.005))} of {len(base)}",
+        "SLIP_RATIO": spread(numbers(slid, "slip_ratio")),
+        "LENGTH_RATIO": spread(numbers(slid, "length_ratio")),
+        "IN_SUM": f"{in_sum(slid, 'slip_ratio'):.2f}",
+        "LENGTH_IN_SUM": f"{in_sum(slid, 'length_ratio'):.2f}",
+        "CASES": str(len(base)),
+        "FAILED": failed_text(cases),
+        "TIME": time_text(found),
+        "CODES": code_table(base),
+        "FACTORS": factor_table(cases),
+        "FACTOR": f"{REDUCED_FRICTION:g}",
+        "DRIFTS": "\n\n".join(_of_suites(cases, drift_table)),
+        "SLIPS": "\n\n".join(_of_suites(cases, slip_rows)),
+        "RULES": "\n\n".join(_of_suites(cases, rule_table)),
+    }
+    text = TEXT.read_text(encoding="utf-8")
+    for name, value in values.items():
+        text = text.replace("{" + name + "}", value)
+    return text
+
+
+def paths() -> Figure:
+    """Return the figure of goods on a floor: pallets and a machine beside an aisle, under a built-in pair."""
+    building = sm.Building.uniform(3, 0.47, mass=1e5, heights=3.5, yield_shear_over_weight=[0.34, 0.27, 0.13])
+    goods = [sm.Block(1, mass_ratio=share, mu=mu) for share, mu in ((0.2, 0.12), (0.2, 0.2), (0.2, 0.3), (0.1, 0.15))]
+    scene = sm.Scene(building, goods, other_direction=True)
+    response = sm.simulate(scene, sm.records.builtin_pairs()[8].scaled(1.5), histories=True)
+    standing = {
+        1: Footprint(0.9, 2.6),
+        2: Footprint(2.7, 2.6),
+        3: Footprint(4.5, 2.6),
+        4: Footprint(1.2, 0.55, 1.6, 0.8),
+    }
+    plan = FloorPlan((0.0, 0.0, 5.6, 3.4), standing, ((0.0, 1.05, 5.6, 2.1),))
+    return floor_paths(response, floor=1, plan=plan)
+
+
+def _of_suites(cases: Sequence[Case], of: Callable[[Sequence[Case]], str]) -> list[str]:
+    return [f"{title}:\n\n{of(own)}" for suite, title in TITLES.items() if (own := sliding(cases, suite))]
+
+
+if __name__ == "__main__":
+    fresh = page()
+    if "--check" in sys.argv[1:]:
+        sys.exit(int(PAGE.read_text(encoding="utf-8") != fresh))
+    PAGE.write_text(fresh, encoding="utf-8")
+    save_figure(paths(), "png", ROOT / "docs" / "figures" / "two_directions_paths.png")
