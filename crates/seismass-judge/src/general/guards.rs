@@ -101,8 +101,8 @@ impl<R: Real> Machines<'_, R> {
             let mut contact = series.contact.clone();
             if *self.airborne {
                 contact = contact.scaled(R::of(-1.0));
-            } else if contact.start() <= rounding && contact.end() <= rounding {
-                // No contact force all along the stretch, though never below zero.
+            } else if contact.start() <= rounding && contact.end() <= rounding && self.drive.contact[1] <= R::zero() {
+                // No contact force all along the stretch, though never below zero; one that grows is too short.
                 contact = Polynomial::constant(-gravity);
             }
             first.consider(Guard::Contact, &contact, gravity);

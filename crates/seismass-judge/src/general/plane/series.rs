@@ -292,7 +292,7 @@ impl<R: Real> PlaneSeries<R> {
         for block in self.sliding.iter().flatten().filter(|block| block.power == 0) {
             let least = block.speed[0] * R::of(LEAST_SPEED);
             let left = Polynomial(block.speed.clone()).plus(&Polynomial::constant(-least));
-            if let Some(place) = left.first_fall(R::zero()) {
+            if let Some(place) = left.first_fall(R::of(0.5) * least) {
                 first = Some(first.map_or(place, |other| if place < other { place } else { other }));
             }
         }

@@ -239,7 +239,9 @@ impl<R: Real> Plane<R> {
                 break;
             }
         }
-        let last = self.log.last().map(|entry| entry.event.event);
+        let of_directions = self.directions.iter().filter_map(|direction| direction.log.last());
+        let logged = of_directions.chain(self.log.last().map(|entry| &entry.event)).map(|entry| entry.event);
+        let last = logged.max_by(|one, other| one.time.total_cmp(&other.time));
         let last = last.map_or(String::new(), |e| format!("{} of {}", e.kind.name(), e.number));
         Err(JudgeError::TooManyEvents { time: (self.start + tau).to_f64(), limit: events, last })
     }

@@ -104,7 +104,8 @@ impl<'a> Circles<'a> {
         let mu_s: Vec<f64> = scene.directions()[0].all_goods().map(|goods| goods.block.mu_s).collect();
         let contact = |j: usize| match stops.each_ref().map(|walk| walk.relative(j, 0)) {
             _ if airborne => Contact::Airborne,
-            [0.0, 0.0] => Contact::Stuck,
+            // What has no friction is never held.
+            [0.0, 0.0] if mu_s[j] > 0.0 => Contact::Stuck,
             _ => Contact::Sliding,
         };
         let contact: Vec<Contact> = (0..mu_s.len()).map(contact).collect();
