@@ -40,8 +40,16 @@ BUILDING = sm.Building.uniform(2, 0.3)
 MOTION = sm.Motion([2.0, -2.0, 2.0, 0.0, 0.0], dt=0.1)
 
 
+STAY = """() => addEventListener('click', event => {
+  const link = event.target.closest('a[href]');
+  if (link && /^[\\w./-]+\\.html/.test(link.getAttribute('href'))) event.preventDefault();
+}, true)"""
+"""Links to other pages of the program, such as the live page, are clicked without leaving."""
+
+
 def harmless(page: Any, name: str) -> None:
     """Hold a page against what a hostile name may do; `open_page` sees requests and what the console says."""
+    page.evaluate(STAY)
     for locator in page.locator("a, button, summary").all()[:40]:
         locator.dispatch_event("click")
         locator.dispatch_event("mouseover")
