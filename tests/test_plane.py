@@ -7,6 +7,7 @@ import os
 from pathlib import Path
 
 import numpy as np
+import polars as pl
 import pytest
 
 import seismass as sm
@@ -164,3 +165,18 @@ def test_reference_scenes_from_files(name: str) -> None:
         np.testing.assert_allclose(found, values, rtol=0.0, atol=1e-12 * np.abs(values).max())
     assert len(response.events) == len(expected["events"])
     assert abs(response.energy["relative_residual"]) < 1e-11
+
+
+def test_a_block_lands_wherever_the_floor_is() -> None:
+    """N = g + a_v comes to zero at a time in closed form, at which rounding may leave it a little below zero."""
+    building = sm.Building.uniform(1, 0.5, mass=1000.0)
+    time = 0.01 * np.arange(61)
+    for end in np.linspace(0.22, 0.34, 41):
+        places = [0.0, 0.05, 0.15, 0.2, end, 1.0]
+        vertical = np.interp(time, places, [0.0, 0.0, -2.0 * G, -2.0 * G, 0.0, 0.0])
+        first = int(np.flatnonzero((vertical[:-1] < -G) & (vertical[1:] >= -G))[-1])
+        land = time[first] + 0.01 * (-G - vertical[first]) / (vertical[first + 1] - vertical[first])
+        motion = (sm.Motion(np.zeros(61), 0.01, vertical), sm.Motion(np.full(61, 1.13), 0.01))
+        scene = sm.Scene(building, [sm.Block(1, mass=3000.0, mu=0.3)], other_direction=True)
+        events = sm.simulate(scene, motion).events
+        assert events.filter(pl.col("kind") == "land")["time"].to_list() == pytest.approx([land], abs=1e-12)

@@ -88,7 +88,8 @@ impl PlaneSeries {
     /// Forms all terms in a time unit of at most `longest`; None, or a block that grazes its limit.
     fn form_slides(&mut self, state: &PlaneState, tau: f64, longest: f64) -> Option<usize> {
         let (system, inverse_mass) = (state.system(), &state.axes[0].regime.inverse_mass);
-        let contact = state.axes[0].contact_at(tau);
+        // At a landing it is zero, and rounding may leave it below.
+        let contact = state.axes[0].contact_at(tau).max(0.0);
         let mut h = longest;
         self.begin(state);
         let turns = |slide: &&SlideSeries| slide.beginning == Beginning::Moving && slide.straight_to.is_none();
