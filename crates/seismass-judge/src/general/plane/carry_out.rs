@@ -3,7 +3,7 @@
 use seismass::{Event, EventKind, GeneralEvent, PlaneEvent};
 
 use super::series::PlaneSeries;
-use super::solve::Plane;
+use super::state::Plane;
 use crate::general::decide::Cause;
 use crate::general::guards::{Guard, ROUNDING};
 use crate::model::Stage;

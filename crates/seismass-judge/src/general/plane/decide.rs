@@ -7,7 +7,7 @@
 use seismass::EventKind;
 
 use super::series::heavier;
-use super::solve::Plane;
+use super::state::Plane;
 use crate::general::decide::{AT_STOPS, CHANGES, Cause};
 use crate::general::guards::ROUNDING;
 use crate::model::Terms;

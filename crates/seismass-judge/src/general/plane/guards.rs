@@ -2,7 +2,7 @@
 
 use super::path;
 use super::series::PlaneSeries;
-use super::solve::Plane;
+use super::state::Plane;
 use crate::general::guards::{First, Guard};
 use crate::general::series::{Series, place};
 use crate::polynomial::Polynomial;

@@ -8,6 +8,7 @@ mod path;
 mod record;
 mod series;
 mod solve;
+mod state;
 
 pub use compare::{compare_plane, plane_solution_of};
 pub use record::PlaneSolution;

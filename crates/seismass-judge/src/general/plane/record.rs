@@ -3,7 +3,7 @@
 use seismass::{GeneralStatus, Peak, PlaneEvent, VectorPeaks};
 
 use super::series::PlaneSeries;
-use super::solve::Plane;
+use super::state::Plane;
 use crate::general::record::{GeneralSolution, Recorder, base_shear, shears};
 use crate::polynomial::Polynomial;
 use crate::real::Real;

@@ -5,7 +5,7 @@
 //! first direction d_0: along it |d| = 1 gives the coefficients of d, across it they follow from those of r. Where p is not
 //! zero the coefficients of d across are unknowns of the node's equation of motion, one per block that begins to slide.
 
-use super::solve::Plane;
+use super::state::Plane;
 use crate::general::model::Model;
 use crate::general::series::{MAX_PHASE, Series, place, term};
 use crate::general::state::State;

@@ -1,20 +1,17 @@
 //! The run in the plane: sample intervals cut into pieces, pieces cut at events and where a series ends.
 
-use seismass::{GeneralEvent, GeneralStatus, PlaneEvent, PlaneMotion, PlaneScene};
+use seismass::{GeneralStatus, PlaneMotion, PlaneScene};
 
 use super::record::{PlaneRecorder, PlaneSolution};
 use super::series::PlaneSeries;
-use crate::general::arrangement::Machines;
+use super::state::Plane;
 use crate::general::guards::Guard;
-use crate::general::model::Model;
 use crate::general::series::MAX_PHASE;
 use crate::general::solve::Scale;
-use crate::general::state::State;
-use crate::model::Terms;
 use crate::real::Real;
 use crate::sign::Sign;
 use crate::solve::{JudgeError, MAX_EVENTS, MAX_PIECES};
-use crate::state::{Contact, Drive};
+use crate::state::Contact;
 
 /// Stretches of one piece, of which a block that begins to slide at the end of one needs many.
 const MAX_STRETCHES: usize = 100_000;
@@ -84,87 +81,7 @@ pub(crate) fn solve_plane_scaled<R: Real>(
     Ok(recorder.finish(plane, (status, end_time), samples))
 }
 
-/// What is of one direction. Contact, friction and path of blocks are those of the first.
-pub(super) struct Direction<R> {
-    pub(super) model: Model<R>,
-    pub(super) state: State<R>,
-    pub(super) drive: Drive<R>,
-    pub(super) log: Vec<GeneralEvent>,
-    /// Energy that stops have lost where they parted.
-    pub(super) parted: R,
-}
-
-pub(super) struct Plane<R> {
-    pub(super) directions: [Direction<R>; 2],
-    /// Direction in which a block begins to slide that has no relative velocity.
-    pub(super) heads: Vec<[R; 2]>,
-    /// The last relative velocity of a block that has come to rest.
-    pub(super) arrived: Vec<[R; 2]>,
-    /// Drifts in x and y that are the axes of the ellipse at which a spring collapses.
-    pub(super) collapse: Vec<[Option<R>; 2]>,
-    /// The largest velocity so far, of a node or of a block relative to its own.
-    pub(super) fastest: R,
-    /// Longest stretch of a series while a block that moves presses on a stop.
-    at_stop: R,
-    pub(super) airborne: bool,
-    piece: R,
-    /// Beginning of the present sample interval.
-    pub(super) start: R,
-    /// Events of vectors.
-    pub(super) log: Vec<PlaneEvent>,
-}
-
 impl<R: Real> Plane<R> {
-    fn new(scene: &PlaneScene, motion: &PlaneMotion, scale: Scale<R>) -> Self {
-        let directions = [0, 1].map(|a| {
-            let scene = &scene.directions()[a];
-            let model = Model::new(scene);
-            let state = State::new(scene, &model);
-            let drive = scale.drive(&motion.directions()[a], 0);
-            Direction { model, state, drive, log: Vec::new(), parted: R::zero() }
-        });
-        let none = vec![[R::zero(); 2]; directions[0].model.goods.len()];
-        let nodes = directions[0].model.mass.len();
-        let mut plane = Self {
-            heads: none.clone(),
-            arrived: none,
-            collapse: (0..nodes).map(|p| [0, 1].map(|a| directions[a].model.springs[p].collapse_drift)).collect(),
-            directions,
-            fastest: R::zero(),
-            at_stop: R::zero(),
-            airborne: false,
-            piece: R::zero(),
-            start: R::zero(),
-            log: Vec::new(),
-        };
-        // The vector of drifts decides.
-        for spring in plane.directions.iter_mut().flat_map(|direction| &mut direction.model.springs) {
-            spring.collapse_drift = None;
-        }
-        plane
-    }
-
-    pub(super) fn machines(&mut self, a: usize) -> Machines<'_, R> {
-        let Self { directions, airborne, piece, start, .. } = self;
-        let Direction { model, state, drive, log, parted } = &mut directions[a];
-        Machines { model, state, drive: *drive, airborne, piece: *piece, start: *start, log, parted }
-    }
-
-    /// Velocity of a block relative to its node.
-    pub(super) fn velocity(&self, block: usize) -> [R; 2] {
-        [0, 1].map(|a| self.directions[a].state.blocks[block].velocity)
-    }
-
-    /// Whether a block slides and has friction, or may stick.
-    pub(super) fn has_friction(&self, block: usize) -> bool {
-        let state = &self.directions[0].state.blocks[block];
-        matches!(state.contact, Contact::Sliding(_)) && state.mu_s > R::zero()
-    }
-
-    pub(super) fn set_contact(&mut self, block: usize, contact: Contact) {
-        self.directions.iter_mut().for_each(|direction| direction.state.blocks[block].contact = contact);
-    }
-
     /// At t = 0 every node decides, unless there is no contact.
     fn begin(&mut self) {
         self.look_at_velocities();
@@ -181,15 +98,6 @@ impl<R: Real> Plane<R> {
         if !self.airborne {
             self.settle_all(R::zero());
         }
-    }
-
-    fn look_at_velocities(&mut self) {
-        let length = |x: R, y: R| (x * x + y * y).sqrt();
-        let nodes =
-            [0, 1].map(|a| self.directions[a].model.displacements(&self.directions[a].state.rate, Terms::Signed));
-        let of_nodes = nodes[0].iter().zip(&nodes[1]).map(|(&x, &y)| length(x, y));
-        let of_blocks = (0..self.heads.len()).map(|j| self.velocity(j)).map(|[x, y]| length(x, y));
-        self.fastest = of_nodes.chain(of_blocks).fold(self.fastest, R::max);
     }
 
     /// Solves from `begin` to `end` after the beginning of the interval; a spring that collapses, and when.

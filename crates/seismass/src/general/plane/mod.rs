@@ -16,6 +16,7 @@ mod run;
 mod series;
 mod slide_series;
 mod state;
+mod stiff;
 mod vector;
 
 pub use response::{Axis, PlaneEnergy, PlaneEvent, PlanePeaks, PlaneResponse, VectorPeaks};

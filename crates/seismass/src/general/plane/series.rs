@@ -1,8 +1,8 @@
 //! The Taylor series of both directions over a step, coupled by friction on the circle (`numerics`, section 9.7).
 
-use crate::general::plane::collocation::Stiff;
 use crate::general::plane::slide_series::{Beginning, ORDER, SlideSeries};
 use crate::general::plane::state::PlaneState;
+use crate::general::plane::stiff::Stiff;
 use crate::general::plane::vector::{Vector2, dot, length, plus, times};
 use crate::general::series::Series;
 use crate::lanes::Plain;
