@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Final, Literal, TypeAlias, get_args
+from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 
@@ -21,7 +21,6 @@ from seismass.design.spring_fit import SpringShape
 from seismass.model.friction import friction_table
 
 FloorForces: TypeAlias = Literal["triangular", "uniform"]
-FLOOR_FORCES: Final[tuple[FloorForces, ...]] = get_args(FloorForces)
 """Lateral forces as mass times height above ground, or as mass."""
 _SLOPES: Final = (
     "overstrength = 2.0           # second yield over the first: an assumption",

@@ -14,34 +14,30 @@ from seismass.base.values import FloatArray
 from seismass.media.roles import ATTACHED, BARE, CODE, SLIDE, YIELDS, Role
 from seismass.model.places import rack_levels
 from seismass.show.animation.canvas import (
+    CURVES,
     FINER,
     INK,
     LINE,
     PALE_SLIDE,
     PALE_YIELD,
+    PANEL,
     PAPER,
+    SCENES,
     SLAB,
     SOFT,
+    WIDTH,
     Box,
-    Canvas,
+    Frames,
     Point,
 )
 
 if TYPE_CHECKING:
     from seismass.animation.animation import Animation
 
-WIDTH: Final = 720
-BUILDINGS: Final = 330
-PANEL: Final = 84
-FOOT: Final = 26
-"""Sizes (pixels): of a frame, of the pictures of the buildings, of each history, of the axis of time."""
 FLASH: Final = 0.35
 """How long an event is to be seen (s)."""
 MOST_CURVES: Final = 4
 """Most blocks whose slips are drawn."""
-
-CURVES: Final = (SLIDE.text, CODE.text, ATTACHED.text, INK)
-"""Colours of blocks, of floors and of levels, in their order."""
 
 ROLES: Final = (SLIDE, CODE, ATTACHED, BARE, YIELDS)
 
@@ -79,7 +75,7 @@ class Sizes(NamedTuple):
     flash: float
 
 
-class Picture(Canvas):
+class Picture(Frames):
     """Draws an animation at any time.
 
     Parameters
@@ -93,30 +89,25 @@ class Picture(Canvas):
         self._animation = animation
         self._shown = animation.shown
         scene = animation.scene
-        self._panels = 1 + bool(scene.storeys) + bool(scene.racks) + bool(scene.goods)
         self._standing = standing_goods(scene)
         self._changes = [_changes(run) for run in self._shown.runs]
         self._still = self._histories()
 
     @property
-    def size(self) -> tuple[int, int]:
-        """Width and height (pixels), both even, as films need them."""
-        return WIDTH, BUILDINGS + self._panels * PANEL + FOOT
+    def panels(self) -> int:
+        """Number of histories."""
+        scene = self._animation.scene
+        return 1 + bool(scene.storeys) + bool(scene.racks) + bool(scene.goods)
 
     @property
     def duration(self) -> float:
         """Time of the last row (s)."""
         return (self._shown.rows - 1) * self._shown.step
 
-    def sample(self) -> Image.Image:
-        """Return a frame in which every colour is to be seen."""
-        frame = self.frame(0.5 * self.duration)
-        draw = ImageDraw.Draw(frame)
-        for place, colour in enumerate(
-            (PAPER, INK, SOFT, LINE, *(role.text for role in ROLES), SLAB, PALE_YIELD, PALE_SLIDE, *CURVES)
-        ):
-            draw.rectangle((20 * place, 0, 20 * place + 19, 39), fill=colour)
-        return frame
+    @property
+    def colours(self) -> tuple[str, ...]:
+        """Every colour of a frame."""
+        return (PAPER, INK, SOFT, LINE, *(role.text for role in ROLES), SLAB, PALE_YIELD, PALE_SLIDE, *CURVES)
 
     def frame(self, time: float, lasting: float = 0.0) -> Image.Image:
         """Return the frame at a time.
@@ -157,12 +148,12 @@ class Picture(Canvas):
         heights, storeys = self._shown.heights, len(self._shown.heights)
         scene = self._animation.scene
         racked = bool(storeys) and any(rack.floor == storeys for rack in scene.racks)
-        aloft = 0.8 * (BUILDINGS - 100.0) / (storeys + 0.8) if racked else 0.0
+        aloft = 0.8 * (SCENES - 100.0) / (storeys + 0.8) if racked else 0.0
         roof = any(block.floor == storeys for block in scene.blocks) and storeys
         top = 66.0 + (aloft or (min(46.0, 90.0 / storeys) if roof else 0.0))
         total = float(heights.sum()) or GROUND_HEIGHT
-        scale = (BUILDINGS - top - 24.0) / total
-        middle, ground = left + 0.5 * width, BUILDINGS - 24.0
+        scale = (SCENES - top - 24.0) / total
+        middle, ground = left + 0.5 * width, SCENES - 24.0
         half = min(0.27 * width, max((0.42 if storeys else 1.5) * total * scale, 40.0))
         colour = _role(run).text
         self._text(draw, (middle, 4), run.label[:1].upper() + run.label[1:], colour, 14, "ma")
@@ -321,7 +312,7 @@ class Picture(Canvas):
         image = Image.new("RGB", (FINER * WIDTH, FINER * self.size[1]), PAPER)
         draw = ImageDraw.Draw(image)
         for place, (title, curves) in enumerate(self._curves()):
-            top, low = BUILDINGS + place * PANEL + 18.0, BUILDINGS + (place + 1) * PANEL - 8.0
+            top, low = SCENES + place * PANEL + 18.0, SCENES + (place + 1) * PANEL - 8.0
             x = 52.0
             for words, colour in ((title, INK), *((name, colour) for _, colour, name in curves)):
                 self._text(draw, (x, top - 16), words, colour)
@@ -337,21 +328,10 @@ class Picture(Canvas):
                     words = "0" if value == 0.0 else f"{value:.3g}".replace("-", "\N{MINUS SIGN}")
                     self._text(draw, (46, y), words, SOFT, 11, "rm")
             for values, colour, _ in curves:
-                along: FloatArray = 52.0 + (WIDTH - 64.0) * np.linspace(
-                    0.0, (len(values) - 1) / self._last, len(values)
-                )
                 across: FloatArray = low - (values - ends[0]) / (ends[1] - ends[0]) * (low - top)
-                self._line(draw, list(zip(along.tolist(), across.tolist(), strict=True)), colour, 1.5)
-        seconds = next((one for one in (1, 2, 5, 10, 20, 50, 100) if self.duration / one <= 14.0), 200)
-        for second in range(0, int(self.duration) + 1, seconds):
-            x = 52.0 + (WIDTH - 64.0) * second / max(self.duration, 1e-9)
-            self._text(draw, (x, self.size[1] - FOOT + 2), f"{second}", SOFT, 11, "ma")
-        self._text(draw, (WIDTH - 6, self.size[1] - 2), "time (s)", SOFT, 11, "rs")
+                self._curve(draw, across, self._shown.rows - 1, colour)
+        self._time_axis(draw)
         return image
-
-    @property
-    def _last(self) -> int:
-        return max(self._shown.rows - 1, 1)
 
     def _curves(self) -> list[tuple[str, list[Curve]]]:
         """Each history's title and curves; of the ground the larger end of its range."""
@@ -386,11 +366,6 @@ class Picture(Canvas):
             ]
             panels.append(("slip (mm)", slips))
         return panels
-
-    def _cursor(self, draw: ImageDraw.ImageDraw, time: float) -> None:
-        x = 52.0 + (WIDTH - 64.0) * time / max(self.duration, 1e-9)
-        self._line(draw, [(x, BUILDINGS + 14.0), (x, self.size[1] - FOOT)], INK, 1.5)
-        self._text(draw, (WIDTH - 8, BUILDINGS + 2), f"{time:.2f} s", INK, 12, "ra")
 
 
 def _column(foot: Point, head: Point) -> list[Point]:

@@ -8,26 +8,32 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from seismass.base.values import FloatArray
-from seismass.media.roles import ATTACHED, CODE, SLIDE
-from seismass.show.animation.canvas import FINER, INK, LINE, PALE_SLIDE, PAPER, SLAB, SOFT, Canvas
+from seismass.media.roles import SLIDE
+from seismass.show.animation.canvas import (
+    CURVES,
+    FINER,
+    INK,
+    LINE,
+    PALE_SLIDE,
+    PANEL,
+    PAPER,
+    SCENES,
+    SLAB,
+    SOFT,
+    WIDTH,
+    Frames,
+)
 
 if TYPE_CHECKING:
     from seismass.animation.plane import PlaneAnimation
 
-WIDTH: Final = 720
-SCENES: Final = 330
-PANEL: Final = 84
-FOOT: Final = 26
-"""Sizes (pixels): of a frame, of the pictures of the building, of each history, of the axis of time."""
 SIDE: Final = 6.0
 """Side (m) of the floor as drawn."""
 GOODS: Final = 0.9
 """Side (m) of goods as drawn, where they have room."""
-COLOURS: Final = (SLIDE.text, CODE.text, ATTACHED.text, INK)
-"""Colours of blocks and of storeys, in their order."""
 
 
-class PlanePicture(Canvas):
+class PlanePicture(Frames):
     """Draws an animation in two directions at any time.
 
     Parameters
@@ -44,22 +50,19 @@ class PlanePicture(Canvas):
         self._still = self._histories()
 
     @property
-    def size(self) -> tuple[int, int]:
-        """Width and height (pixels), both even, as films need them."""
-        return WIDTH, SCENES + 2 * PANEL + FOOT
+    def panels(self) -> int:
+        """Number of histories."""
+        return 2
 
     @property
     def duration(self) -> float:
         """Time of the last row (s)."""
         return (self._animation.rows - 1) * self._animation.step
 
-    def sample(self) -> Image.Image:
-        """Return a frame in which every colour is to be seen."""
-        frame = self.frame(0.5 * self.duration)
-        draw = ImageDraw.Draw(frame)
-        for place, colour in enumerate((PAPER, INK, SOFT, LINE, SLAB, PALE_SLIDE, *COLOURS)):
-            draw.rectangle((20 * place, 0, 20 * place + 19, 39), fill=colour)
-        return frame
+    @property
+    def colours(self) -> tuple[str, ...]:
+        """Every colour of a frame."""
+        return (PAPER, INK, SOFT, LINE, SLAB, PALE_SLIDE, *CURVES)
 
     def frame(self, time: float, lasting: float = 0.0) -> Image.Image:
         """Return the frame at a time (s); `lasting` is of no effect, as no event flashes."""
@@ -71,9 +74,7 @@ class PlanePicture(Canvas):
         sway, slip = ((1.0 - part) * each[row] + part * each[after] for each in (self._sway, self._slip))
         self._from_the_side(draw, sway, slip)
         self._from_above(draw, sway, slip, row)
-        x = 52.0 + (WIDTH - 64.0) * time / max(self.duration, 1e-9)
-        self._line(draw, [(x, SCENES + 14.0), (x, self.size[1] - FOOT)], INK, 1.5)
-        self._text(draw, (WIDTH - 8, SCENES + 2), f"{time:.2f} s", INK, 12, "ra")
+        self._cursor(draw, time)
         return image.reduce(FINER)
 
     def _goods(self, floor: int) -> list[tuple[int, float, float]]:
@@ -107,7 +108,7 @@ class PlanePicture(Canvas):
             for index, along, _ in self._goods(floor):
                 x = xs[floor] + scale * along * half / (0.5 * SIDE * scale) + animation.factor * scale * slip[index, 0]
                 box = (x - 0.5 * size, ys[floor] - size, x + 0.5 * size, ys[floor])
-                self._box(draw, box, PALE_SLIDE, COLOURS[index % len(COLOURS)])
+                self._box(draw, box, PALE_SLIDE, CURVES[index % len(CURVES)])
 
     def _from_above(self, draw: ImageDraw.ImageDraw, sway: FloatArray, slip: FloatArray, row: int) -> None:
         """The floor over the ground, with its goods and their paths so far."""
@@ -125,7 +126,7 @@ class PlanePicture(Canvas):
         self._box(draw, (x - half, y - half, x + half, y + half), None, SLAB)
         size = scale * min(GOODS, 0.5 * SIDE / max(1.0, np.sqrt(len(self._goods(floor)))))
         for index, along, across in self._goods(floor):
-            colour = COLOURS[index % len(COLOURS)]
+            colour = CURVES[index % len(CURVES)]
             path = animation.factor * scale * self._slip[: row + 1, index] * [1.0, -1.0]
             home = np.array([x + scale * along, y - scale * across])
             at = home + animation.factor * scale * slip[index] * [1.0, -1.0]
@@ -156,15 +157,9 @@ class PlanePicture(Canvas):
                 self._line(draw, [(52, y), (WIDTH - 12, y)], LINE, 1)
                 self._text(draw, (46, y), words, SOFT, 11, "rm")
             left = 190
-            for (values, named), colour in zip(curves, COLOURS, strict=False):
-                along = 52.0 + (WIDTH - 64.0) * np.linspace(0.0, 1.0, len(values))
-                across = low - values / high * (low - top)
-                self._line(draw, list(zip(along.tolist(), across.tolist(), strict=True)), colour, 1.5)
+            for (values, named), colour in zip(curves, CURVES, strict=False):
+                self._curve(draw, low - values / high * (low - top), len(values) - 1, colour)
                 self._text(draw, (left, top - 14), named, colour, 12)
                 left += 80
-        seconds = next((one for one in (1, 2, 5, 10, 20, 50, 100) if self.duration / one <= 14.0), 200)
-        for second in range(0, int(self.duration) + 1, seconds):
-            x = 52.0 + (WIDTH - 64.0) * second / max(self.duration, 1e-9)
-            self._text(draw, (x, self.size[1] - FOOT + 2), f"{second}", SOFT, 11, "ma")
-        self._text(draw, (WIDTH - 6, self.size[1] - 2), "time (s)", SOFT, 11, "rs")
+        self._time_axis(draw)
         return image

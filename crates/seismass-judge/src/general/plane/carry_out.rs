@@ -70,6 +70,19 @@ impl<R: Real> Plane<R> {
     /// All blocks leave the ground and the nodes, or come back.
     fn change_contact(&mut self, tau: R) {
         self.airborne = !self.airborne;
+        self.place_blocks();
+        for j in 0..self.heads.len() {
+            let kind = if self.airborne { EventKind::Lift } else { EventKind::Land };
+            let velocity = self.velocity(j);
+            self.note(tau, kind, j, velocity, 0);
+        }
+        if !self.airborne {
+            self.settle_all(tau);
+        }
+    }
+
+    /// Blocks are in the air, rest or slide as the contact and their relative velocities say.
+    pub(super) fn place_blocks(&mut self) {
         for j in 0..self.heads.len() {
             let contact = match self.airborne {
                 true => Contact::Airborne,
@@ -77,12 +90,6 @@ impl<R: Real> Plane<R> {
                 false => Contact::Sliding(Sign::Positive),
             };
             self.set_contact(j, contact);
-            let kind = if self.airborne { EventKind::Lift } else { EventKind::Land };
-            let velocity = self.velocity(j);
-            self.note(tau, kind, j, velocity, 0);
-        }
-        if !self.airborne {
-            self.settle_all(tau);
         }
     }
 

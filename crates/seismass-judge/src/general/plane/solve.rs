@@ -87,14 +87,7 @@ impl<R: Real> Plane<R> {
         self.look_at_velocities();
         let [contact, change] = self.directions[0].drive.contact;
         self.airborne = contact < R::zero() || contact == R::zero() && change <= R::zero();
-        for j in 0..self.heads.len() {
-            let contact = match self.airborne {
-                true => Contact::Airborne,
-                false if self.is_still(j) => Contact::Stuck,
-                false => Contact::Sliding(Sign::Positive),
-            };
-            self.set_contact(j, contact);
-        }
+        self.place_blocks();
         if !self.airborne {
             self.settle_all(R::zero());
         }
