@@ -6,6 +6,7 @@ and j, the sum of row i to the ground; some are negative. Friction is a stiff el
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any, Final
@@ -53,6 +54,20 @@ def _model(plain: Tree, friction: float, motion: sm.Motion) -> None:
         ops.uniaxialMaterial(material, tag, *map(float, numbers))
         ops.element("zeroLength", tag, one, other, "-mat", tag, "-dir", 1)
 
+    connect(plain, element)
+    stiffness = friction * max(k for parts in plain.springs for k, _ in parts)
+    for number, (node, mass, mu) in enumerate(plain.blocks, start=BLOCKS):
+        ops.node(number, 0.0)
+        ops.mass(number, mass)
+        element(node, number, "ElasticPP", stiffness, mu * mass * GRAVITY / stiffness)
+    ops.timeSeries("Path", 1, "-dt", motion.dt, "-values", *motion.acceleration.tolist())
+    ops.pattern("UniformExcitation", 1, 1, "-accel", 1)
+    prepare(plain)
+
+
+def connect(plain: Tree, element: Callable[..., None]) -> None:
+    """Connect nodes by springs, matrix and dampers; `element` makes one of two nodes, a material and its numbers."""
+
     def matrix(values: FloatArray, material: str, *more: float) -> None:
         for i, j in combinations(range(len(values)), 2):
             if values[i, j]:
@@ -69,13 +84,10 @@ def _model(plain: Tree, friction: float, motion: sm.Motion) -> None:
                 element(below or GROUND, node, "ElasticPP", stiffness, strength / stiffness)
     matrix(plain.elastic, "Elastic")
     matrix(plain.damping, "Viscous", 1.0)
-    stiffness = friction * max(k for parts in plain.springs for k, _ in parts)
-    for number, (node, mass, mu) in enumerate(plain.blocks, start=BLOCKS):
-        ops.node(number, 0.0)
-        ops.mass(number, mass)
-        element(node, number, "ElasticPP", stiffness, mu * mass * GRAVITY / stiffness)
-    ops.timeSeries("Path", 1, "-dt", motion.dt, "-values", *motion.acceleration.tolist())
-    ops.pattern("UniformExcitation", 1, 1, "-accel", 1)
+
+
+def prepare(plain: Tree) -> None:
+    """Prepare the analysis in time."""
     ops.constraints("Plain")
     ops.numberer("Plain")
     ops.system("FullGeneral")

@@ -6,13 +6,12 @@ is a third direction, without mass; before it slides it is a spring.
 
 from __future__ import annotations
 
-from itertools import combinations
 from typing import Final
 
 import numpy as np
 
 import seismass as sm
-from general_opensees import BLOCKS, GRAVITY, GROUND, HALVINGS, Outcome, advance, ops
+from general_opensees import BLOCKS, GRAVITY, GROUND, HALVINGS, Outcome, advance, connect, ops, prepare
 from general_scenes import FloatArray, tree
 
 VERTICAL: Final = 1e4
@@ -43,17 +42,7 @@ def _model(scene: sm.Scene, motions: tuple[sm.Motion, sm.Motion], friction: floa
             made = material(name, *numbers)
             ops.element("zeroLength", made, one, other, "-mat", made, "-dir", axis)
 
-        for node, (below, parts) in enumerate(zip(plain.parent, plain.springs, strict=True), start=1):
-            for stiffness, strength in parts:
-                if np.isinf(strength):
-                    element(below or GROUND, node, "Elastic", stiffness)
-                else:
-                    element(below or GROUND, node, "ElasticPP", stiffness, strength / stiffness)
-        for i, j in combinations(range(len(plain.damping)), 2):
-            if plain.damping[i, j]:
-                element(i + 1, j + 1, "Viscous", -plain.damping[i, j], 1.0)
-        for i, total in enumerate(plain.damping.sum(axis=1), start=1):
-            element(GROUND, i, "Viscous", total, 1.0)
+        connect(plain, element)
     stiffest = max(k for plain in directions for parts in plain.springs for k, _ in parts)
     ops.timeSeries("Constant", 1)
     ops.pattern("Plain", 1, 1)
@@ -69,13 +58,7 @@ def _model(scene: sm.Scene, motions: tuple[sm.Motion, sm.Motion], friction: floa
     for axis, motion in enumerate(motions, start=1):
         ops.timeSeries("Path", axis + 1, "-dt", motion.dt, "-values", *motion.acceleration.tolist())
         ops.pattern("UniformExcitation", axis + 1, axis, "-accel", axis + 1)
-    ops.constraints("Plain")
-    ops.numberer("Plain")
-    ops.system("FullGeneral")
-    ops.test("NormUnbalance", 1e-8 * float(directions[0].mass.max() * GRAVITY), 50)
-    ops.algorithm("KrylovNewton")
-    ops.integrator("Newmark", 0.5, 0.25)
-    ops.analysis("Transient")
+    prepare(directions[0])
 
 
 def _other(scene: sm.Scene) -> sm.Scene:

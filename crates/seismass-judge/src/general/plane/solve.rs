@@ -9,9 +9,7 @@ use crate::general::guards::Guard;
 use crate::general::series::MAX_PHASE;
 use crate::general::solve::Scale;
 use crate::real::Real;
-use crate::sign::Sign;
 use crate::solve::{JudgeError, MAX_EVENTS, MAX_PIECES};
-use crate::state::Contact;
 
 /// Stretches of one piece, of which a block that begins to slide at the end of one needs many.
 const MAX_STRETCHES: usize = 100_000;
