@@ -11,6 +11,9 @@ use seismass::{
 use crate::law_scene::{of_law, wear};
 use crate::random_scene::{Draw, samples_of, spring};
 
+/// Part of its trace by which a matrix that bears the building alone must exceed a singular one.
+const SINGULAR: f64 = 1e-9;
+
 /// A scene and a motion drawn from a seed.
 ///
 /// No building, or 1 to 6 storeys; their springs elastic, trilinear or of a further law, of stiffness 0 beside a wall; in
@@ -190,7 +193,9 @@ pub(crate) fn building(
         .collect();
     let matrix = draw.one_in(2).then(|| wall(draw, n, k));
     if let Some(matrix) = &matrix {
-        let bears_alone = (0..n).all(|i| matrix[(i, i)] > 0.0) && matrix.clone().cholesky().is_some();
+        // Beyond rounding: a matrix of less than full rank may have a factor.
+        let rounding = DMatrix::identity(n, n) * (SINGULAR * matrix.trace());
+        let bears_alone = (matrix - rounding).cholesky().is_some();
         for storey in &mut storeys {
             if bears_alone && draw.one_in(5) {
                 *storey = Storey::elastic(0.0);

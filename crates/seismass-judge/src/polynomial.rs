@@ -4,6 +4,12 @@ use std::cmp::Ordering;
 
 use crate::real::Real;
 
+/// Terms below this part of the rounding of a polynomial do not count.
+const NEGLIGIBLE: f64 = 1e-6;
+
+/// Bernstein coefficients in doubles are right to this part of the sum of the coefficients.
+const CERTAIN: f64 = 1e-12;
+
 /// Power-basis coefficients, lowest first; never empty.
 #[derive(Debug, Clone)]
 pub(crate) struct Polynomial<R>(pub(crate) Vec<R>);
@@ -65,20 +71,41 @@ impl<R: Real> Polynomial<R> {
         self.0.iter().enumerate().rev().fold(R::zero(), |sum, (k, &c)| sum + c / R::of((k + 1) as f64))
     }
 
-    /// The polynomial over [0, `length`], mapped to [0, 1].
+    /// The polynomial over [0, `length`], mapped to [0, 1], without last terms that are far below its rounding there.
     pub(crate) fn shrink(&mut self, length: R) {
         let mut power = R::of(1.0);
         for c in &mut self.0 {
             *c = *c * power;
             power = power * length;
         }
+        let largest = self.0.iter().fold(R::zero(), |largest, c| largest.max(c.abs()));
+        let least = R::of(NEGLIGIBLE) * R::epsilon() * largest;
+        // What is no number stays.
+        let counts = |c: &R| c.abs().partial_cmp(&least).is_none_or(Ordering::is_gt);
+        let last = self.0.iter().rposition(counts).unwrap_or(0);
+        self.0.truncate(last + 1);
     }
 
     /// Places in [0, 1] where the sign changes, in order. A polynomial that starts without the sign `before` changes it at 0.
     fn sign_changes(&self, before: Ordering, only_first: bool) -> Vec<R> {
+        if let Some(sign) = self.sign_in_doubles() {
+            return if before.is_ne() && before != sign { vec![R::zero()] } else { Vec::new() };
+        }
         let mut scan = Scan { polynomial: self, last: before, only_first, found: Vec::new() };
         scan.visit(&bernstein(&self.0), R::zero(), R::of(1.0));
         scan.found
+    }
+
+    /// The one sign on [0, 1], where doubles can tell and are cheaper.
+    fn sign_in_doubles(&self) -> Option<Ordering> {
+        if R::EPSILON >= f64::EPSILON {
+            return None;
+        }
+        let coefficients: Vec<f64> = self.0.iter().map(|c| c.to_f64()).collect();
+        let least = CERTAIN * coefficients.iter().map(|c| c.abs()).sum::<f64>();
+        let b = bernstein(&coefficients);
+        let is_beyond = |value: &f64| value * b[0].signum() > least;
+        b.iter().all(is_beyond).then(|| sign(b[0]))
     }
 
     /// Largest absolute value on [0, 1], and the first place where it is reached.

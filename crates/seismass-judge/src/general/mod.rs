@@ -13,6 +13,7 @@ mod record;
 mod series;
 mod solve;
 mod state;
+mod stretches;
 
 pub(crate) use compare::apart_by_machine;
 pub use compare::{as_chain, compare_general, solution_of};

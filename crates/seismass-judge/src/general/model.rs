@@ -141,10 +141,10 @@ impl<R: Real> Model<R> {
         pull
     }
 
-    /// Bound of the norm of the system in every regime (1/s), with stops that touch or without: sqrt(kappa) + gamma, where
-    /// kappa and gamma are the largest row sums from drifts and slips, and from their rates, to the second derivatives of
-    /// drifts and slips, with all springs at their stiffest and no mass but that of the nodes.
-    pub(super) fn frequency_bound(&self, with_stops: bool) -> f64 {
+    /// Bound of the norm of the system (1/s) in every regime in which the stops of these goods press: sqrt(kappa) + gamma,
+    /// where kappa and gamma are the largest row sums from drifts and slips, and from their rates, to the second derivatives
+    /// of drifts and slips, with all springs at their stiffest and no mass but that of the nodes.
+    pub(super) fn frequency_bound(&self, presses: impl Fn(usize) -> bool) -> f64 {
         let (n, m) = (self.mass.len(), self.goods.len());
         let none = vec![R::zero(); n];
         let unit = |at: usize, value: R| (0..n).map(|i| if i == at { value } else { R::zero() }).collect::<Vec<R>>();
@@ -162,12 +162,12 @@ impl<R: Real> Model<R> {
                     sums[n + j] += (on_goods[j] / goods.mass - node).to_f64().abs();
                 }
             }
-            let rows = if with_stops { n + m } else { n };
-            sums[..rows].iter().copied().fold(0.0, f64::max)
+            let counts = |&(row, _): &(usize, &f64)| row < n || presses(row - n);
+            sums.iter().enumerate().filter(counts).fold(0.0, |largest: f64, (_, &sum)| largest.max(sum))
         };
         // Force of a stop on its block's node and on the block, per unit of slip or of its rate.
         let stop = |j: usize, of: &dyn Fn(&StopData<R>) -> R| {
-            let value = self.goods[j].stops.as_ref().filter(|_| with_stops).map_or(R::zero(), of);
+            let value = self.goods[j].stops.as_ref().filter(|_| presses(j)).map_or(R::zero(), of);
             let force = self.goods[j].node.map_or(none.clone(), |node| unit(node, value));
             (force, (0..m).map(|i| if i == j { -value } else { R::zero() }).collect())
         };

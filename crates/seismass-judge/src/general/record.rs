@@ -3,7 +3,7 @@
 use seismass::{EventKind, GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralStatus, Peak};
 
 use super::model::Model;
-use super::series::Series;
+use super::series::{Series, term};
 use super::state::{State, Stopped};
 use crate::model::Terms;
 use crate::polynomial::Polynomial;
@@ -138,7 +138,7 @@ impl<R: Real> Recorder<R> {
         let orders = series.rate.iter().map(|r| r.0.len()).max().unwrap_or(0);
         let mut damping = vec![Polynomial(Vec::new()); n];
         for order in 0..orders {
-            let rate: Vec<R> = series.rate.iter().map(|r| r.0[order]).collect();
+            let rate: Vec<R> = series.rate.iter().map(|r| term(r, order)).collect();
             for (p, force) in model.damping_forces(&rate, Terms::Signed).into_iter().enumerate() {
                 damping[p].0.push(force);
             }

@@ -8,6 +8,7 @@ use super::model::Model;
 use super::record::{GeneralSolution, Recorder};
 use super::series::{MAX_PHASE, Series};
 use super::state::State;
+use super::stretches::Stretches;
 use crate::model::Terms;
 use crate::real::Real;
 use crate::solve::{JudgeError, MAX_EVENTS, MAX_PIECES, drive};
@@ -57,7 +58,7 @@ pub(crate) fn solve_scaled<R: Real>(
         return Err(JudgeError::NoDecimation);
     }
     let model = Model::<R>::new(scene);
-    let phase = model.frequency_bound(false) * motion.dt() / MAX_PHASE;
+    let phase = model.frequency_bound(|_| false) * motion.dt() / MAX_PHASE;
     if phase > MAX_PIECES {
         return Err(JudgeError::TooStiff { longest: motion.dt() * MAX_PIECES / phase, dt: motion.dt() });
     }
@@ -66,7 +67,7 @@ pub(crate) fn solve_scaled<R: Real>(
     let dt = R::of(motion.dt());
     let mut run = Run {
         state: State::new(scene, &model),
-        at_stop: R::of(MAX_PHASE / model.frequency_bound(true).max(f64::MIN_POSITIVE)),
+        stretches: Stretches::default(),
         model,
         drive: scale.drive(motion, 0),
         airborne: false,
@@ -106,7 +107,7 @@ struct Run<R> {
     model: Model<R>,
     state: State<R>,
     /// Longest stretch of a series while a block that moves presses on a stop.
-    at_stop: R,
+    stretches: Stretches,
     drive: Drive<R>,
     airborne: bool,
     /// Length of a whole piece.
@@ -143,8 +144,8 @@ impl<R: Real> Run<R> {
         let (mut tau, mut events) = (begin, 0);
         loop {
             let rest = end - tau;
-            let is_short = self.state.moves_at_a_stop() && self.at_stop < rest;
-            let length = if is_short { self.at_stop } else { rest };
+            let short = self.stretches.longest(&self.model, &self.state).filter(|&longest| longest < rest);
+            let length = short.unwrap_or(rest);
             let mut series = Series::new(&self.model, &self.state, &self.drive, tau, length);
             let event = self.machines().first_event(&series);
             if let Some((place, ..)) = event {
@@ -158,7 +159,7 @@ impl<R: Real> Run<R> {
             series.add_paths(&mut self.state);
             tau = tau + series.length;
             match event {
-                None if is_short => continue,
+                None if short.is_some() => continue,
                 None => return Ok(None),
                 Some((.., Guard::Collapse { node })) => return Ok(Some((node, (self.start + tau).to_f64()))),
                 Some((.., guard)) => self.machines().carry_out(guard, &series, tau),

@@ -175,10 +175,11 @@ impl<R: Real> State<R> {
         pressing.fold(energy, |sum, j| sum + self.stop_energy(model, j))
     }
 
-    /// Whether a block that is not stuck presses on a stop.
-    pub(super) fn moves_at_a_stop(&self) -> bool {
-        let pairs = self.blocks.iter().zip(&self.stopped);
-        pairs.into_iter().any(|(b, s)| b.contact != Contact::Stuck && matches!(s, Stopped::Pressing(_)))
+    /// The blocks that press on a stop and are not stuck.
+    pub(super) fn moving_at_stops(&self) -> Vec<usize> {
+        let moves = |j: &usize| self.blocks[*j].contact != Contact::Stuck;
+        let presses = |j: &usize| matches!(self.stopped[*j], Stopped::Pressing(_));
+        (0..self.blocks.len()).filter(moves).filter(presses).collect()
     }
 
     pub(super) fn is_finite(&self) -> bool {

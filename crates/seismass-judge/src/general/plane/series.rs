@@ -286,10 +286,11 @@ impl<R: Real> PlaneSeries<R> {
         }
     }
 
-    /// Ends the stretch where a relative velocity has become much smaller.
+    /// Ends the stretch where a relative velocity, over the power of time it begins with, has become much smaller: on a
+    /// straight line it may come to rest within a stretch, also within the one in which it starts.
     fn keep_speeds(&mut self) {
         let mut first: Option<R> = None;
-        for block in self.sliding.iter().flatten().filter(|block| block.power == 0) {
+        for block in self.sliding.iter().flatten() {
             let least = block.speed[0] * R::of(LEAST_SPEED);
             let left = Polynomial(block.speed.clone()).plus(&Polynomial::constant(-least));
             if let Some(place) = left.first_fall(R::of(0.5) * least) {

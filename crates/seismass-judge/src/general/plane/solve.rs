@@ -4,7 +4,7 @@ use seismass::{GeneralStatus, PlaneMotion, PlaneScene};
 
 use super::record::{PlaneRecorder, PlaneSolution};
 use super::series::PlaneSeries;
-use super::state::Plane;
+use super::state::{Direction, Plane};
 use crate::general::guards::Guard;
 use crate::general::series::MAX_PHASE;
 use crate::general::solve::Scale;
@@ -38,17 +38,13 @@ pub(crate) fn solve_plane_scaled<R: Real>(
     }
     let motions = motion.directions();
     let mut plane = Plane::new(scene, motion, scale);
-    let bound = |with_stops: bool| {
-        let of = |a: usize| plane.directions[a].model.frequency_bound(with_stops);
-        of(0).max(of(1))
-    };
+    let bound = plane.directions.each_ref().map(|direction| direction.model.frequency_bound(|_| false));
     let step = motions[0].dt();
-    let phase = bound(false) * step / MAX_PHASE;
+    let phase = bound[0].max(bound[1]) * step / MAX_PHASE;
     if phase > MAX_PIECES {
         return Err(JudgeError::TooStiff { longest: step * MAX_PIECES / phase, dt: step });
     }
     let pieces = phase.ceil().max(1.0) as usize;
-    plane.at_stop = R::of(MAX_PHASE / bound(true).max(f64::MIN_POSITIVE));
     let samples = motions[0].acceleration().len();
     let dt = R::of(step);
     plane.piece = dt / R::of(pieces as f64);
@@ -100,8 +96,8 @@ impl<R: Real> Plane<R> {
         let (mut tau, mut events) = (begin, 0);
         for _ in 0..MAX_STRETCHES {
             let mut length = end - tau;
-            if self.directions.iter().any(|direction| direction.state.moves_at_a_stop()) && self.at_stop < length {
-                length = self.at_stop;
+            for Direction { model, state, stretches, .. } in &mut self.directions {
+                length = stretches.longest(model, state).filter(|&longest| longest < length).unwrap_or(length);
             }
             let time = |tau: R| (self.start + tau).to_f64();
             let Some(mut series) = PlaneSeries::new(self, tau, length) else {

@@ -6,6 +6,7 @@ use crate::general::arrangement::Machines;
 use crate::general::model::Model;
 use crate::general::solve::Scale;
 use crate::general::state::State;
+use crate::general::stretches::Stretches;
 use crate::model::Terms;
 use crate::real::Real;
 use crate::state::{Contact, Drive};
@@ -18,6 +19,7 @@ pub(super) struct Direction<R> {
     pub(super) log: Vec<GeneralEvent>,
     /// Energy that stops have lost where they parted.
     pub(super) parted: R,
+    pub(super) stretches: Stretches,
 }
 
 pub(super) struct Plane<R> {
@@ -30,8 +32,6 @@ pub(super) struct Plane<R> {
     pub(super) collapse: Vec<[Option<R>; 2]>,
     /// The largest velocity so far, of a node or of a block relative to its own.
     pub(super) fastest: R,
-    /// Longest stretch of a series while a block that moves presses on a stop.
-    pub(super) at_stop: R,
     pub(super) airborne: bool,
     pub(super) piece: R,
     /// Beginning of the present sample interval.
@@ -47,7 +47,7 @@ impl<R: Real> Plane<R> {
             let model = Model::new(scene);
             let state = State::new(scene, &model);
             let drive = scale.drive(&motion.directions()[a], 0);
-            Direction { model, state, drive, log: Vec::new(), parted: R::zero() }
+            Direction { model, state, drive, log: Vec::new(), parted: R::zero(), stretches: Stretches::default() }
         });
         let none = vec![[R::zero(); 2]; directions[0].model.goods.len()];
         let nodes = directions[0].model.mass.len();
@@ -57,7 +57,6 @@ impl<R: Real> Plane<R> {
             collapse: (0..nodes).map(|p| [0, 1].map(|a| directions[a].model.springs[p].collapse_drift)).collect(),
             directions,
             fastest: R::zero(),
-            at_stop: R::zero(),
             airborne: false,
             piece: R::zero(),
             start: R::zero(),
@@ -72,7 +71,7 @@ impl<R: Real> Plane<R> {
 
     pub(super) fn machines(&mut self, a: usize) -> Machines<'_, R> {
         let Self { directions, airborne, piece, start, .. } = self;
-        let Direction { model, state, drive, log, parted } = &mut directions[a];
+        let Direction { model, state, drive, log, parted, .. } = &mut directions[a];
         Machines { model, state, drive: *drive, airborne, piece: *piece, start: *start, log, parted }
     }
 

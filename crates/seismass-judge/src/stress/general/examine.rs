@@ -8,12 +8,13 @@ use super::subject::Subject;
 use super::verdict::judge;
 use crate::general::Scale;
 use crate::random_scene::Draw;
+use crate::stress::grazing::AMPLIFICATION;
 use crate::stress::random::LARGEST_RESIDUAL;
-use crate::stress::verdict::Verdict;
+use crate::stress::verdict::{LAST_DIGITS, Verdict};
 use crate::{DoubleDouble, JudgeError, larger};
 
 /// Largest change of numbers and times, relative as those to the judge are, by a division of the sample intervals; beyond,
-/// the judge is asked.
+/// changes of the input by some last digits must move the engine as far, or the judge is asked.
 pub const LARGEST_DIVISION: f64 = 1e-9;
 
 /// One scene in so many is solved with every sample interval divided, and without energies and histories. A judged one
@@ -21,6 +22,8 @@ pub const LARGEST_DIVISION: f64 = 1e-9;
 const OTHERWISE: u64 = 5;
 /// Parts of a divided interval.
 const PARTS: usize = 4;
+/// Different changes of each size.
+const CHANGES: u64 = 2;
 
 /// What one scene came to.
 #[derive(Debug, Clone, Default)]
@@ -35,6 +38,8 @@ pub(super) struct Found {
     pub(super) division: Option<f64>,
     /// Largest difference of peaks and paths to those of the scene's image, where the events are as many.
     pub(super) turn: Option<f64>,
+    /// Beyond the limit in one of the two, and so by changes of the input in last digits.
+    pub(super) moves_by_itself: bool,
     pub(super) verdict: Option<Verdict>,
     pub(super) defect: Option<String>,
 }
@@ -71,9 +76,13 @@ pub(super) fn examine<S: Subject>(seed: u64, judged: bool, precisely: bool) -> F
         }
         found.division = division(&subject, &response);
         found.turn = turn(&subject, &response);
-        // A graze may fall either way: the judge says which of the two was right.
-        let beyond = |difference: Option<f64>| difference.is_none_or(|difference| difference > LARGEST_DIVISION);
-        asks_judge |= beyond(found.division) || beyond(found.turn);
+        let largest =
+            [found.division, found.turn].map(|apart| apart.unwrap_or(f64::INFINITY)).into_iter().fold(0.0, larger);
+        if !judged && largest > LARGEST_DIVISION {
+            found.moves_by_itself = moves_as_far(&subject, &response, largest);
+            // A graze may fall either way: the judge says which of the two was right.
+            asks_judge = !found.moves_by_itself;
+        }
     }
     if asks_judge {
         let verdict = judge(&subject, &response, precisely);
@@ -111,6 +120,19 @@ fn same_bits<S: Subject>(subject: &S, response: &S::Response) -> Result<(), Stri
     let other = subject.simulate(&Options::default()).map_err(|error| format!("peaks alone: {error}"))?;
     let same = S::same_bits(response, &other);
     if same { Ok(()) } else { Err("other bits without energies, events and histories".into()) }
+}
+
+/// Whether changes of the input by some last digits move the engine as far; where the events differ it is infinitely far.
+fn moves_as_far<S: Subject>(subject: &S, response: &S::Response, apart: f64) -> bool {
+    let Some(own) = S::as_solution(response) else { return false };
+    let changes = LAST_DIGITS.iter().flat_map(|&digits| (0..CHANGES).map(move |trial| (digits, trial)));
+    let mut moved = changes.filter_map(|(digits, trial)| {
+        let other = subject.changed(digits, trial)?.simulate(&options(1)).ok()?;
+        let comparison = S::compare(&S::as_solution(&other)?, &own);
+        let same_events = comparison.mismatch.is_none();
+        Some(if same_events { larger(comparison.worst(), comparison.worst_time()) } else { f64::INFINITY })
+    });
+    moved.any(|moved| apart <= AMPLIFICATION * moved)
 }
 
 /// How far the run is from one with every sample interval divided; nothing where the events differ.

@@ -30,13 +30,12 @@ pub fn distribution(tally: &GeneralTally) -> String {
     row("events by kind", kinds.join(", "));
     row(&format!("worst energy residual (limit {LARGEST_RESIDUAL:.0e})"), of_worst(tally.worst_residual));
     row("with every sample interval divided by four, the same events", tally.divided.to_string());
-    let beyond = format!("largest change by the division (limit {LARGEST_DIVISION:.0e}, beyond it the judge is asked)");
+    let beyond = format!("largest change by the division (limit {LARGEST_DIVISION:.0e})");
     row(&beyond, of_worst(tally.worst_division));
     row("as their images, as many events", tally.turned.to_string());
-    let beyond = format!(
-        "largest difference of peaks and paths to the image (limit {LARGEST_DIVISION:.0e}, beyond it the judge is asked)"
-    );
+    let beyond = format!("largest difference of peaks and paths to the image (limit {LARGEST_DIVISION:.0e})");
     row(&beyond, of_worst(tally.worst_turn));
+    row("beyond a limit, and as far by changes of the input in last digits", tally.moved_by_themselves.to_string());
     row("compared with the plain implementation", tally.judged.to_string());
     let limit = format!("where the events agree (limit {AGREEMENT:.0e})");
     row(&format!("worst relative difference {limit}"), of_worst(tally.worst_difference));

@@ -41,6 +41,8 @@ pub struct GeneralTally {
     pub divided: u64,
     /// Of them, solved as their images too, with as many events.
     pub turned: u64,
+    /// Of them, beyond the limit there, and so by changes of the input in last digits.
+    pub moved_by_themselves: u64,
     /// Largest energy residual, and its seed.
     pub worst_residual: (f64, u64),
     /// Largest change by a division of the intervals within the limit, and its seed.
@@ -80,8 +82,11 @@ impl GeneralTally {
             Directions::Two => examine::<(PlaneScene, PlaneMotion)>,
         };
         let next = self.first + self.scenes;
-        let found: Vec<Found> = (next..next + scenes)
+        let seeds: Vec<u64> = (next..next + scenes).collect();
+        let found: Vec<Found> = seeds
             .into_par_iter()
+            // A scene may take a thousand times as long as its neighbours: no thread holds others back behind it.
+            .with_max_len(1)
             .map(|seed| {
                 let is_judged = Draw(seed).between(0.0, 1.0) < judged;
                 let precisely = Draw(seed ^ 0x6464).one_in(PRECISELY);
@@ -108,6 +113,7 @@ impl GeneralTally {
         self.judged += u64::from(found.verdict.is_some());
         self.divided += u64::from(found.division.is_some());
         self.turned += u64::from(found.turn.is_some());
+        self.moved_by_themselves += u64::from(found.moves_by_itself);
         raise(&mut self.worst_turn, found.turn.filter(|&d| d <= LARGEST_DIVISION).unwrap_or(0.0));
         raise(&mut self.worst_residual, found.residual.unwrap_or(0.0));
         raise(&mut self.worst_division, found.division.filter(|&d| d <= LARGEST_DIVISION).unwrap_or(0.0));

@@ -21,7 +21,7 @@ impl GeneralTally {
         line("program", &[program.into()]);
         line("first", &[self.first.to_string()]);
         line("directions", &[format!("{:?}", self.directions)]);
-        line("counts", &[self.scenes, self.collapsed, self.judged, self.divided, self.turned].map(|c| c.to_string()));
+        line("counts", &self.counts().map(|c| c.to_string()));
         line("kinds", &self.kinds.map(|c| c.to_string()));
         for (key, (value, seed)) in [
             ("residual", self.worst_residual),
@@ -75,6 +75,10 @@ impl GeneralTally {
         Ok(tally)
     }
 
+    fn counts(&self) -> [u64; 6] {
+        [self.scenes, self.collapsed, self.judged, self.divided, self.turned, self.moved_by_themselves]
+    }
+
     fn read_line(&mut self, fields: &[&str]) -> Option<()> {
         let (key, fields) = fields.split_first()?;
         let whole = |i: usize| fields.get(i)?.parse::<u64>().ok();
@@ -91,9 +95,8 @@ impl GeneralTally {
                 }
             }
             "counts" => {
-                let counts =
-                    [&mut self.scenes, &mut self.collapsed, &mut self.judged, &mut self.divided, &mut self.turned];
-                take_numbers(fields, counts.into_iter())?;
+                let Self { scenes, collapsed, judged, divided, turned, moved_by_themselves, .. } = self;
+                take_numbers(fields, [scenes, collapsed, judged, divided, turned, moved_by_themselves].into_iter())?;
             }
             "kinds" => take_numbers(fields, self.kinds.iter_mut())?,
             "residual" => self.worst_residual = worst()?,
