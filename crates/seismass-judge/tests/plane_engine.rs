@@ -34,17 +34,25 @@ fn scenes(usual: u64) -> u64 {
     std::env::var("SEISMASS_JUDGE_SCENES").map_or(usual, |n| n.parse().unwrap())
 }
 
-/// Scenes that the engine is known not to solve (`docs/limitations.md`): steps of sliding become too many.
-const NOT_SOLVED: [u64; 1] = [1_000_000_010];
-
 #[test]
 fn random_scenes_keep_their_invariants_and_agree_with_the_judge() {
     let mut tally = GeneralTally::from_seed(Directions::Two, 1_000_000_000);
     tally.run(scenes(20), 0.2);
     println!("{}", distribution(&tally));
-    let found: Vec<u64> = tally.defects.iter().map(|(seed, _)| *seed).collect();
-    assert_eq!(found, NOT_SOLVED, "{:#?}", tally.defects);
+    assert!(tally.defects.is_empty(), "{:#?}", tally.defects);
     assert!(tally.judged > 0 && tally.divided > 0 && tally.turned > 0);
+}
+
+/// Seeds that once failed. 49: two equal blocks at their stops reach their limits within rounding of one instant, and each in
+/// turn was released and stuck again. 83: the judge jumped over a stop in the stretch in which a block starts. 172: the
+/// acceleration of a floor has its peak as a block comes to rest, on the way that was taken as a straight line.
+#[test]
+fn seeds_that_once_failed_hold() {
+    for seed in [49, 83, 172] {
+        let mut tally = GeneralTally::from_seed(Directions::Two, seed);
+        tally.run(1, if seed == 49 { 0.0 } else { 1.0 });
+        assert!(tally.defects.is_empty() && tally.failed.is_empty(), "{:#?} {:#?}", tally.defects, tally.failed);
+    }
 }
 
 /// Scenes in two directions of the references, which an independent program with a 64-bit mantissa has solved: the kernel

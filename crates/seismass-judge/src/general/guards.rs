@@ -80,14 +80,14 @@ impl<R: Real> Machines<'_, R> {
         let sizes = series.acceleration_sizes(self.model, self.state);
         let mut first = First::new();
         self.contact_and_springs(series, &sizes, &mut first);
-        for j in 0..self.model.goods.len() {
+        // Of what happens at one instant stops come first, as their forces may jump.
+        let goods = 0..self.model.goods.len();
+        goods.clone().filter(|&j| !self.is_stuck(j)).for_each(|j| self.stops(j, series, &sizes, &mut first));
+        for j in goods {
             match self.state.blocks[j].contact {
                 Contact::Stuck => self.breakaway(j, series, &sizes, &mut first),
                 Contact::Sliding(sign) => self.sliding(j, sign, series, &sizes, &mut first),
                 Contact::Airborne => {}
-            }
-            if !self.is_stuck(j) {
-                self.stops(j, series, &sizes, &mut first);
             }
         }
         first.found

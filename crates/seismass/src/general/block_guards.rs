@@ -53,7 +53,17 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Arrivals, wear and stops of the blocks that move.
+    /// Stops of the blocks that move.
+    pub(super) fn stops_of_blocks(&mut self) {
+        let state = self.state;
+        for (position, &block) in state.moving.iter().enumerate() {
+            if let Some(stops) = &state.system.stops[block] {
+                self.stops(position, block, stops);
+            }
+        }
+    }
+
+    /// Arrivals and wear of the blocks that move.
     pub(super) fn moving_blocks(&mut self) {
         let state = self.state;
         for (position, &block) in state.moving.iter().enumerate() {
@@ -62,9 +72,6 @@ impl Search<'_, '_> {
                 if state.system.wears {
                     self.wear(position, block, sign);
                 }
-            }
-            if let Some(stops) = &state.system.stops[block] {
-                self.stops(position, block, stops);
             }
         }
     }

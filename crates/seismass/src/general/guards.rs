@@ -74,6 +74,8 @@ impl<'a, 'b> Search<'a, 'b> {
             if state.vertical || state.airborne {
                 search.contact();
             }
+            // First of what happens at one instant, as the forces of stops may jump.
+            search.stops_of_blocks();
             if !state.airborne {
                 search.breakaways();
             }

@@ -82,6 +82,10 @@ impl Observer {
         }
     }
 
+    pub(super) fn largest_acceleration(&self, node: usize) -> f64 {
+        self.acceleration[node].value
+    }
+
     /// Takes the velocity at which a block comes to its stop.
     pub(super) fn take_contact_velocity(&mut self, block: usize, velocity: f64, time: f64) {
         self.contact_velocity[block].take(velocity, time);

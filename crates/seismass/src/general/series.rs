@@ -232,6 +232,11 @@ impl Series {
         (polynomial, size)
     }
 
+    /// The first two terms of a node's acceleration.
+    pub(super) fn first_accelerations(&self, node: usize) -> [f64; 2] {
+        [self.acceleration[node], self.acceleration[self.width + node]]
+    }
+
     /// Range of a quantity of a node over the step.
     #[inline]
     pub(super) fn range(&self, quantity: Quantity, node: usize) -> (f64, f64) {

@@ -23,7 +23,7 @@ const OTHERWISE: u64 = 5;
 /// Parts of a divided interval.
 const PARTS: usize = 4;
 /// Different changes of each size.
-const CHANGES: u64 = 2;
+const CHANGES: u64 = 4;
 
 /// What one scene came to.
 #[derive(Debug, Clone, Default)]

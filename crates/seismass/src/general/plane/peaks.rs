@@ -5,7 +5,7 @@ use crate::general::plane::products::{add_product, constant, half_square_rate, r
 use crate::general::plane::response::{PlanePeaks, VectorPeaks};
 use crate::general::plane::series::PlaneSeries;
 use crate::general::plane::state::PlaneState;
-use crate::general::plane::vector::length;
+use crate::general::plane::vector::{Vector2, length};
 use crate::general::series::Quantity;
 use crate::lanes::Plain;
 use crate::polynomial::power::Polynomial;
@@ -73,6 +73,12 @@ impl PlaneObserver {
         for (p, peak) in self.vector.acceleration.iter_mut().enumerate().skip(1) {
             peak.take(length([accelerations[0][p], accelerations[1][p]]), time);
         }
+    }
+
+    /// Whether accelerations of a node of these sizes would raise a peak.
+    pub(super) fn would_raise(&self, node: usize, accelerations: Vector2) -> bool {
+        let beyond = |a: usize| accelerations[a] > self.axes[a].largest_acceleration(node);
+        beyond(0) || beyond(1) || length(accelerations) > self.vector.acceleration[node].value
     }
 
     /// Takes the velocity at which a block comes to a stop of a direction.

@@ -12,6 +12,7 @@ use crate::general::plane::outcome::PlaneHappening;
 use crate::general::plane::peaks::PlaneObserver;
 use crate::general::plane::response::{Axis, PlaneEvent, PlaneResponse};
 use crate::general::plane::series::PlaneSeries;
+use crate::general::plane::slide_series::SlideSeries;
 use crate::general::plane::state::PlaneState;
 use crate::general::plane::vector::length;
 use crate::general::response::GeneralStatus;
@@ -24,7 +25,7 @@ use crate::response::{EventKind, Statistics};
 use crate::run::limits::{EVENTS_PER_INTERVAL, EVENTS_PER_MACHINE};
 use crate::scene::{Options, PlaneMotion, PlaneScene};
 use crate::state::interval::interval;
-use crate::tolerances::{ARRIVED_ON_CIRCLE, REFUSED_PHASE};
+use crate::tolerances::{ARRIVED_ON_CIRCLE, FALL_ROUNDING, REFUSED_PHASE};
 
 /// Steps that sliding blocks may take within one sample interval, beside one for each radian of the stiffest vibration.
 const STEPS_PER_INTERVAL: usize = 200_000;
@@ -156,7 +157,8 @@ impl<'a> Run<'a> {
         while tau < h {
             let remaining = h - tau;
             self.radians(remaining)?;
-            if let Some(block) = self.series.form(&self.state, tau, remaining) {
+            let raises = |node: usize, accelerations| self.observer.would_raise(node, accelerations);
+            if let Some(block) = self.series.form(&self.state, tau, remaining, raises) {
                 let logged = self.log.len();
                 self.happening(tau).graze(block);
                 self.note_events(logged);
@@ -170,7 +172,7 @@ impl<'a> Run<'a> {
             steps += 1;
             let (first, isolated) = PlaneSearch::first(&self.state, &self.series);
             self.statistics.guards_isolated += isolated;
-            let place = first.map_or(1.0, |(place, _)| place);
+            let place = first.map_or(1.0, |(place, _)| if self.is_instant(place, tau) { 0.0 } else { place });
             // A row at the time of an event is the state after it.
             if !is_recorded && place > 0.0 {
                 self.record(sample, 0.0);
@@ -203,6 +205,14 @@ impl<'a> Run<'a> {
             }
         }
         Ok(None)
+    }
+
+    /// Whether a place of the present series is within rounding of the time at which blocks start to slide: what happens
+    /// there happens as they start, for a relative velocity that is all rounding has no direction.
+    fn is_instant(&self, place: f64, tau: f64) -> bool {
+        let time = self.state.axes[0].interval.start + tau;
+        let starts = |slide: &SlideSeries| slide.beginning.is_implicit();
+        place * self.series.h() <= FALL_ROUNDING * time && self.series.slides.iter().any(starts)
     }
 
     /// Advances to the place of the present series, which is at `tau`; returns the blocks that become slower there.

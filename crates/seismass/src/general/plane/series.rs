@@ -45,7 +45,15 @@ impl PlaneSeries {
 
     /// Forms the series from `tau` over at most `remaining`; None, or a block that has broken away though its relative
     /// acceleration does not rise: it grazes its limit.
-    pub(super) fn form(&mut self, state: &PlaneState, tau: f64, remaining: f64) -> Option<usize> {
+    ///
+    /// `raises` tells whether accelerations of a node as large as these would raise a peak.
+    pub(super) fn form(
+        &mut self,
+        state: &PlaneState,
+        tau: f64,
+        remaining: f64,
+        raises: impl Fn(usize, Vector2) -> bool,
+    ) -> Option<usize> {
         let frequency = state.axes[0].regime.frequency.max(state.axes[1].regime.frequency);
         let longest = remaining / (frequency * remaining / SERIES_PHASE).ceil().max(1.0);
         self.straight.clear();
@@ -61,8 +69,13 @@ impl PlaneSeries {
             return grazes;
         }
         let (h, least) = (self.h(), STRAIGHT * state.fastest);
-        let straight = self.slides.iter().filter(|slide| slide.is_straight(longest / h, least));
-        self.straight.extend(straight.map(|slide| slide.block));
+        let is_straight = |slide: &&SlideSeries| slide.is_straight(longest / h, least);
+        let shows = |slide: &SlideSeries| {
+            let node = state.system().blocks[slide.block].floor;
+            node > 0 && raises(node, self.accelerations_before_stop(state, slide, node))
+        };
+        let straight = self.slides.iter().filter(is_straight).filter(|slide| !shows(slide));
+        self.straight = straight.map(|slide| slide.block).collect();
         if !self.straight.is_empty() {
             self.form_slides(state, tau, longest);
         }
@@ -83,6 +96,18 @@ impl PlaneSeries {
         }
         self.slides.iter_mut().for_each(|slide| slide.shorten(end));
         None
+    }
+
+    /// What the accelerations of a node reach on a block's way to its stop, however its friction turns.
+    fn accelerations_before_stop(&self, state: &PlaneState, slide: &SlideSeries, node: usize) -> Vector2 {
+        let (system, axis) = (state.system(), &state.axes[0]);
+        let friction = state.friction(slide.block).1 * axis.contact_at(self.tau()).max(0.0);
+        let of_block = friction * system.blocks[slide.block].mass * axis.regime.inverse_mass[node];
+        let (rest, turn) = slide.before_rest();
+        self.axes.each_ref().map(|series| {
+            let [first, second] = series.first_accelerations(node);
+            first.abs() + 2.0 * (rest * second.abs() + of_block * turn)
+        })
     }
 
     /// Forms all terms in a time unit of at most `longest`; None, or a block that grazes its limit.

@@ -169,11 +169,16 @@ impl SlideSeries {
     /// Whether a velocity that falls comes to its stop before the place `last` and turns so little until then that less than
     /// `least` of it would be seen.
     pub(super) fn is_straight(&self, last: f64, least: f64) -> bool {
-        let [speed, rate] = [self.length[0], -self.length[1]];
-        // The turn is at most that of the first two terms over the time that is left, where that is within the series.
-        let rest = speed / rate;
-        let turn = rest * (length(self.direction[1]) + rest * length(self.direction[2]));
-        self.beginning == Beginning::Moving && rate > 0.0 && rest < last && turn * speed < least
+        let (rest, turn) = self.before_rest();
+        let falls = self.beginning == Beginning::Moving && self.length[1] < 0.0;
+        falls && rest < last && turn * self.length[0] < least
+    }
+
+    /// The place at which a velocity that falls comes to its stop by its rate, and what it turns by until then: at most by
+    /// the first two terms over the time that is left, where that is within the series.
+    pub(super) fn before_rest(&self) -> (f64, f64) {
+        let rest = -self.length[0] / self.length[1];
+        (rest, rest * (length(self.direction[1]) + rest * length(self.direction[2])))
     }
 
     /// The place where the length has fallen to a velocity, if it does, from a first guess by its rate.
