@@ -14,6 +14,11 @@ const CERTAIN: f64 = 1e-12;
 #[derive(Debug, Clone)]
 pub(crate) struct Polynomial<R>(pub(crate) Vec<R>);
 
+/// The coefficient of an order; zero beyond the last.
+pub(crate) fn term<R: Real>(p: &Polynomial<R>, order: usize) -> R {
+    p.0.get(order).copied().unwrap_or(R::zero())
+}
+
 impl<R: Real> Polynomial<R> {
     pub(crate) fn constant(value: R) -> Self {
         Self(vec![value])
@@ -47,7 +52,6 @@ impl<R: Real> Polynomial<R> {
     }
 
     pub(crate) fn plus(&self, other: &Self) -> Self {
-        let term = |p: &Self, k: usize| p.0.get(k).copied().unwrap_or(R::zero());
         Self((0..self.0.len().max(other.0.len())).map(|k| term(self, k) + term(other, k)).collect())
     }
 

@@ -3,7 +3,7 @@
 use seismass::{Energy, Event, Peak, Peaks, Status};
 
 use crate::model::{Model, Terms};
-use crate::polynomial::Polynomial;
+use crate::polynomial::{Polynomial, term};
 use crate::real::Real;
 use crate::series::Series;
 use crate::state::{Contact, Drive, State};
@@ -139,7 +139,7 @@ impl<R: Real> Recorder<R> {
         let mut velocity = vec![Polynomial::constant(R::zero()); n];
         let mut damping = vec![Polynomial(Vec::new()); n];
         for order in 0..orders {
-            let rate: Vec<R> = series.rate.iter().map(|r| r.0[order]).collect();
+            let rate: Vec<R> = series.rate.iter().map(|r| term(r, order)).collect();
             for (i, force) in model.damping_forces(&rate, Terms::Signed).into_iter().enumerate() {
                 damping[i].0.push(force);
             }

@@ -19,6 +19,7 @@ use seismass::{
 };
 use seismass_judge::DoubleDouble;
 use seismass_judge::general::{compare_plane, solve_plane};
+use seismass_judge::plane_scene::plane_scene;
 use seismass_judge::stress::general::{Directions, GeneralTally, distribution};
 
 const OPTIONS: Options = Options {
@@ -44,14 +45,19 @@ fn random_scenes_keep_their_invariants_and_agree_with_the_judge() {
 }
 
 /// Seeds that once failed. 49: two equal blocks at their stops reach their limits within rounding of one instant, and each in
-/// turn was released and stuck again. 83: the judge jumped over a stop in the stretch in which a block starts. 172: the
+/// turn was released and stuck again; a level's peak acceleration depends on where its last turn is cut off
+/// (`docs/numerics.md`, section 9.7). 83: the judge jumped over a stop in the stretch in which a block starts. 172: the
 /// acceleration of a floor has its peak as a block comes to rest, on the way that was taken as a straight line.
 #[test]
 fn seeds_that_once_failed_hold() {
-    for seed in [49, 83, 172] {
-        let mut tally = GeneralTally::from_seed(Directions::Two, seed);
-        tally.run(1, if seed == 49 { 0.0 } else { 1.0 });
-        assert!(tally.defects.is_empty() && tally.failed.is_empty(), "{:#?} {:#?}", tally.defects, tally.failed);
+    for (seed, agrees_in_peaks) in [(49, false), (83, true), (172, true)] {
+        let (scene, motion) = plane_scene(seed).unwrap();
+        let exact = solve_plane::<f64>(&scene, &motion, 1).unwrap();
+        let mut comparison = compare_plane(&simulate_plane(&scene, &motion, &OPTIONS).unwrap(), &exact);
+        if !agrees_in_peaks {
+            comparison.peaks = 0.0;
+        }
+        assert!(comparison.agrees(1e-11), "{seed}: {comparison:?}");
     }
 }
 

@@ -3,10 +3,10 @@
 use seismass::{EventKind, GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralStatus, Peak};
 
 use super::model::Model;
-use super::series::{Series, term};
+use super::series::Series;
 use super::state::{State, Stopped};
 use crate::model::Terms;
-use crate::polynomial::Polynomial;
+use crate::polynomial::{Polynomial, term};
 use crate::real::Real;
 use crate::state::Contact;
 

@@ -3,7 +3,7 @@
 use super::model::Model;
 use super::state::{State, Stopped};
 use crate::model::Terms;
-use crate::polynomial::Polynomial;
+use crate::polynomial::{Polynomial, term};
 use crate::real::Real;
 use crate::series::{integrate, orders};
 use crate::springs::{Course, Part};
@@ -38,10 +38,6 @@ pub(super) struct Series<R> {
 /// Index of a node's acceleration.
 pub(super) fn place(node: Option<usize>) -> usize {
     node.map_or(0, |node| node + 1)
-}
-
-pub(super) fn term<R: Real>(p: &Polynomial<R>, order: usize) -> R {
-    p.0.get(order).copied().unwrap_or(R::zero())
 }
 
 impl<R: Real> Series<R> {

@@ -7,10 +7,10 @@
 
 use super::state::Plane;
 use crate::general::model::Model;
-use crate::general::series::{MAX_PHASE, Series, place, term};
+use crate::general::series::{MAX_PHASE, Series, place};
 use crate::general::state::State;
 use crate::model::Terms;
-use crate::polynomial::Polynomial;
+use crate::polynomial::{Polynomial, term};
 use crate::real::Real;
 use crate::series::orders;
 use crate::state::Contact;
