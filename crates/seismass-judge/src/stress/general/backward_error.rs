@@ -11,11 +11,15 @@
 use super::subject::Subject;
 use crate::compare::{scales, values};
 use crate::general::{GeneralSolution, Scale};
-use crate::stress::verdict::{AGREEMENT, LAST_DIGITS};
+use crate::stress::grazing::AMPLIFICATION;
+use crate::stress::verdict::AGREEMENT;
 use crate::{DoubleDouble, Real};
 
 /// Corrections of a change: each leads the judge along the engine's run for some longer.
-const CORRECTIONS: usize = 8;
+const CORRECTIONS: usize = 12;
+/// The largest change that counts as one of last digits: goods that are thrown to and fro hardly feel it, and their own
+/// rounding as they go from event to event may need some hundred.
+const LARGEST_CHANGE: f64 = 1e-12;
 /// Relative differences of drifts and slips up to this are proportional to the change, to its square.
 const PROPORTIONAL: f64 = 1e-6;
 /// A correction that does not part the two later leaves this part of what they were apart.
@@ -30,9 +34,8 @@ enum Scaled {
     Contact,
 }
 
-/// The change of the ground acceleration, or of g + a_v, in last digits (2^-52) and no more than those tried elsewhere, with
-/// which the judge in double-double agrees with a response that has histories at every sample and events. `exact` is the
-/// unchanged judge.
+/// The change of the ground acceleration, or of g + a_v, in last digits (2^-52), with which the judge in double-double agrees
+/// with a response that has histories at every sample and events. `exact` is the unchanged judge.
 pub(super) fn backward_error<S: Subject>(subject: &S, response: &S::Solution, exact: &S::Solution) -> Option<f64> {
     [Scaled::Ground, Scaled::Contact].into_iter().find_map(|scaled| {
         let judge = |change: DoubleDouble| {
@@ -49,6 +52,9 @@ pub(super) fn backward_error<S: Subject>(subject: &S, response: &S::Solution, ex
 
 /// Seeks the change by Newton's method, at the first row at which the two are apart by more than is proportional to it:
 /// beyond, the differences have grown too large to tell how far the change is off.
+///
+/// Where differences grow by more than double-double has digits, no change leads to the end. Then one counts with which the
+/// judge follows the engine to the row at which its own last digit moves it as far.
 fn seek<S: Subject>(
     response: &S::Solution,
     exact: &S::Solution,
@@ -56,6 +62,7 @@ fn seek<S: Subject>(
 ) -> Option<f64> {
     let rows = Rows::new(S::directions(response), &S::directions(exact));
     let last_digit = DoubleDouble::of(f64::EPSILON);
+    let in_digits = |change: DoubleDouble| (change / last_digit).to_f64().abs();
     let (mut change, mut step) = (DoubleDouble::zero(), last_digit);
     let mut solution = exact.clone();
     let mut before = (0, f64::INFINITY);
@@ -64,42 +71,35 @@ fn seek<S: Subject>(
         let apart = rows.apart(row, &S::directions(&solution));
         // Neither later nor less apart: what is left is not of a change.
         if row < before.0 || row == before.0 && size(&apart) > before.1 {
-            return None;
+            break;
         }
         before = (row, WINS * size(&apart));
-        let (mut moved, mut measures) = (Vec::new(), 0);
-        while measures == 0 || size(&moved) > PROPORTIONAL {
-            if measures > 0 {
-                // Well within, as growth may not be even.
-                step = step * DoubleDouble::of(0.1 * PROPORTIONAL / size(&moved));
-            }
-            measures += 1;
-            if measures > MEASURES {
-                return None;
-            }
-            let other = judge(change + step)?;
-            moved = rows
-                .apart(row, &S::directions(&solution))
-                .iter()
-                .zip(rows.apart(row, &S::directions(&other)))
-                .map(|(a, b)| a - b)
-                .collect();
-        }
+        let Some(moved) = rows.moved::<S>(row, change, &solution, &mut step, &judge) else { break };
         // The least squares of what is left.
         let squares: f64 = moved.iter().map(|m| m * m).sum();
         let product: f64 = moved.iter().zip(&apart).map(|(m, a)| m * a).sum();
-        change = change + step * DoubleDouble::of(product / squares);
-        let digits = (change / last_digit).to_f64().abs();
+        let next = change + step * DoubleDouble::of(product / squares);
         // No change where nothing moved: the quotient is no number.
-        if digits.is_nan() || digits > LAST_DIGITS[LAST_DIGITS.len() - 1] {
+        if in_digits(next).is_nan() {
+            break;
+        }
+        if next.to_f64().abs() > LARGEST_CHANGE {
             return None;
         }
-        solution = judge(change)?;
+        (change, solution) = (next, judge(next)?);
         if S::compare(response, &solution).agrees(AGREEMENT) {
-            return Some(digits);
+            return Some(in_digits(change));
         }
     }
-    None
+    let row = rows.parting(&S::directions(&solution))?;
+    let own = judge(change + DoubleDouble::of(DoubleDouble::EPSILON))?;
+    let moved = difference(&rows.apart(row, &S::directions(&solution)), &rows.apart(row, &S::directions(&own)));
+    let is_own = size(&rows.apart(row, &S::directions(&solution))) <= AMPLIFICATION * size(&moved);
+    is_own.then(|| in_digits(change))
+}
+
+fn difference(one: &[f64], other: &[f64]) -> Vec<f64> {
+    one.iter().zip(other).map(|(one, other)| one - other).collect()
 }
 
 fn size(values: &[f64]) -> f64 {
@@ -138,6 +138,27 @@ impl<'a> Rows<'a> {
             [of(&found.drift, &expected.drift, drift), of(&found.slip, &expected.slip, slip)].concat()
         });
         lists.collect::<Vec<_>>().concat()
+    }
+
+    /// How a step of a change, made smaller until differences are proportional to it, moves the judge in a row.
+    fn moved<S: Subject>(
+        &self,
+        row: usize,
+        change: DoubleDouble,
+        solution: &S::Solution,
+        step: &mut DoubleDouble,
+        judge: &impl Fn(DoubleDouble) -> Option<S::Solution>,
+    ) -> Option<Vec<f64>> {
+        let apart = self.apart(row, &S::directions(solution));
+        for _ in 0..MEASURES {
+            let moved = difference(&apart, &self.apart(row, &S::directions(&judge(change + *step)?)));
+            if size(&moved) <= PROPORTIONAL {
+                return Some(moved);
+            }
+            // Well within, as growth may not be even.
+            *step = *step * DoubleDouble::of(0.1 * PROPORTIONAL / size(&moved));
+        }
+        None
     }
 
     /// The first row in which a solution is apart from the response by more than is proportional to a change; the one most

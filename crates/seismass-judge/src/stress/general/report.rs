@@ -145,7 +145,9 @@ fn of_one_direction(tally: &GeneralTally) -> String {
          let differences grow until two runs have other events, be they of two implementations or of one with its intervals \
          divided. For these the change of the ground acceleration, or of g + a_v, is sought with which the judge in \
          double-double has the engine's events, times and numbers from the first sample to the last within the same limits; \
-         the scene is explained if it is one of last digits, and counts as sensitive (`stress/general/backward_error.rs`). \
+         the scene is explained if it is below 1e-12, and counts as sensitive (`stress/general/backward_error.rs`). Where \
+         differences outgrow the digits of double-double before the end, the judge must follow the engine as far as its own \
+         last digit allows. \
          Random shear buildings are solved by both engines.\n\n{}",
         distribution(tally),
     )

@@ -226,7 +226,7 @@ mod tests {
         }
         state.follow();
         let mut series = PlaneSeries::default();
-        assert_eq!(series.form(&state, 0.0, 0.01), None);
+        assert_eq!(series.form(&state, 0.0, 0.01, |_, _| false), None);
         let places = [0.1, 0.35, 0.6, 1.0];
         let velocities = |series: &PlaneSeries| -> Vec<f64> {
             let of = |a: usize, i: usize| series.axes[a].velocity_of(series.slides[i].position);
