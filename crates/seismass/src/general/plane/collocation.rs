@@ -30,6 +30,10 @@ const ROUNDING: f64 = 1000.0 * f64::EPSILON;
 const MIDDLE: f64 = 4e-9;
 const LAST: f64 = 1e-13;
 
+/// How far relative velocities may be from the directions they begin with, as a part of the largest velocity so far: some
+/// rounding of the fastest block, and less than what has come to rest.
+const BEGINS_AS: f64 = 8.0 * f64::EPSILON;
+
 type AtPoints<T> = [T; POINTS];
 
 /// The points, and polynomials through values at them.
@@ -140,7 +144,7 @@ impl PlaneSeries {
         self.slides.iter().all(|slide| {
             let velocity = state.velocity(slide.block);
             let apart = minus(velocity, times(length(velocity), slide.direction[0]));
-            length(apart) <= f64::EPSILON * state.fastest
+            length(apart) <= BEGINS_AS * state.fastest
         })
     }
 
