@@ -8,9 +8,11 @@
 //! the one with which the judge agrees with the engine from the first sample to the last. An engine whose run is the exact
 //! one of a motion that differs by some last digits makes no error but rounding.
 
+use seismass::Event;
+
 use super::subject::Subject;
 use crate::compare::{scales, values};
-use crate::general::{GeneralSolution, Scale};
+use crate::general::{GeneralSolution, Scale, apart_by_machine};
 use crate::stress::grazing::AMPLIFICATION;
 use crate::stress::verdict::AGREEMENT;
 use crate::{DoubleDouble, Real};
@@ -54,7 +56,7 @@ pub(super) fn backward_error<S: Subject>(subject: &S, response: &S::Solution, ex
 /// beyond, the differences have grown too large to tell how far the change is off.
 ///
 /// Where differences grow by more than double-double has digits, no change leads to the end. Then one counts with which the
-/// judge follows the engine to the row at which its own last digit moves it as far.
+/// judge follows the engine, with the same events, to the row at which its own last digit moves it as far.
 fn seek<S: Subject>(
     response: &S::Solution,
     exact: &S::Solution,
@@ -92,10 +94,11 @@ fn seek<S: Subject>(
         }
     }
     let row = rows.parting(&S::directions(&solution))?;
+    let apart = rows.apart(row, &S::directions(&solution));
     let own = judge(change + DoubleDouble::of(DoubleDouble::EPSILON))?;
-    let moved = difference(&rows.apart(row, &S::directions(&solution)), &rows.apart(row, &S::directions(&own)));
-    let is_own = size(&rows.apart(row, &S::directions(&solution))) <= AMPLIFICATION * size(&moved);
-    is_own.then(|| in_digits(change))
+    let moved = difference(&apart, &rows.apart(row, &S::directions(&own)));
+    let is_own = size(&apart) > PROPORTIONAL && size(&apart) <= AMPLIFICATION * size(&moved);
+    (is_own && rows.same_events::<S>(row, response, &solution)).then(|| in_digits(change))
 }
 
 fn difference(one: &[f64], other: &[f64]) -> Vec<f64> {
@@ -159,6 +162,14 @@ impl<'a> Rows<'a> {
             *step = *step * DoubleDouble::of(0.1 * PROPORTIONAL / size(&moved));
         }
         None
+    }
+
+    /// Whether every spring and block has the same events in two solutions before the row ahead of this one.
+    fn same_events<S: Subject>(&self, row: usize, response: &S::Solution, solution: &S::Solution) -> bool {
+        let until = S::directions(solution)[0].end_time * (row.saturating_sub(1) as f64) / (self.count - 1) as f64;
+        let before = |log: &[Event]| log.iter().filter(|event| event.time < until).copied().collect::<Vec<Event>>();
+        let logs = S::logs(response).into_iter().zip(S::logs(solution));
+        logs.map(|(own, other)| apart_by_machine(&before(&own), &before(&other))).all(|apart| apart.is_some())
     }
 
     /// The first row in which a solution is apart from the response by more than is proportional to a change; the one most
