@@ -106,7 +106,6 @@ pub(crate) fn solve_scaled<R: Real>(
 struct Run<R> {
     model: Model<R>,
     state: State<R>,
-    /// Longest stretch of a series while a block that moves presses on a stop.
     stretches: Stretches,
     drive: Drive<R>,
     airborne: bool,

@@ -8,7 +8,7 @@
 //! the one with which the judge agrees with the engine from the first sample to the last. An engine whose run is the exact
 //! one of a motion that differs by some last digits makes no error but rounding.
 
-use seismass::Event;
+use seismass::{Event, GeneralStatus};
 
 use super::subject::Subject;
 use crate::compare::{scales, values};
@@ -76,7 +76,7 @@ fn seek<S: Subject>(
             break;
         }
         before = (row, WINS * size(&apart));
-        let Some(moved) = rows.moved::<S>(row, change, &solution, &mut step, &judge) else { break };
+        let Some(moved) = rows.moved::<S>((row, &apart), change, &mut step, &judge) else { break };
         // The least squares of what is left.
         let squares: f64 = moved.iter().map(|m| m * m).sum();
         let product: f64 = moved.iter().zip(&apart).map(|(m, a)| m * a).sum();
@@ -143,18 +143,17 @@ impl<'a> Rows<'a> {
         lists.collect::<Vec<_>>().concat()
     }
 
-    /// How a step of a change, made smaller until differences are proportional to it, moves the judge in a row.
+    /// How a step of a change, made smaller until differences are proportional to it, moves the judge in a row, in which it
+    /// is apart by so much without the step.
     fn moved<S: Subject>(
         &self,
-        row: usize,
+        (row, apart): (usize, &[f64]),
         change: DoubleDouble,
-        solution: &S::Solution,
         step: &mut DoubleDouble,
         judge: &impl Fn(DoubleDouble) -> Option<S::Solution>,
     ) -> Option<Vec<f64>> {
-        let apart = self.apart(row, &S::directions(solution));
         for _ in 0..MEASURES {
-            let moved = difference(&apart, &self.apart(row, &S::directions(&judge(change + *step)?)));
+            let moved = difference(apart, &self.apart(row, &S::directions(&judge(change + *step)?)));
             if size(&moved) <= PROPORTIONAL {
                 return Some(moved);
             }
@@ -164,9 +163,14 @@ impl<'a> Rows<'a> {
         None
     }
 
-    /// Whether every spring and block has the same events in two solutions before the row ahead of this one.
+    /// Whether every spring and block has the same events in two solutions before the row ahead of this one. Without a
+    /// collapse the last row is at the end.
     fn same_events<S: Subject>(&self, row: usize, response: &S::Solution, solution: &S::Solution) -> bool {
-        let until = S::directions(solution)[0].end_time * (row.saturating_sub(1) as f64) / (self.count - 1) as f64;
+        let of_solution = S::directions(solution)[0];
+        if of_solution.status != GeneralStatus::Completed {
+            return false;
+        }
+        let until = of_solution.end_time * (row.saturating_sub(1) as f64) / (self.count - 1) as f64;
         let before = |log: &[Event]| log.iter().filter(|event| event.time < until).copied().collect::<Vec<Event>>();
         let logs = S::logs(response).into_iter().zip(S::logs(solution));
         logs.map(|(own, other)| apart_by_machine(&before(&own), &before(&other))).all(|apart| apart.is_some())

@@ -11,7 +11,7 @@ use crate::random_scene::Draw;
 use crate::stress::grazing::AMPLIFICATION;
 use crate::stress::random::LARGEST_RESIDUAL;
 use crate::stress::verdict::{LAST_DIGITS, Verdict};
-use crate::{JudgeError, larger};
+use crate::{Comparison, JudgeError, larger};
 
 /// Largest change of numbers and times, relative as those to the judge are, by a division of the sample intervals; beyond,
 /// changes of the input by some last digits must move the engine as far, or the judge is asked.
@@ -80,7 +80,7 @@ pub(super) fn examine<S: Subject>(seed: u64, judged: bool, precisely: bool) -> F
         let largest =
             [found.division, found.turn].map(|apart| apart.unwrap_or(f64::INFINITY)).into_iter().fold(0.0, larger);
         if !judged && largest > LARGEST_DIVISION {
-            found.moves_by_itself = moves_as_far(&subject, &response, largest);
+            found.moves_by_itself = changes_move_as_far(&subject, &response, largest);
             // A graze may fall either way: the judge says which of the two was right.
             asks_judge = !found.moves_by_itself;
         }
@@ -124,14 +124,12 @@ fn same_bits<S: Subject>(subject: &S, response: &S::Response) -> Result<(), Stri
 }
 
 /// Whether changes of the input by some last digits move the engine as far; where the events differ it is infinitely far.
-fn moves_as_far<S: Subject>(subject: &S, response: &S::Response, apart: f64) -> bool {
+fn changes_move_as_far<S: Subject>(subject: &S, response: &S::Response, apart: f64) -> bool {
     let Some(own) = S::as_solution(response) else { return false };
     let changes = LAST_DIGITS.iter().flat_map(|&digits| (0..CHANGES).map(move |trial| (digits, trial)));
     let mut moved = changes.filter_map(|(digits, trial)| {
         let other = subject.changed(digits, trial)?.simulate(&options(1)).ok()?;
-        let comparison = S::compare(&S::as_solution(&other)?, &own);
-        let same_events = comparison.mismatch.is_none();
-        Some(if same_events { larger(comparison.worst(), comparison.worst_time()) } else { f64::INFINITY })
+        Some(largest_of(&S::compare(&S::as_solution(&other)?, &own)).unwrap_or(f64::INFINITY))
     });
     moved.any(|moved| apart <= AMPLIFICATION * moved)
 }
@@ -140,7 +138,12 @@ fn moves_as_far<S: Subject>(subject: &S, response: &S::Response, apart: f64) -> 
 fn division<S: Subject>(subject: &S, response: &S::Response) -> Option<f64> {
     let other = subject.divided(PARTS).ok()?.simulate(&options(PARTS)).ok()?;
     let comparison = S::compare(&S::as_solution(&other)?, &S::as_solution(response)?);
-    comparison.mismatch.is_none().then(|| comparison.worst().max(comparison.worst_time()))
+    largest_of(&comparison)
+}
+
+/// The largest difference of numbers and times; nothing where the events differ.
+fn largest_of(comparison: &Comparison) -> Option<f64> {
+    comparison.mismatch.is_none().then(|| larger(comparison.worst(), comparison.worst_time()))
 }
 
 /// How far peaks and paths are from those of the scene's image, over the largest of their kind; nothing where the events are
