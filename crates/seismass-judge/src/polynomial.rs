@@ -112,11 +112,15 @@ impl<R: Real> Polynomial<R> {
         b.iter().all(is_beyond).then(|| sign(b[0]))
     }
 
+    /// Places in [0, 1] where the derivative changes its sign, in order.
+    pub(crate) fn turns(&self) -> Vec<R> {
+        self.derivative().sign_changes(Ordering::Equal, false)
+    }
+
     /// Largest absolute value on [0, 1], and the first place where it is reached.
     pub(crate) fn extreme(&self) -> (R, R) {
-        let turns = self.derivative().sign_changes(Ordering::Equal, false);
         let mut best = (self.start().abs(), R::zero());
-        for place in turns.into_iter().chain([R::of(1.0)]) {
+        for place in self.turns().into_iter().chain([R::of(1.0)]) {
             let value = self.at(place).0.abs();
             if value > best.0 {
                 best = (value, place);

@@ -28,6 +28,14 @@ pub enum JudgeError {
         /// The last guard that fell.
         last: String,
     },
+    /// A direction of sliding is so stiff that explicit series reach no distance.
+    #[error("more than {limit} series until t = {time} s")]
+    TooManySeries {
+        /// Time (s).
+        time: f64,
+        /// Bound on the series of a run.
+        limit: usize,
+    },
     /// The state left the range of the number type.
     #[error("the response left the range of numbers at t = {time} s")]
     NotFinite {

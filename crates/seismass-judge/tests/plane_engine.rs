@@ -47,11 +47,18 @@ fn random_scenes_keep_their_invariants_and_agree_with_the_judge() {
 /// Seeds that once failed. 49: two equal blocks at their stops reach their limits within rounding of one instant, and each in
 /// turn was released and stuck again; a level's peak acceleration depends on where its last turn is cut off
 /// (`docs/numerics.md`, section 9.7). 83: the judge jumped over a stop in the stretch in which a block starts. 172: the
-/// acceleration of a floor has its peak as a block comes to rest, on the way that was taken as a straight line. 893: implicit
-/// steps were refused for rounding, and explicit ones became too many; the judge, which has no others, does not solve it.
+/// acceleration of a floor has its peak as a block comes to rest, on the way that was taken as a straight line. 500821: a
+/// backbone's last branch begins where the storey collapses, and was logged for rounding. 22989: a block is thrown against
+/// a stop at t = 0, and accelerations before the touch counted. 17563: the judge missed the turn of a block without friction
+/// just beside the end of a stretch. 25363: one direction hardly moves, and its slips are rounding of the other's.
+///
+/// 893 and 500185 took too many explicit steps: implicit ones were refused for rounding, and beside a block on the straight
+/// line to its stop. The judge, which has no others, does not solve them.
 #[test]
 fn seeds_that_once_failed_hold() {
-    for (seed, agrees_in_peaks) in [(49, false), (83, true), (172, true)] {
+    for (seed, agrees_in_peaks) in
+        [(49, false), (83, true), (172, true), (500_821, true), (22_989, true), (17_563, true), (25_363, true)]
+    {
         let (scene, motion) = plane_scene(seed).unwrap();
         let exact = solve_plane::<f64>(&scene, &motion, 1).unwrap();
         let mut comparison = compare_plane(&simulate_plane(&scene, &motion, &OPTIONS).unwrap(), &exact);
@@ -60,9 +67,12 @@ fn seeds_that_once_failed_hold() {
         }
         assert!(comparison.agrees(1e-11), "{seed}: {comparison:?}");
     }
-    let (scene, motion) = plane_scene(893).unwrap();
-    let response = simulate_plane(&scene, &motion, &OPTIONS).unwrap();
-    assert!(response.energy.unwrap().total.relative_residual.abs() < 1e-11, "{:?}", response.energy);
+    for seed in [893, 500_185] {
+        let (scene, motion) = plane_scene(seed).unwrap();
+        let response = simulate_plane(&scene, &motion, &OPTIONS).unwrap();
+        assert!(response.energy.unwrap().total.relative_residual.abs() < 1e-11, "{seed}: {:?}", response.energy);
+        assert!(response.statistics.series_steps < 20_000, "{seed}: {}", response.statistics.series_steps);
+    }
 }
 
 /// Scenes in two directions of the references, which an independent program with a 64-bit mantissa has solved: the kernel

@@ -11,9 +11,13 @@ use crate::compare::{Comparison, compare_endings, compare_events, difference, la
 
 /// Velocities at stops and of events count relative to the largest, and to this at least (m/s).
 const LEAST_VELOCITY: f64 = 1e-3;
+/// Kinds of peaks.
+pub(crate) const KINDS: usize = 7;
+/// Peaks count relative to this part of the largest of their kind at least.
+const LEAST_PART: f64 = 1e-3;
 
 /// Drift, slip, acceleration, shear and base shear, contact force, contact velocity.
-fn lists(peaks: &GeneralPeaks) -> [Vec<f64>; 7] {
+fn lists(peaks: &GeneralPeaks) -> [Vec<f64>; KINDS] {
     let GeneralPeaks { drift, acceleration, shear, base_shear, slip, contact_force, contact_velocity } = peaks;
     let own = |list: &[Peak]| values(list);
     let [base, contact, velocity] = [&[*base_shear][..], contact_force, contact_velocity].map(own);
@@ -61,7 +65,12 @@ struct Parts<'a> {
 impl GeneralSolution {
     /// Compares another solution with this one, taken as exact.
     pub fn judge(&self, other: &Self) -> Comparison {
-        self.judge_parts(&Parts {
+        self.judge_beside(other, [0.0; KINDS])
+    }
+
+    /// Compares another solution with this one, with least scales by kind of peak.
+    pub(crate) fn judge_beside(&self, other: &Self, least: [f64; KINDS]) -> Comparison {
+        let found = Parts {
             status: other.status,
             peaks: &other.peaks,
             residual_drift: &other.residual_drift,
@@ -69,24 +78,30 @@ impl GeneralSolution {
             slip_path: &other.slip_path,
             histories: Some((&other.drift, &other.slip)),
             events: Some(&other.events),
-        })
+        };
+        self.judge_parts(&found, least)
     }
 
-    fn judge_parts(&self, found: &Parts) -> Comparison {
+    /// What counts at least of a peak that is compared beside those of this solution, by kind.
+    pub(crate) fn least_scales(&self) -> [f64; KINDS] {
+        lists(&self.peaks).map(|peaks| LEAST_PART * peaks.into_iter().fold(0.0, f64::max))
+    }
+
+    fn judge_parts(&self, found: &Parts, mut least: [f64; KINDS]) -> Comparison {
         let own = lists(&self.peaks);
-        let (drift_scale, slip_scale) = (scales(&own[0]), scales(&own[1]));
         let peaks = lists(found.peaks);
         // A stop that is touched at rest has no velocity but rounding.
-        let least = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, LEAST_VELOCITY];
+        least[KINDS - 1] = least[KINDS - 1].max(LEAST_VELOCITY);
         let scales_of = |(own, least): (&Vec<f64>, f64)| scales(own).into_iter().map(move |s| s.max(least)).collect();
         let all: Vec<Vec<f64>> = own.iter().zip(least).map(scales_of).collect();
+        let (drift_scale, slip_scale) = (&all[0], &all[1]);
         let peaks = peaks.iter().zip(&own).zip(&all).map(|((found, own), scales)| difference(found, own, scales));
         let residuals = [
-            difference(found.residual_drift, &self.residual_drift, &drift_scale),
-            difference(found.residual_slip, &self.residual_slip, &slip_scale),
+            difference(found.residual_drift, &self.residual_drift, drift_scale),
+            difference(found.residual_slip, &self.residual_slip, slip_scale),
         ];
         let (drift, slip) = found.histories.map_or((0.0, 0.0), |(drift, slip)| {
-            (difference(drift, &self.drift, &drift_scale), difference(slip, &self.slip, &slip_scale))
+            (difference(drift, &self.drift, drift_scale), difference(slip, &self.slip, slip_scale))
         });
         let expected = events_of(&self.events);
         let events = found.events.map_or(Ok(0.0), |events| {
@@ -131,7 +146,16 @@ impl GeneralSolution {
 /// Compares the general engine's response with a solution, which is taken as exact. Histories need the same decimation;
 /// what the response was not asked for is not compared.
 pub fn compare_general(response: &GeneralResponse, solution: &GeneralSolution) -> Comparison {
-    solution.judge_parts(&Parts {
+    compare_beside(response, solution, [0.0; KINDS])
+}
+
+/// As [`compare_general`], with least scales by kind of peak.
+pub(crate) fn compare_beside(
+    response: &GeneralResponse,
+    solution: &GeneralSolution,
+    least: [f64; KINDS],
+) -> Comparison {
+    let found = Parts {
         status: response.status,
         peaks: &response.peaks,
         residual_drift: &response.residual_drift,
@@ -139,7 +163,8 @@ pub fn compare_general(response: &GeneralResponse, solution: &GeneralSolution) -
         slip_path: &response.slip_path,
         histories: response.histories.as_ref().map(|h| (&h.drift[..], &h.slip[..])),
         events: response.events.as_deref(),
-    })
+    };
+    solution.judge_parts(&found, least)
 }
 
 /// A response with events, histories and energies as a solution, to compare another with.

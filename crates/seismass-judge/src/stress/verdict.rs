@@ -16,6 +16,14 @@ pub(super) const TRIALS: u64 = 6;
 pub enum Verdict {
     /// Same events at the same times, same numbers: how far apart.
     Agrees(Comparison),
+    /// As that, but for peak accelerations of nodes in the last instants before a block stops in the plane, which depend on
+    /// where a run is cut off.
+    BeforeStops {
+        /// How far apart all else is.
+        comparison: Comparison,
+        /// How the two differed.
+        difference: String,
+    },
     /// The judge, with its input changed in the last digits, comes to the kernel's events and numbers.
     Grazing {
         /// The change, in units of the last digit.

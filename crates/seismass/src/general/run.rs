@@ -74,6 +74,9 @@ pub fn simulate_general_until(
         }
         GeneralStatus::Collapsed { time, .. } => time,
     };
+    if end_time == 0.0 {
+        run.observer.take_accelerations(&run.state.accelerations(0.0), 0.0);
+    }
     Ok(run.finish(status, end_time))
 }
 
@@ -108,7 +111,6 @@ impl Run<'_> {
         }
         self.count_events(0);
         self.observer.take_values(&self.state, 0.0);
-        self.observer.take_accelerations(&self.state.accelerations(0.0), 0.0);
         self.balance = energy.then(|| Balance::begin(&self.state));
         Ok(())
     }
@@ -161,8 +163,12 @@ impl Run<'_> {
     fn advance(&mut self, place: f64, tau: f64) -> Result<()> {
         let (state, series) = (&mut self.state, &self.series);
         let time = state.interval.start + tau;
-        let start = series.values(Quantity::Acceleration, 0.0);
-        self.observer.take_accelerations(&start, state.interval.start + series.tau);
+        // An instant is no stretch of time: what it passes through has no peaks.
+        let lasts = place > 0.0;
+        if lasts {
+            let start = series.values(Quantity::Acceleration, 0.0);
+            self.observer.take_accelerations(&start, state.interval.start + series.tau);
+        }
         self.statistics.guards_isolated += self.observer.observe(state, series, place);
         if let Some(balance) = &mut self.balance {
             balance.add(state, series, place);
@@ -182,7 +188,9 @@ impl Run<'_> {
             state.stops[block].move_by(change.1);
         }
         let accelerations = series.values(Quantity::Acceleration, place);
-        self.observer.take_accelerations(&accelerations, time);
+        if lasts {
+            self.observer.take_accelerations(&accelerations, time);
+        }
         self.observer.take_values(state, time);
         if accelerations.iter().all(|a| a.is_finite()) && state.motions.iter().all(|m| m.slip.is_finite()) {
             return Ok(());

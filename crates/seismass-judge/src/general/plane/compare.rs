@@ -5,7 +5,7 @@ use seismass::{Axis, Event, EventKind, PlaneEvent, PlaneResponse, VectorPeaks};
 use super::record::PlaneSolution;
 use crate::compare::{Comparison, difference, larger, scales, values};
 use crate::compare_events;
-use crate::general::compare::{apart_by_machine, compare_general, solution_of};
+use crate::general::compare::{apart_by_machine, compare_beside, solution_of};
 use crate::general::record::GeneralSolution;
 
 /// Directions, vectors and events of a run in the plane.
@@ -21,18 +21,19 @@ fn of_vectors(log: &[PlaneEvent]) -> Vec<PlaneEvent> {
 }
 
 /// Compares a response in the plane with a solution, which is taken as exact: by direction, and of vectors peaks, paths and
-/// events. Angles count where sliding begins; that of a stop depends on when a velocity counts as none.
+/// events. Numbers of a direction count relative to a thousandth of the largest peak of their kind in the other one at least.
+/// Angles count where sliding begins; that of a stop depends on when a velocity counts as none.
 pub fn compare_plane(response: &PlaneResponse, solution: &PlaneSolution) -> Comparison {
-    let of = |axis: Axis, exact: &GeneralSolution| {
+    let of = |axis: Axis, exact: &GeneralSolution, other: &GeneralSolution| {
         let mut direction = response.direction(axis);
         // The path is of the vector.
         direction.slip_path.clone_from(&exact.slip_path);
-        compare_general(&direction, exact)
+        compare_beside(&direction, exact, other.least_scales())
     };
     let [x, y] = &solution.directions;
     let events = response.events.as_deref().map(of_vectors);
     let parts = Parts { vector: &response.peaks.vector, slip_path: &response.slip_path, events: events.as_deref() };
-    solution.judge_vectors(&parts, of(Axis::X, x), of(Axis::Y, y))
+    solution.judge_vectors(&parts, of(Axis::X, x, y), of(Axis::Y, y, x))
 }
 
 /// A response with events, histories and energies as a solution, to compare another with.
@@ -73,7 +74,7 @@ impl PlaneSolution {
         let of = |a: usize| {
             let mut direction = other.directions[a].clone();
             direction.slip_path.clone_from(&self.directions[a].slip_path);
-            self.directions[a].judge(&direction)
+            self.directions[a].judge_beside(&direction, self.directions[1 - a].least_scales())
         };
         self.judge_vectors(&parts, of(0), of(1))
     }

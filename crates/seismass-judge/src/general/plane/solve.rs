@@ -11,8 +11,9 @@ use crate::general::solve::Scale;
 use crate::real::Real;
 use crate::solve::{JudgeError, MAX_EVENTS, MAX_PIECES};
 
-/// Stretches of one piece, of which a block that begins to slide at the end of one needs many.
-const MAX_STRETCHES: usize = 100_000;
+/// Series of a run in double precision, and in a wider one. Those of a stiff direction reach no distance; so many take ten
+/// seconds, and a minute.
+const MAX_SERIES: [usize; 2] = [100_000, 20_000];
 
 /// Solves a scene in two directions under a motion, with histories at every `every`-th sample.
 ///
@@ -94,7 +95,12 @@ impl<R: Real> Plane<R> {
         recorder: &mut PlaneRecorder<R>,
     ) -> Result<Option<(usize, f64)>, JudgeError> {
         let (mut tau, mut events) = (begin, 0);
-        for _ in 0..MAX_STRETCHES {
+        while events < MAX_EVENTS {
+            self.series += 1;
+            let limit = MAX_SERIES[usize::from(R::EPSILON < f64::EPSILON)];
+            if self.series > limit {
+                return Err(JudgeError::TooManySeries { time: (self.start + tau).to_f64(), limit });
+            }
             let mut length = end - tau;
             for Direction { model, state, stretches, .. } in &mut self.directions {
                 length = stretches.longest(model, state).filter(|&longest| longest < length).unwrap_or(length);
@@ -130,9 +136,6 @@ impl<R: Real> Plane<R> {
                 }
             }
             events += 1;
-            if events == MAX_EVENTS {
-                break;
-            }
         }
         let of_directions = self.directions.iter().filter_map(|direction| direction.log.last());
         let logged = of_directions.chain(self.log.last().map(|entry| &entry.event)).map(|entry| entry.event);

@@ -36,6 +36,8 @@ pub(super) struct Plane<R> {
     pub(super) piece: R,
     /// Beginning of the present sample interval.
     pub(super) start: R,
+    /// Series made so far.
+    pub(super) series: usize,
     /// Events of vectors.
     pub(super) log: Vec<PlaneEvent>,
 }
@@ -60,6 +62,7 @@ impl<R: Real> Plane<R> {
             airborne: false,
             piece: R::zero(),
             start: R::zero(),
+            series: 0,
             log: Vec::new(),
         };
         // The vector of drifts decides.

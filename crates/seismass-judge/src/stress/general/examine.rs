@@ -2,8 +2,9 @@
 
 use std::num::NonZeroUsize;
 
-use seismass::{Error, EventCounts, GeneralStatus, Options};
+use seismass::{Error, EventCounts, GeneralStatus, Options, Peak};
 
+use super::before_stops::BeforeStops;
 use super::subject::Subject;
 use super::verdict::judge;
 use crate::general::Scale;
@@ -41,6 +42,8 @@ pub(super) struct Found {
     /// Beyond the limit in one of the two, and so by changes of the input in last digits.
     pub(super) moves_by_itself: bool,
     pub(super) verdict: Option<Verdict>,
+    /// Why the judge could not follow.
+    pub(super) not_followed: Option<String>,
     pub(super) defect: Option<String>,
 }
 
@@ -70,27 +73,36 @@ pub(super) fn examine<S: Subject>(seed: u64, judged: bool, precisely: bool) -> F
     if residual > LARGEST_RESIDUAL || residual.is_nan() {
         found.defect.get_or_insert(format!("energy residual {residual:e}"));
     }
-    let mut asks_judge = judged;
+    let (mut asks_judge, mut beyond) = (judged, None);
     if judged || Draw(seed ^ 0x6469_7669).one_in(OTHERWISE) {
         if let Err(fault) = same_bits(&subject, &response) {
             found.defect.get_or_insert(fault);
         }
-        found.division = division(&subject, &response);
-        found.turn = turn(&subject, &response);
+        let stops = subject.before_stops(&response);
+        found.division = division(&subject, &response, &stops);
+        found.turn = turn(&subject, &response, &stops);
         let largest =
             [found.division, found.turn].map(|apart| apart.unwrap_or(f64::INFINITY)).into_iter().fold(0.0, larger);
         if !judged && largest > LARGEST_DIVISION {
             found.moves_by_itself = changes_move_as_far(&subject, &response, largest);
             // A graze may fall either way: the judge says which of the two was right.
             asks_judge = !found.moves_by_itself;
+            beyond = Some(largest);
         }
     }
     if asks_judge {
-        let verdict = judge(&subject, &response, precisely);
-        if let Verdict::Unexplained(difference) = &verdict {
-            found.defect.get_or_insert(format!("parts from the judge: {difference}"));
+        match judge(&subject, &response, precisely) {
+            Ok(verdict) => {
+                if let Verdict::Unexplained(difference) = &verdict {
+                    found.defect.get_or_insert(format!("parts from the judge: {difference}"));
+                }
+                found.verdict = Some(verdict);
+            }
+            Err(error) => {
+                let apart = beyond.map_or(String::new(), |apart| format!("; by division or image {apart:.1e} away"));
+                found.not_followed = Some(format!("{error}{apart}"));
+            }
         }
-        found.verdict = Some(verdict);
     }
     found
 }
@@ -110,7 +122,7 @@ impl Found {
 fn fail_alike(engine: &Error, judge: &JudgeError) -> bool {
     matches!(
         (engine, judge),
-        (Error::TooManyEvents { .. }, JudgeError::TooManyEvents { .. })
+        (Error::TooManyEvents { .. }, JudgeError::TooManyEvents { .. } | JudgeError::TooManySeries { .. })
             | (Error::TooStiff { .. }, JudgeError::TooStiff { .. })
             | (Error::NotFinite { .. }, JudgeError::NotFinite { .. })
     )
@@ -134,11 +146,12 @@ fn changes_move_as_far<S: Subject>(subject: &S, response: &S::Response, apart: f
     moved.any(|moved| apart <= AMPLIFICATION * moved)
 }
 
-/// How far the run is from one with every sample interval divided; nothing where the events differ.
-fn division<S: Subject>(subject: &S, response: &S::Response) -> Option<f64> {
+/// How far the run is from one with every sample interval divided, but for accelerations just before stops; nothing where
+/// the events differ.
+fn division<S: Subject>(subject: &S, response: &S::Response, stops: &BeforeStops) -> Option<f64> {
     let other = subject.divided(PARTS).ok()?.simulate(&options(PARTS)).ok()?;
-    let comparison = S::compare(&S::as_solution(&other)?, &S::as_solution(response)?);
-    largest_of(&comparison)
+    let (other, own) = (S::as_solution(&other)?, S::as_solution(response)?);
+    largest_of(&S::compare(&S::with_accelerations_of(&other, &own, stops), &own))
 }
 
 /// The largest difference of numbers and times; nothing where the events differ.
@@ -146,14 +159,20 @@ fn largest_of(comparison: &Comparison) -> Option<f64> {
     comparison.mismatch.is_none().then(|| larger(comparison.worst(), comparison.worst_time()))
 }
 
-/// How far peaks and paths are from those of the scene's image, over the largest of their kind; nothing where the events are
-/// not as many.
-fn turn<S: Subject>(subject: &S, response: &S::Response) -> Option<f64> {
+/// How far peaks and paths are from those of the scene's image, over the largest of their kind, but for accelerations just
+/// before stops; nothing where the events are not as many.
+fn turn<S: Subject>(subject: &S, response: &S::Response, stops: &BeforeStops) -> Option<f64> {
     let other = subject.image().ok()?.simulate(&Options::default()).ok()?;
     let (own, of_image) = (S::peaks(response, false), S::peaks(&other, true));
-    let apart = own.iter().zip(&of_image).map(|(own, image)| {
-        let largest = own.iter().fold(f64::MIN_POSITIVE, |largest, value| largest.max(*value));
-        own.iter().zip(image).fold(0.0, |worst, (own, image)| larger(worst, (own - image).abs() / largest))
+    let apart = own.iter().zip(&of_image).enumerate().map(|(list, (own, image))| {
+        let largest = own.iter().fold(f64::MIN_POSITIVE, |largest, peak| largest.max(peak.value));
+        let counts =
+            |at: usize, own: Peak, image: Peak| !(S::ACCELERATIONS.contains(&list) && stops.part(at, own, image));
+        own.iter()
+            .zip(image)
+            .enumerate()
+            .filter(|(at, (own, image))| counts(*at, **own, **image))
+            .fold(0.0, |worst, (_, (own, image))| larger(worst, (own.value - image.value).abs() / largest))
     });
     let same_events = S::summary(response).events == S::summary(&other).events;
     same_events.then(|| apart.fold(0.0, larger))

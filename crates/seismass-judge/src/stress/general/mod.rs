@@ -2,6 +2,7 @@
 //! buildings solved by both engines; in two directions the same of scenes in the plane.
 
 mod backward_error;
+mod before_stops;
 mod chains;
 mod changed;
 mod examine;

@@ -40,9 +40,11 @@ impl Subject for (GeneralScene, Motion) {
         Ok((mirrored(&self.0)?, opposite(&self.1)?))
     }
 
-    fn peaks(response: &GeneralResponse, _of_image: bool) -> Vec<Vec<f64>> {
+    const ACCELERATIONS: &'static [usize] = &[1];
+
+    fn peaks(response: &GeneralResponse, _of_image: bool) -> Vec<Vec<Peak>> {
         let mut lists = of_peaks(&response.peaks);
-        lists.push(response.slip_path.clone());
+        lists.push(without_times(&response.slip_path));
         lists
     }
 
@@ -77,11 +79,17 @@ impl Subject for (GeneralScene, Motion) {
     }
 }
 
-/// Values of peaks by kind.
-pub(super) fn of_peaks(peaks: &GeneralPeaks) -> Vec<Vec<f64>> {
+/// Numbers as peaks.
+pub(super) fn without_times(values: &[f64]) -> Vec<Peak> {
+    values.iter().map(|&value| Peak { value, time: 0.0 }).collect()
+}
+
+/// Peaks by kind.
+pub(super) fn of_peaks(peaks: &GeneralPeaks) -> Vec<Vec<Peak>> {
     let GeneralPeaks { drift, acceleration, shear, base_shear, slip, contact_force, contact_velocity } = peaks;
-    let values = |list: &[Peak]| list.iter().map(|peak| peak.value).collect();
-    [&drift[..], acceleration, shear, &[*base_shear], slip, contact_force, contact_velocity].map(values).to_vec()
+    [&drift[..], acceleration, shear, &[*base_shear], slip, contact_force, contact_velocity]
+        .map(<[Peak]>::to_vec)
+        .to_vec()
 }
 
 /// The image of a scene: what it had on the positive side is on the negative one.

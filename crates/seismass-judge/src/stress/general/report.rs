@@ -40,6 +40,11 @@ pub fn distribution(tally: &GeneralTally) -> String {
     let limit = format!("where the events agree (limit {AGREEMENT:.0e})");
     row(&format!("worst relative difference {limit}"), of_worst(tally.worst_difference));
     row(&format!("worst difference of event times, of the duration, {limit}"), of_worst(tally.worst_time));
+    if tally.directions == Directions::Two {
+        let apart = "apart in peak accelerations just before stops alone, by no more than friction does as it turns";
+        row(apart, tally.before_stops.len().to_string());
+    }
+    row("not compared: the plain implementation takes too many steps", tally.not_followed.len().to_string());
     row("parted at a grazing, explained", tally.grazing.len().to_string());
     row("parted by sensitivity, explained", tally.sensitive.len().to_string());
     row("defects: panics, NaN, errors, residuals, broken invariants, unexplained", tally.defects.len().to_string());
@@ -58,10 +63,13 @@ pub fn distribution(tally: &GeneralTally) -> String {
             let _ = writeln!(text, "- seed {seed}, {digits}: `{difference}`");
         }
     }
-    let failed = "Failed runs, no defects where the judge fails for the same reason";
-    for (heading, list) in
-        [(failed, &tally.failed), ("Defects", &tally.defects), ("Defects of shear buildings", &tally.chains.defects)]
-    {
+    for (heading, list) in [
+        ("Apart in peak accelerations just before stops alone", &tally.before_stops),
+        ("Scenes that the plain implementation, which has explicit steps alone, cannot follow", &tally.not_followed),
+        ("Failed runs, no defects where the judge fails for the same reason", &tally.failed),
+        ("Defects", &tally.defects),
+        ("Defects of shear buildings", &tally.chains.defects),
+    ] {
         if !list.is_empty() {
             let _ = writeln!(text, "\n{heading}:\n");
         }
@@ -115,10 +123,11 @@ fn of_two_directions(tally: &GeneralTally) -> String {
          bit. A random part is compared with a second implementation, written from the specification alone \
          (`crates/seismass-judge/src/general/plane`), as on the page of one direction: with events, times, velocities, the \
          angles at which sliding begins, histories, peaks and paths.\n\n\
-         Many of the sensitive scenes differ in the peak acceleration of one floor or level alone. Within the last 1e-15 s \
-         before a block stops, its friction turns into the direction of what drives the block, and takes a light node with \
-         it. No run is solved to that end: the peak depends on where it is cut off (`numerics`, section 9.7), which is \
-         elsewhere in other precisions. Drifts and slips agree there.\n\n{}",
+         Within the last 1e-15 s before a block stops, its friction turns into the direction of what drives the block, and \
+         takes a light node with it. No run is solved to that end: a peak acceleration that falls there depends on where it is \
+         cut off (`numerics`, section 9.7), which is elsewhere in other precisions and with other steps. Where peak \
+         accelerations of the node of such a block part at its stop, by no more than its friction can do as it turns, and all \
+         else agrees, the scene is listed by itself (`stress/general/before_stops.rs`).\n\n{}",
         distribution(tally),
     )
 }

@@ -1,7 +1,8 @@
 //! What the suite asks of a scene with its motion, in one direction or in two.
 
-use seismass::{Event, EventCounts, GeneralStatus, Options, Result};
+use seismass::{Event, EventCounts, GeneralStatus, Options, Peak, Result};
 
+use super::before_stops::BeforeStops;
 use crate::general::{GeneralSolution, Scale};
 use crate::{Comparison, JudgeError, Real};
 
@@ -38,7 +39,20 @@ pub(super) trait Subject: Sized {
     fn image(&self) -> Result<Self>;
 
     /// Peaks by kind, and paths: those of the image of a scene in the order of the scene.
-    fn peaks(response: &Self::Response, of_image: bool) -> Vec<Vec<f64>>;
+    fn peaks(response: &Self::Response, of_image: bool) -> Vec<Vec<Peak>>;
+
+    /// Which of them are of the accelerations of nodes.
+    const ACCELERATIONS: &'static [usize];
+
+    /// The stops of blocks before which friction turns; none in one direction.
+    fn before_stops(&self, _response: &Self::Response) -> BeforeStops {
+        BeforeStops::default()
+    }
+
+    /// A solution with the peak accelerations of another where the two part before stops alone.
+    fn with_accelerations_of(found: &Self::Solution, _exact: &Self::Solution, _stops: &BeforeStops) -> Self::Solution {
+        found.clone()
+    }
 
     /// What must hold for a response by itself.
     fn check(&self, response: &Self::Response) -> std::result::Result<(), String>;

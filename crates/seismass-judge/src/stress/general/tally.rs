@@ -61,6 +61,10 @@ pub struct GeneralTally {
     pub grazing: Vec<(u64, f64, String)>,
     /// Sensitive scenes, explained: seed, change in last digits, difference.
     pub sensitive: Vec<(u64, f64, String)>,
+    /// Scenes that part in accelerations just before stops alone: seed, difference.
+    pub before_stops: Vec<(u64, String)>,
+    /// Scenes whose judge takes too many series: seed, reason.
+    pub not_followed: Vec<(u64, String)>,
     /// Failed runs: seed, reason. Where the judge does not fail for the same reason it is a defect too.
     pub failed: Vec<(u64, String)>,
     /// Defects: seed, what is wrong.
@@ -124,10 +128,18 @@ impl GeneralTally {
         for (sum, kind) in self.kinds.iter_mut().zip(EventKind::ALL) {
             *sum += found.events.of(kind) as u64;
         }
+        if let Some(reason) = found.not_followed {
+            self.not_followed.push((found.seed, reason));
+        }
         match found.verdict {
             Some(Verdict::Agrees(comparison)) => {
                 raise(&mut self.worst_difference, comparison.worst());
                 raise(&mut self.worst_time, comparison.worst_time());
+            }
+            Some(Verdict::BeforeStops { comparison, difference }) => {
+                raise(&mut self.worst_difference, comparison.worst());
+                raise(&mut self.worst_time, comparison.worst_time());
+                self.before_stops.push((found.seed, difference));
             }
             Some(Verdict::Grazing { digits, difference }) => self.grazing.push((found.seed, digits, difference)),
             Some(Verdict::Sensitive { digits, difference } | Verdict::GrazingPairs { digits, difference }) => {

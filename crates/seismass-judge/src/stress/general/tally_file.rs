@@ -45,7 +45,13 @@ impl GeneralTally {
         for seed in &self.chains.judged {
             line("chain-judged", &[seed.to_string()]);
         }
-        let lists = [("failed", &self.failed), ("defect", &self.defects), ("chain-defect", &self.chains.defects)];
+        let lists = [
+            ("before-stops", &self.before_stops),
+            ("not-followed", &self.not_followed),
+            ("failed", &self.failed),
+            ("defect", &self.defects),
+            ("chain-defect", &self.chains.defects),
+        ];
         for (key, list) in lists {
             for (seed, reason) in list {
                 line(key, &[seed.to_string(), reason.clone()]);
@@ -112,6 +118,8 @@ impl GeneralTally {
             "sensitive" => self.sensitive.push((whole(0)?, real(1)?, text(2)?)),
             "chains" => (self.chains.scenes, self.chains.events) = (whole(0)?, whole(1)?),
             "chain-judged" => self.chains.judged.push(whole(0)?),
+            "before-stops" => self.before_stops.push((whole(0)?, text(1)?)),
+            "not-followed" => self.not_followed.push((whole(0)?, text(1)?)),
             "failed" => self.failed.push((whole(0)?, text(1)?)),
             "defect" => self.defects.push((whole(0)?, text(1)?)),
             "chain-defect" => self.chains.defects.push((whole(0)?, text(1)?)),

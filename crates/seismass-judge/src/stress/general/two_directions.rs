@@ -1,12 +1,12 @@
 //! Scenes in two directions.
 
-use seismass::{Event, Motion, Options, PlaneMotion, PlaneResponse, PlaneScene, Result, simulate_plane};
+use seismass::{Event, Motion, Options, Peak, PlaneMotion, PlaneResponse, PlaneScene, Result, simulate_plane};
 
+use super::before_stops::BeforeStops;
 use super::changed::{Factors, changed_motion};
-use super::one_direction::{mirrored, of_peaks, opposite};
+use super::one_direction::{mirrored, of_peaks, opposite, without_times};
 use super::plane_invariants;
 use super::subject::{Subject, Summary};
-use crate::compare::values;
 use crate::general::{GeneralSolution, PlaneSolution, Scale, divided_plane, plane_solution_of, solve_plane_scaled};
 use crate::plane_scene::plane_scene;
 use crate::{Comparison, JudgeError, Real, larger};
@@ -56,13 +56,37 @@ impl Subject for (PlaneScene, PlaneMotion) {
         Ok((scene, PlaneMotion::new(turned, samples)?))
     }
 
-    fn peaks(response: &PlaneResponse, of_image: bool) -> Vec<Vec<f64>> {
+    const ACCELERATIONS: &'static [usize] = &[1, 8, 15];
+
+    fn peaks(response: &PlaneResponse, of_image: bool) -> Vec<Vec<Peak>> {
         let [x, y] = &response.peaks.directions;
         let vector = &response.peaks.vector;
         let mut lists = if of_image { [of_peaks(y), of_peaks(x)] } else { [of_peaks(x), of_peaks(y)] }.concat();
-        lists.extend([&vector.drift, &vector.acceleration, &vector.shear, &vector.slip].map(|peaks| values(peaks)));
-        lists.extend([vec![vector.base_shear.value], response.slip_path.clone()]);
+        lists.extend([&vector.drift, &vector.acceleration, &vector.shear, &vector.slip].map(Clone::clone));
+        lists.extend([vec![vector.base_shear], without_times(&response.slip_path)]);
         lists
+    }
+
+    fn before_stops(&self, response: &PlaneResponse) -> BeforeStops {
+        let vertical = self.1.directions()[0].vertical().unwrap_or_default();
+        BeforeStops::new(&self.0, vertical, response.events.as_deref().unwrap_or_default())
+    }
+
+    fn with_accelerations_of(found: &PlaneSolution, exact: &PlaneSolution, stops: &BeforeStops) -> PlaneSolution {
+        let mut found = found.clone();
+        let of = |solution: &PlaneSolution, a: usize| solution.directions[a].peaks.acceleration.clone();
+        let parted = |own: &mut [Peak], other: &[Peak]| {
+            for (node, (own, other)) in own.iter_mut().zip(other).enumerate() {
+                if stops.part(node, *own, *other) {
+                    *own = *other;
+                }
+            }
+        };
+        for a in 0..2 {
+            parted(&mut found.directions[a].peaks.acceleration, &of(exact, a));
+        }
+        parted(&mut found.vector.acceleration, &exact.vector.acceleration);
+        found
     }
 
     fn check(&self, response: &PlaneResponse) -> std::result::Result<(), String> {

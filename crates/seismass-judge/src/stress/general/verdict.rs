@@ -4,49 +4,79 @@
 use seismass::Event;
 
 use super::backward_error::backward_error;
+use super::before_stops::BeforeStops;
 use super::subject::Subject;
 use crate::general::{GeneralSolution, Scale, apart_by_machine};
 use crate::stress::grazing::AMPLIFICATION;
 use crate::stress::verdict::{AGREEMENT, LAST_DIGITS, TRIALS, Verdict};
-use crate::{Comparison, DoubleDouble, Real};
+use crate::{Comparison, DoubleDouble, JudgeError, Real};
 
 /// Different changes of each size for the judge in double-double.
 const PRECISE_TRIALS: u64 = 2;
 
 /// Compares a response with the judge in double precision; if they part, or `precisely`, in double-double; if they part
 /// still, looks for a grazing.
-pub(super) fn judge<S: Subject>(subject: &S, response: &S::Response, precisely: bool) -> Verdict {
+///
+/// # Errors
+/// [`JudgeError::TooManySeries`] where the judge takes too many. In double-double it takes more, and is not asked where it
+/// fails in double precision; where it takes too many, agreement in double precision counts.
+pub(super) fn judge<S: Subject>(subject: &S, response: &S::Response, precisely: bool) -> Result<Verdict, JudgeError> {
+    let stops = &subject.before_stops(response);
     let Some(response) = S::as_solution(response) else {
-        return Verdict::Unexplained("a response without events, histories or energies".into());
+        return Ok(Verdict::Unexplained("a response without events, histories or energies".into()));
     };
     let plain = subject.solve::<f64>(Scale::none());
-    if let (Ok(plain), false) = (&plain, precisely) {
-        let comparison = S::compare(&response, plain);
-        if comparison.agrees(AGREEMENT) {
-            return Verdict::Agrees(comparison);
+    match &plain {
+        Err(error @ JudgeError::TooManySeries { .. }) => return Err(error.clone()),
+        Ok(plain) if !precisely => {
+            if let Some(verdict) = agreement::<S>(&response, plain, stops) {
+                return Ok(verdict);
+            }
         }
+        _ => {}
     }
     let exact = match subject.solve::<DoubleDouble>(Scale::none()) {
         Ok(exact) => exact,
-        Err(error) => return Verdict::Unexplained(format!("the judge failed: {error}")),
+        Err(error @ JudgeError::TooManySeries { .. }) => {
+            return plain.ok().and_then(|plain| agreement::<S>(&response, &plain, stops)).ok_or(error);
+        }
+        Err(error) => return Ok(Verdict::Unexplained(format!("the judge failed: {error}"))),
     };
-    let comparison = S::compare(&response, &exact);
+    Ok(agreement::<S>(&response, &exact, stops).unwrap_or_else(|| explanation(subject, &response, &exact, plain.ok())))
+}
+
+/// The verdict where a response agrees with a solution, but for accelerations just before stops.
+fn agreement<S: Subject>(response: &S::Solution, exact: &S::Solution, stops: &BeforeStops) -> Option<Verdict> {
+    let comparison = S::compare(response, exact);
     if comparison.agrees(AGREEMENT) {
-        return Verdict::Agrees(comparison);
+        return Some(Verdict::Agrees(comparison));
     }
+    let but_for_stops = S::compare(&S::with_accelerations_of(response, exact, stops), exact);
+    let difference = difference(&comparison);
+    but_for_stops.agrees(AGREEMENT).then_some(Verdict::BeforeStops { comparison: but_for_stops, difference })
+}
+
+/// Looks for a grazing where a response parts from the judge in double-double.
+fn explanation<S: Subject>(
+    subject: &S,
+    response: &S::Solution,
+    exact: &S::Solution,
+    plain: Option<S::Solution>,
+) -> Verdict {
+    let comparison = S::compare(response, exact);
     let difference = difference(&comparison);
     let same_events = comparison.mismatch.is_none();
-    if same_events && plain.is_ok_and(|plain| moves_as_far::<S>(&response, &exact, &plain)) {
+    if same_events && plain.is_some_and(|plain| moves_as_far::<S>(response, exact, &plain)) {
         return Verdict::Sensitive { digits: 0.0, difference };
     }
     // In doubles first: the judge's own rounding, some last digits too, is cheaper than its precision.
-    let changed = explain::<S, f64>(subject, &response, &exact, TRIALS);
-    let changed = changed.or_else(|| explain::<S, DoubleDouble>(subject, &response, &exact, PRECISE_TRIALS));
+    let changed = explain::<S, f64>(subject, response, exact, TRIALS);
+    let changed = changed.or_else(|| explain::<S, DoubleDouble>(subject, response, exact, PRECISE_TRIALS));
     match changed {
         Some((true, digits)) => Verdict::Grazing { digits, difference },
         Some((false, digits)) => Verdict::Sensitive { digits, difference },
         // A chaotic scene: no change at random follows the engine to the end, as the one sought does.
-        None => match backward_error(subject, &response, &exact) {
+        None => match backward_error(subject, response, exact) {
             Some(digits) => Verdict::Sensitive { digits: (100.0 * digits).round() / 100.0, difference },
             None => Verdict::Unexplained(difference),
         },

@@ -224,7 +224,7 @@ mod tests {
         let motion = PlaneMotion::new(x, vec![-0.5, 0.7]).unwrap();
         let ([x, y], [of_x, of_y]) = (scene.directions(), motion.directions());
         let systems = [System::new(x, of_x).unwrap(), System::new(y, of_y).unwrap()];
-        let mut state = PlaneState::new(&scene, systems.each_ref(), vec![[f64::INFINITY; 2]; 3], true);
+        let mut state = PlaneState::new(&scene, systems.each_ref(), true);
         for (axis, motion) in state.axes.iter_mut().zip([of_x, of_y]) {
             axis.interval = interval(motion, motion.vertical(), 0);
         }

@@ -79,10 +79,11 @@ impl<'a, 'b> PlaneSearch<'a, 'b> {
         self.take(found.map(|(place, guard)| (place, PlaneGuard::Along { axis: a, guard })));
     }
 
-    /// 1 - (d_x / c_x)^2 - (d_y / c_y)^2.
+    /// 1 - (d_x / c_x)^2 - (d_y / c_y)^2. Where it falls by one drift alone, the guard of that direction does too, and keeps
+    /// the end of a branch of the spring from coming first by rounding.
     fn collapses(&mut self) {
         for node in 1..=self.state.system().nodes {
-            let limit = self.state.collapse[node];
+            let limit = self.state.axes.each_ref().map(|axis| axis.system.laws[node - 1].collapse_drift);
             if limit == [f64::INFINITY; 2] {
                 continue;
             }

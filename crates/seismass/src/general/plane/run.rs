@@ -53,14 +53,9 @@ pub fn simulate_plane_until(
     stop: &AtomicBool,
 ) -> Result<PlaneResponse> {
     let ([x, y], [of_x, of_y]) = (scene.directions(), motion.directions());
-    let mut systems = [System::new(x, of_x)?, System::new(y, of_y)?];
-    // The vector of drifts decides on collapse, not its parts.
-    let limit = |p: usize| systems.each_ref().map(|system| system.laws[p - 1].collapse_drift);
-    let limits = (1..=systems[0].nodes).map(limit);
-    let collapse: Vec<[f64; 2]> = std::iter::once([f64::INFINITY; 2]).chain(limits).collect();
-    systems.iter_mut().flat_map(|system| &mut system.laws).for_each(|law| law.collapse_drift = f64::INFINITY);
+    let systems = [System::new(x, of_x)?, System::new(y, of_y)?];
     let vertical = of_x.vertical().is_some() && !systems[0].blocks.is_empty();
-    let state = PlaneState::new(scene, systems.each_ref(), collapse, vertical);
+    let state = PlaneState::new(scene, systems.each_ref(), vertical);
     let samples = of_x.acceleration().len();
     let recorder =
         |system: &System| options.histories.map(|every| Recorder::new(system, options, samples, every)).transpose();
@@ -103,6 +98,9 @@ pub fn simulate_plane_until(
         }
         GeneralStatus::Collapsed { time, .. } => time,
     };
+    if end_time == 0.0 {
+        run.observer.take_accelerations(&run.state.accelerations(0.0), 0.0);
+    }
     Ok(run.finish(status, end_time))
 }
 
@@ -137,7 +135,6 @@ impl<'a> Run<'a> {
         }
         self.note_events(0);
         self.observer.take_values(&self.state, 0.0);
-        self.observer.take_accelerations(&self.state.accelerations(0.0), 0.0);
         self.balance = energy.then(|| PlaneBalance::begin(&self.state));
         Ok(collapsed)
     }
@@ -197,7 +194,9 @@ impl<'a> Run<'a> {
                 return Err(self.too_many(name, block, tau, most));
             }
             if steps > most_steps {
-                let block = self.series.slides.first().map(|slide| slide.block);
+                let speed = |block: &usize| length(self.state.velocity(*block));
+                let sliding = self.series.slides.iter().map(|slide| slide.block);
+                let block = sliding.min_by(|one, other| speed(one).total_cmp(&speed(other)));
                 return Err(self.too_many("step of sliding", block, tau, most_steps));
             }
             if stop.load(Ordering::Relaxed) {
@@ -220,7 +219,11 @@ impl<'a> Run<'a> {
         let (state, series) = (&mut self.state, &self.series);
         let start = state.axes[0].interval.start;
         let accelerations = |place: f64| [0, 1].map(|a: usize| series.axes[a].values(Quantity::Acceleration, place));
-        self.observer.take_accelerations(&accelerations(0.0), start + series.tau());
+        // An instant is no stretch of time: what it passes through has no peaks.
+        let lasts = place > 0.0;
+        if lasts {
+            self.observer.take_accelerations(&accelerations(0.0), start + series.tau());
+        }
         self.statistics.guards_isolated += self.observer.observe(state, series, place);
         if let Some(balance) = &mut self.balance {
             balance.add(state, series, place);
@@ -245,13 +248,15 @@ impl<'a> Run<'a> {
         for position in 0..state.axes[0].moving.len() {
             let block = state.axes[0].moving[position];
             let [x, y] = [0, 1].map(|a: usize| series.axes[a].block_changes(position, place));
-            if place > 0.0 {
+            if lasts {
                 state.move_block(block, [x.0, y.0], [x.1, y.1], paths[block]);
             }
         }
         state.note_velocities();
         let (at_end, time) = (accelerations(place), start + tau);
-        self.observer.take_accelerations(&at_end, time);
+        if lasts {
+            self.observer.take_accelerations(&at_end, time);
+        }
         self.observer.take_values(state, time);
         let is_finite = at_end.iter().flatten().all(|a| a.is_finite());
         if is_finite && (0..state.slides.len()).all(|j| length(state.slip(j)).is_finite()) {
@@ -383,7 +388,7 @@ fn name_of(guard: PlaneGuard) -> (&'static str, Option<usize>) {
     match guard {
         PlaneGuard::Breakaway { block } => ("slip", Some(block)),
         PlaneGuard::Wear { block } => ("wear", Some(block)),
-        PlaneGuard::Collapse { .. } => ("collapse", None),
+        PlaneGuard::Collapse { .. } | PlaneGuard::Along { guard: Guard::Collapse { .. }, .. } => ("collapse", None),
         PlaneGuard::Along { guard, .. } => match guard {
             Guard::Touch { block, .. } | Guard::TouchAgain { block } => ("touch of a stop", Some(block)),
             Guard::Leave { block } | Guard::Clear { block } => ("leave of a stop", Some(block)),

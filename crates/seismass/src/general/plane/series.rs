@@ -81,11 +81,14 @@ impl PlaneSeries {
         }
         let (mut end, mut order) = self.end(frequency * self.h());
         if let Some(longer) = self.stiff.longer(&self.slides, self.h(), end, longest) {
+            // Ends well before any stop: a straight way to one is as any other.
+            let straight = std::mem::take(&mut self.straight);
             let formed = self.collocate(state, tau, longer);
             self.stiff.note(longer, formed);
             if formed {
                 (end, order) = (self.before_stops(1.0, ORDER), ORDER);
             } else {
+                self.straight = straight;
                 self.form_slides(state, tau, longest);
             }
         }

@@ -35,19 +35,17 @@ impl Slide {
 pub(super) struct PlaneState<'a> {
     pub(super) axes: [GeneralState<'a>; 2],
     pub(super) slides: Vec<Slide>,
-    /// Collapse drift of each node in each direction; its ellipse is the limit of the drift vector.
-    pub(super) collapse: Vec<Vector2>,
     /// Largest velocity of a node or of a block relative to its node so far (m/s).
     pub(super) fastest: f64,
 }
 
 impl<'a> PlaneState<'a> {
     /// A scene at its start; no regime is entered yet.
-    pub(super) fn new(scene: &PlaneScene, systems: [&'a System; 2], collapse: Vec<Vector2>, vertical: bool) -> Self {
+    pub(super) fn new(scene: &PlaneScene, systems: [&'a System; 2], vertical: bool) -> Self {
         let [x, y] = scene.directions();
         let axes = [GeneralState::new(x, systems[0], vertical), GeneralState::new(y, systems[1], vertical)];
         let slides = systems[0].blocks.iter().map(Slide::new).collect();
-        let mut state = Self { axes, slides, collapse, fastest: 0.0 };
+        let mut state = Self { axes, slides, fastest: 0.0 };
         for j in 0..state.slides.len() {
             let slides = state.velocity(j) != [0.0; 2] || state.is_frictionless(j);
             state.set(j, if slides { SLIDING } else { BlockState::Stuck });

@@ -15,7 +15,7 @@ pub(super) struct Stiff {
 impl Stiff {
     /// The length of an implicit step worth trying in place of an explicit one that ends at `end` of `h`.
     pub(super) fn longer(&mut self, slides: &[SlideSeries], h: f64, end: f64, longest: f64) -> Option<f64> {
-        if slides.iter().any(|slide| slide.beginning != Beginning::Moving || slide.straight_to.is_some()) {
+        if slides.iter().any(|slide| slide.beginning != Beginning::Moving) {
             return None;
         }
         let before_stop = |slide: &SlideSeries| {
