@@ -66,7 +66,10 @@ pub fn distribution(tally: &GeneralTally) -> String {
     for (heading, list) in [
         ("Apart in peak accelerations just before stops alone", &tally.before_stops),
         ("Scenes that the plain implementation, which has explicit steps alone, cannot follow", &tally.not_followed),
-        ("Failed runs, no defects where the judge fails for the same reason", &tally.failed),
+        (
+            "Failed runs, no defects where the judge fails for the same reason or takes too many steps itself",
+            &tally.failed,
+        ),
         ("Defects", &tally.defects),
         ("Defects of shear buildings", &tally.chains.defects),
     ] {
