@@ -13,6 +13,8 @@ use crate::compare::{Comparison, compare_endings, compare_events, difference, la
 const LEAST_VELOCITY: f64 = 1e-3;
 /// Kinds of peaks.
 pub(crate) const KINDS: usize = 7;
+/// Of them, those of forces.
+const FORCES: std::ops::Range<usize> = 3..6;
 /// Peaks count relative to this part of the largest of their kind at least.
 const LEAST_PART: f64 = 1e-3;
 
@@ -82,9 +84,13 @@ impl GeneralSolution {
         self.judge_parts(&found, least)
     }
 
-    /// What counts at least of a peak that is compared beside those of this solution, by kind.
+    /// What counts at least of a peak that is compared beside those of this solution, by kind. Forces are of one kind: a stop
+    /// may be touched in one direction alone.
     pub(crate) fn least_scales(&self) -> [f64; KINDS] {
-        lists(&self.peaks).map(|peaks| LEAST_PART * peaks.into_iter().fold(0.0, f64::max))
+        let mut least = lists(&self.peaks).map(|peaks| LEAST_PART * peaks.into_iter().fold(0.0, f64::max));
+        let largest = least[FORCES].iter().copied().fold(0.0, f64::max);
+        least[FORCES].fill(largest);
+        least
     }
 
     fn judge_parts(&self, found: &Parts, mut least: [f64; KINDS]) -> Comparison {

@@ -11,7 +11,9 @@ use crate::polynomial::power::Polynomial;
 use crate::tolerances::{ARRIVED_ON_CIRCLE, AT_STOPS_ROUNDING, SERIES_PHASE, SERIES_ROUNDING};
 use crate::units::STANDARD_GRAVITY;
 
-/// Where a series has left the range of numbers it is formed anew over this part of its length.
+/// Where the last term of a direction is not below this, rounding over it is no number, and the series is formed anew over
+/// this part of its length.
+const LARGEST: f64 = 1e280;
 const SHORTER: f64 = 1e-3;
 
 /// What the turn of a velocity on the way to its stop may be, as a part of the largest velocity so far.
@@ -132,8 +134,8 @@ impl PlaneSeries {
             if let Some(slide) = self.slides.iter().find(|slide| slide.length[0] <= 0.0) {
                 return Some(slide.block);
             }
-            let is_finite = self.slides.iter().all(|slide| length(slide.direction[ORDER]).is_finite());
-            if is_finite || h < f64::MIN_POSITIVE / SHORTER {
+            let is_within = self.slides.iter().all(|slide| length(slide.direction[ORDER]) < LARGEST);
+            if is_within || h < f64::MIN_POSITIVE / SHORTER {
                 return None;
             }
             h *= SHORTER;
