@@ -6,6 +6,8 @@ use crate::record::Solution;
 
 /// Events this close (s) may be logged in any order.
 const ONE_INSTANT: f64 = 1e-10;
+/// Peaks count relative to this part of the largest of their kind at least.
+pub(crate) const LEAST_PART: f64 = 1e-3;
 /// Event times are not resolved below this (s).
 const TIME_ROUNDING: f64 = 1e-13;
 
@@ -75,7 +77,7 @@ pub(crate) fn values(peaks: &[Peak]) -> Vec<f64> {
 
 pub(crate) fn scales(peaks: &[f64]) -> Vec<f64> {
     let largest = peaks.iter().copied().fold(0.0, f64::max);
-    peaks.iter().map(|&p| p.max(1e-3 * largest)).collect()
+    peaks.iter().map(|&p| p.max(LEAST_PART * largest)).collect()
 }
 
 /// The log without the breakaways that no double can tell from the lift that follows: where a floor has hardly begun

@@ -7,7 +7,7 @@ use seismass::{
 };
 
 use super::record::GeneralSolution;
-use crate::compare::{Comparison, compare_endings, compare_events, difference, larger, scales, values};
+use crate::compare::{Comparison, LEAST_PART, compare_endings, compare_events, difference, larger, scales, values};
 
 /// Velocities at stops and of events count relative to the largest, and to this at least (m/s).
 const LEAST_VELOCITY: f64 = 1e-3;
@@ -15,8 +15,6 @@ const LEAST_VELOCITY: f64 = 1e-3;
 pub(crate) const KINDS: usize = 7;
 /// Of them, those of forces.
 const FORCES: std::ops::Range<usize> = 3..6;
-/// Peaks count relative to this part of the largest of their kind at least.
-const LEAST_PART: f64 = 1e-3;
 
 /// Drift, slip, acceleration, shear and base shear, contact force, contact velocity.
 fn lists(peaks: &GeneralPeaks) -> [Vec<f64>; KINDS] {

@@ -18,6 +18,7 @@ mod stretches;
 pub(crate) use compare::apart_by_machine;
 pub use compare::{as_chain, compare_general, solution_of};
 pub use divide::{divided, divided_plane};
+pub(crate) use model::Model;
 pub(crate) use plane::solve_plane_scaled;
 pub use plane::{PlaneSolution, compare_plane, plane_solution_of, solve_plane};
 pub use record::GeneralSolution;

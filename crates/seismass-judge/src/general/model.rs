@@ -17,12 +17,12 @@ pub(super) struct StopData<R> {
 
 /// A block that may slide.
 #[derive(Debug, Clone)]
-pub(super) struct GoodsData<R> {
+pub(crate) struct GoodsData<R> {
     /// None is the ground.
-    pub(super) node: Option<usize>,
-    pub(super) mass: R,
+    pub(crate) node: Option<usize>,
+    pub(crate) mass: R,
     /// By path, the first from the start.
-    pub(super) stages: Vec<Stage<R>>,
+    pub(crate) stages: Vec<Stage<R>>,
     pub(super) stops: Option<StopData<R>>,
 }
 
@@ -35,22 +35,22 @@ struct Dampers<R> {
 
 /// A scene in numbers of type `R`. Nodes are the floors, then the levels of each rack; spring p is below node p.
 #[derive(Debug)]
-pub(super) struct Model<R> {
-    pub(super) mass: Vec<R>,
+pub(crate) struct Model<R> {
+    pub(crate) mass: Vec<R>,
     /// What the node's spring stands on; none: the ground.
     pub(super) parent: Vec<Option<usize>>,
     pub(super) springs: Vec<StoreyData<R>>,
     /// Elastic matrix over the first nodes, the floors.
     pub(super) matrix: Vec<Vec<R>>,
     dampers: Vec<Dampers<R>>,
-    pub(super) goods: Vec<GoodsData<R>>,
+    pub(crate) goods: Vec<GoodsData<R>>,
     pub(super) gravity: R,
     /// Whether the first node is a floor of a building.
     pub(super) has_building: bool,
 }
 
 impl<R: Real> Model<R> {
-    pub(super) fn new(scene: &GeneralScene) -> Self {
+    pub(crate) fn new(scene: &GeneralScene) -> Self {
         let mut model = Self {
             mass: Vec::new(),
             parent: Vec::new(),

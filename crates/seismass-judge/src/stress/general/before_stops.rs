@@ -7,6 +7,7 @@
 
 use seismass::{EventKind, Peak, PlaneEvent, PlaneScene, STANDARD_GRAVITY};
 
+use crate::general::Model;
 use crate::stress::verdict::AGREEMENT;
 
 /// How long before a stop or after it a peak counts as one there (s).
@@ -24,33 +25,19 @@ pub(super) struct BeforeStops {
 impl BeforeStops {
     /// Those of a run; `vertical` are the samples of a vertical acceleration.
     pub(super) fn new(scene: &PlaneScene, vertical: &[f64], events: &[PlaneEvent]) -> Self {
-        let [of, _] = scene.directions();
-        let mut mass: Vec<f64> = of.building().map_or(Vec::new(), |building| building.mass().to_vec());
-        let mut blocks: Vec<(Option<usize>, f64)> = Vec::new();
-        let (on_floors, racks) = (of.goods().iter().map(|goods| (goods, 0)), of.racks());
-        let mut first = mass.len();
-        let mut goods: Vec<_> = on_floors.collect();
-        for rack in racks {
-            goods.extend(rack.goods.iter().map(|goods| (goods, first)));
-            first += rack.mass.len();
-            mass.extend(&rack.mass);
-        }
-        for (goods, first) in goods {
-            let block = &goods.block;
-            let largest = block.wear.iter().fold(block.mu_s, |most, stage| most.max(stage.mu_s));
-            blocks.push(((first + block.floor).checked_sub(1), block.mass * largest));
-        }
+        let model = Model::<f64>::new(&scene.directions()[0]);
         let gravity = vertical.iter().fold(STANDARD_GRAVITY, |most, a| most.max(STANDARD_GRAVITY + a));
-        let mut turns = vec![0.0; mass.len()];
-        for &(node, friction) in &blocks {
-            if let Some(node) = node {
-                turns[node] += 2.0 * friction * gravity / mass[node];
+        let mut turns = vec![0.0; model.mass.len()];
+        for goods in &model.goods {
+            if let Some(node) = goods.node {
+                let largest = goods.stages.iter().fold(0.0f64, |most, stage| most.max(stage.mu_s));
+                turns[node] += 2.0 * goods.mass * largest * gravity / model.mass[node];
             }
         }
-        let mut times = vec![Vec::new(); mass.len()];
+        let mut times = vec![Vec::new(); model.mass.len()];
         for event in events.iter().map(|entry| entry.event.event).filter(|event| event.kind == EventKind::Stick) {
-            if let Some((Some(node), _)) = blocks.get(event.number - 1) {
-                times[*node].push(event.time);
+            if let Some(node) = model.goods[event.number - 1].node {
+                times[node].push(event.time);
             }
         }
         Self { times, turns }

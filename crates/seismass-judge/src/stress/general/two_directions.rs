@@ -56,6 +56,7 @@ impl Subject for (PlaneScene, PlaneMotion) {
         Ok((scene, PlaneMotion::new(turned, samples)?))
     }
 
+    /// The second of the seven kinds of each direction, and of those of the vector after them.
     const ACCELERATIONS: &'static [usize] = &[1, 8, 15];
 
     fn peaks(response: &PlaneResponse, of_image: bool) -> Vec<Vec<Peak>> {
@@ -74,7 +75,6 @@ impl Subject for (PlaneScene, PlaneMotion) {
 
     fn with_accelerations_of(found: &PlaneSolution, exact: &PlaneSolution, stops: &BeforeStops) -> PlaneSolution {
         let mut found = found.clone();
-        let of = |solution: &PlaneSolution, a: usize| solution.directions[a].peaks.acceleration.clone();
         let parted = |own: &mut [Peak], other: &[Peak]| {
             for (node, (own, other)) in own.iter_mut().zip(other).enumerate() {
                 if stops.part(node, *own, *other) {
@@ -82,8 +82,8 @@ impl Subject for (PlaneScene, PlaneMotion) {
                 }
             }
         };
-        for a in 0..2 {
-            parted(&mut found.directions[a].peaks.acceleration, &of(exact, a));
+        for (own, other) in found.directions.iter_mut().zip(&exact.directions) {
+            parted(&mut own.peaks.acceleration, &other.peaks.acceleration);
         }
         parted(&mut found.vector.acceleration, &exact.vector.acceleration);
         found

@@ -11,9 +11,9 @@ use crate::polynomial::power::Polynomial;
 use crate::tolerances::{ARRIVED_ON_CIRCLE, AT_STOPS_ROUNDING, SERIES_PHASE, SERIES_ROUNDING};
 use crate::units::STANDARD_GRAVITY;
 
-/// Where the last term of a direction is not below this, rounding over it is no number, and the series is formed anew over
-/// this part of its length.
+/// What the last term of a direction must be below: rounding over a larger one is no number.
 const LARGEST: f64 = 1e280;
+/// Where it is not, the series is formed anew over this part of its length.
 const SHORTER: f64 = 1e-3;
 
 /// What the turn of a velocity on the way to its stop may be, as a part of the largest velocity so far.
