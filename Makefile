@@ -16,8 +16,9 @@ export PIP_NO_INPUT := 1
 export MPLBACKEND := Agg
 export MPLCONFIGDIR := $(abspath $(VENV))/matplotlib
 
-.PHONY: study explorer test bench bench-kernel count-instructions stress stress-general stress-plane docs clean build lint test-rust test-python test-wheel wheels \
-	test-aarch64 web-kernel fuzz audit audit-packages
+.PHONY: study explorer test test-all lint lint-quick test-rust test-rust-quick test-python test-python-quick test-wheel docs \
+	build web-kernel bench bench-kernel count-instructions stress stress-general stress-plane fuzz audit audit-packages wheels \
+	test-aarch64 clean
 
 study: build
 	$(VENV)/bin/seismass study --effective --sensitivity --out out/study
@@ -27,7 +28,13 @@ explorer: build $(WEB_KERNEL)
 	@mkdir -p out
 	$(VENV)/bin/seismass explore --out out/explorer.html
 
-test: lint docs test-wheel test-rust test-python
+# What to run at every change, in minutes.
+test: lint-quick test-rust-quick test-python-quick
+	@echo "The quick checks have passed. make test-all adds clippy, doctests, the documentation, the wheel, pages in a browser,"
+	@echo "the live page, more random scenes and the tests of tests/slow.txt; continuous integration runs it."
+
+# Everything, as continuous integration runs it.
+test-all: lint docs test-wheel test-rust test-python
 
 # Options other than --quick choose contestants or scenes of work_precision.py, which runs alone and writes nothing.
 bench: build $(BENCH_VENV)/made
@@ -89,27 +96,43 @@ stress-plane:
 	cargo run --locked --release -p seismass-judge --bin stress_general -- --plane --scenes 100000 --judged 2200 \
 		--write docs/stress_plane.md
 
-lint: build
-	@cargo fmt --version >/dev/null && cargo clippy --version >/dev/null || \
-		{ echo "make lint and make test need rustfmt and clippy: rustup component add rustfmt clippy" >&2; exit 1; }
+lint-quick: build
+	@cargo fmt --version >/dev/null || \
+		{ echo "make test needs rustfmt: rustup component add rustfmt" >&2; exit 1; }
 	cargo fmt --all --check
-	cargo clippy --locked --workspace --all-targets -- -D warnings
-	# Alone, and thus without the kernel's feature tall-buildings, as it is compiled for the live page.
-	cargo clippy --locked -p seismass-web -- -D warnings
 	$(PYTHON) -m ruff check .
 	$(PYTHON) -m ruff format --check .
 	$(VENV)/bin/lint-imports --no-cache
 	$(PYTHON) -m mypy
+
+lint: lint-quick
+	@cargo clippy --version >/dev/null || \
+		{ echo "make lint and make test-all need clippy: rustup component add clippy" >&2; exit 1; }
+	cargo clippy --locked --workspace --all-targets -- -D warnings
+	# Alone, and thus without the kernel's feature tall-buildings, as it is compiled for the live page.
+	cargo clippy --locked -p seismass-web -- -D warnings
 	$(PYTHON) tools/make_stubs.py --check
 	$(PYTHON) -m mypy.stubtest seismass._kernel --mypy-config-file pyproject.toml
 
-# The extension crate is left out: it links against the Python that loads it and is tested from there.
+# Features of shared crates are those of the extension, which is tested from Python.
+RUST_TESTS := cargo test --locked --workspace
+
 test-rust:
-	cargo test --locked --workspace --exclude seismass-python
+	$(RUST_TESTS)
+
+# Fewer random scenes, with the same checks of each, and no doctests and examples. In the extension's profile, whose
+# compiled kernel the tests share.
+test-rust-quick: build
+	SEISMASS_STRESS_SCENES=300 SEISMASS_JUDGE_SCENES=20 $(RUST_TESTS) --release --lib --tests
 
 # Two processes, a file's tests in one of them: they share its fixtures.
+PYTEST := $(PYTHON) -m pytest --numprocesses 2 --dist loadfile
+
 test-python: build $(VENV)/browser web-kernel
-	$(PYTHON) -m pytest --numprocesses 2 --dist loadfile
+	$(PYTEST)
+
+test-python-quick: build
+	$(PYTEST) -m "not slow" --ignore tests/browser
 
 test-wheel: build web-kernel
 	sh tools/check-wheel $(PYTHON)
@@ -117,7 +140,7 @@ test-wheel: build web-kernel
 # Wheels for Linux on x86-64 and aarch64 in dist, from either. Needs Rust's standard library for both, and says so.
 wheels: build web-kernel
 	$(PYTHON) -m pip install --quiet --group wheels
-	env -u CONDA_PREFIX VIRTUAL_ENV=$(abspath $(VENV)) PATH="$(abspath $(VENV))/bin:$$PATH" sh tools/make-wheels $(PYTHON) dist
+	env -u CONDA_PREFIX VIRTUAL_ENV="$(abspath $(VENV))" PATH="$(abspath $(VENV))/bin:$$PATH" sh tools/make-wheels $(PYTHON) dist
 
 # The kernel's tests on an emulated aarch64; a quarter of an hour. Needs qemu-user and Rust's standard library for it.
 test-aarch64:
@@ -173,5 +196,6 @@ $(AUDIT_VENV)/made: $(VENV)/installed
 
 # Python sources are used in place (an editable install), so that only Rust, the metadata or the data need a new build.
 $(VENV)/built: $(VENV)/installed $(RUST_SOURCES) $(DATA) packaging/README.md
-	env -u CONDA_PREFIX VIRTUAL_ENV=$(abspath $(VENV)) $(PYTHON) -m maturin develop --release --locked
+	@echo "compiling the kernel: some minutes on two cores, and once for as long as it is not changed"
+	env -u CONDA_PREFIX VIRTUAL_ENV="$(abspath $(VENV))" $(PYTHON) -m maturin develop --release --locked
 	@touch $@
