@@ -29,19 +29,8 @@ _REPLACED: Final = ((*PERIOD, *STIFFNESS), STRENGTH)
 
 
 def tables_in_y(tables: Mapping[str, Any], file: str) -> Table:
-    """Return the tables of a building file as they are for the building in y.
-
-    Parameters
-    ----------
-    tables : mapping
-        The tables as the file has them, with `other_direction`. They are not changed.
-    file : str
-        What errors call the file.
-
-    Raises
-    ------
-    InvalidBuildingFile
-        A key of the other direction is unknown, or it has another number of storeys.
+    """Return the tables of a building file as they are for the building in y, from `other_direction`; `tables` is not
+    changed.
     """
     whole = copy.deepcopy(dict(tables))
     other = Table(whole.pop("other_direction"), "other_direction", file, InvalidBuildingFile)

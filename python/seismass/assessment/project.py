@@ -37,13 +37,7 @@ NO_PROJECT: Final = Project()
 
 
 def project_of(table: Table) -> Project:
-    """Return what a table [project] says.
-
-    Raises
-    ------
-    InvalidBuildingFile
-        A value is no text, or the date is none.
-    """
+    """Return what a table [project] says."""
     return Project(
         **{key: printable(table.text(key)) for key in PROJECT if key != "date"},
         date=_date(table),

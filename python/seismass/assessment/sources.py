@@ -39,13 +39,7 @@ _OF_BUILDING: Final = {
 
 
 def sources_of(file: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
-    """Return each quantity with the keys that state it, as the file has them, or `DEFAULT`.
-
-    Parameters
-    ----------
-    file : mapping
-        The tables of a building file that was read without an error.
-    """
+    """Return each quantity with the keys that state it, as the file has them, or `DEFAULT`."""
     building, goods = file.get("building") or {}, file.get("goods") or {}
     storeys: Sequence[Mapping[str, Any]] = file.get("storeys") or []
     found = {}
