@@ -30,15 +30,7 @@ def kind_of(values: dict[str, Any]) -> str:
 
 
 def refuse_other_kind(top: Table, kind: str) -> None:
-    """Refuse a file whose tables are those of another kind, with the commands that take it.
-
-    Parameters
-    ----------
-    top : Table
-        The file.
-    kind : str
-        The kind that is needed.
-    """
+    """Refuse a file whose tables are those of another kind than `kind`, and name the commands that take it."""
     found = kind_of(top.values)
     if found and found != kind:
         top.refuse("kind", f"a {kind}", f"a {found}, which {COMMANDS[found]} take{'s' * (found == CAMPAIGN_FILE)}")
