@@ -22,15 +22,7 @@ def shows_bold() -> bool:
 
 
 def show(text: str, answer: str = "") -> None:
-    """Print lines.
-
-    Parameters
-    ----------
-    text : str
-        The lines.
-    answer : str
-        Pattern of the beginnings of lines that are the answer; by default there is none.
-    """
+    """Print lines; those whose beginning matches the pattern `answer` are the answer and stand out."""
     width = columns()
     if width is None:
         print(text)
