@@ -332,11 +332,8 @@ def _ordinates(target: Target, periods: FloatArray) -> FloatArray:
 def _guards(
     periods: FloatArray, target: FloatArray, motion: FloatArray, damping: float, dt: float, threads: int | None
 ) -> tuple[FloatArray, FloatArray]:
-    """Periods outside the range, and the pseudo-acceleration there past which the spectrum is not to grow.
-
-    It is `GROWTH` times that of the motion, or what goes with the ends of the target where that is more: 0.4 of the
-    first ordinate at zero period and a straight line from there, as the shape of ASCE 7 has it, and an ordinate that
-    falls as 1/T behind the last.
+    """Periods outside the range and the pseudo-acceleration that the spectrum must not exceed there: `GROWTH` times the
+    motion's, or if larger the target's continuation: a line from 0.4 at T = 0, and 1/T beyond the end.
     """
     shortest, longest = float(periods[0]), float(periods[-1])
     first = max(shortest / GUARDED, STEPS_PER_PERIOD * dt)
