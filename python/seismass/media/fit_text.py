@@ -23,26 +23,8 @@ _GAP: Final = re.compile(r"\S( {2,})(?=\S)")
 
 
 def fit_text(text: str, width: int) -> str:
-    """Return a text whose lines fit a width, as far as words do.
-
-    Parameters
-    ----------
-    text : str
-        Lines: sentences, maybe behind a label or a dash, and tables, whose columns are two spaces apart.
-    width : int
-        Columns of the terminal.
-
-    Notes
-    -----
-    A table that is too wide goes on in further parts below, each with its first column. A column that is too wide even
-    beside the first one is filled within its room.
-
-    Examples
-    --------
-    >>> from seismass.media.fit_text import fit_text
-    >>> print(fit_text("why  the share is that of the friction as stated", 40))
-    why  the share is that of the friction
-         as stated
+    """Return a text whose lines fit a width where words allow. A table (columns two spaces apart) that is too wide goes
+    on in parts below, each with its first column; a column that is too wide is wrapped.
     """
     return "\n".join(line for _, fitted in fitted_blocks(text, width) for line in fitted)
 

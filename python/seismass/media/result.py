@@ -92,13 +92,7 @@ class Result:
 
 
 def named_figure(result: Result, name: str | None) -> str:
-    """Return the name of the figure that is asked for.
-
-    Raises
-    ------
-    InvalidOption
-        The result has no figure of that name.
-    """
+    """Return the name of the figure that is asked for."""
     known = result.figure_names
     if name is None:
         return known[0]
