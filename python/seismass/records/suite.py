@@ -195,13 +195,7 @@ def suite_of_file(
     format: FormatName | None = None,
     skip: int | None = None,
 ) -> Suite:
-    """Return the one record of a file, vertical or not, or the horizontal channels of a file of several.
-
-    Raises
-    ------
-    RecordFormatError
-        As for `read_records`, or all of several channels are vertical.
-    """
+    """Return the one record of a file, vertical or not, or the horizontal channels of a file of several."""
     records = read_records(path, dt=dt, unit=unit, format=format, skip=skip)
     if len(records) == 1:
         return Suite(records[0].name, records)
@@ -249,13 +243,7 @@ def named_after(suite: Suite, archive: Path, names: dict[Path, str]) -> Suite:
 
 
 def read_file(file: Path) -> tuple[Record, ...] | str:
-    """Return the records of a file, or why it is left out.
-
-    Raises
-    ------
-    RecordFormatError
-        It shows a record format and is damaged.
-    """
+    """Return the records of a file, or why it is left out. A damaged file of a known format is an error."""
     quantity = {".vt2": "velocities", ".dt2": "displacements"}.get(file.suffix.lower())
     if quantity:
         return f"not read: {printable(file.suffix)} files hold {quantity}"

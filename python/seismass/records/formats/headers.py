@@ -43,13 +43,7 @@ _OTHER_QUANTITY = re.compile(r"(?<![a-z])(?<!wave[ -])(?:velocity|velocities|dis
 
 
 def stated_step(text: str, file: str) -> float | None:
-    """Return the step (s) that a header states, or None where it states none.
-
-    Raises
-    ------
-    RecordFormatError
-        It is stated in another unit than s or ms, or is no sampling of a ground motion.
-    """
+    """Return the step (s) that a header states in s or ms, or None where it states none."""
     match = _STEP.search(text)
     if match is None:
         rate = _RATE.search(text)
@@ -129,14 +123,8 @@ def rounding_remark(written: str) -> list[str]:
 
 
 def same_step(step: float, other: float, samples: int, header: str) -> bool:
-    """Whether two steps (s) are one: the last sample stays to a tenth of a step, or they differ by rounding.
-
-    Parameters
-    ----------
-    step, other : float
-    samples : int
-    header : str
-        The text that states the second, or nothing: a header rounds its step to the last digit that it writes.
+    """Whether two steps (s) are equal: the last sample stays to a tenth of a step, or they differ by rounding of the
+    last digit in `header`, the text that states the second.
     """
     if abs(other - step) * max(samples - 1, 1) <= 0.1 * step or abs(other - step) <= 1e-6 * step:
         return True
