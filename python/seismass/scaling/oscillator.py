@@ -163,22 +163,8 @@ def _slope_behind(building: Building, shares: FloatArray, base_shear: float) -> 
 
 
 def deformation_ratio(reduction: float, relative_period: float, slope: float) -> float:
-    """Return C_R, the inelastic over the elastic deformation of a bilinear oscillator.
-
-    Parameters
-    ----------
-    reduction : float
-        R_y, above 1.
-    relative_period : float
-        T/T_c.
-    slope : float
-        Slope behind yield over the initial one; 0: elastoplastic.
-
-    Notes
-    -----
-    Chopra and Chintanapakdee (2004), J. Struct. Eng. 130:1309: C_R = 1 + [(L_R - 1)^-1 + (a/R_y^b + c)(T/T_c)^d]^-1
-    with L_R = (1 + (R_y - 1)/slope)/R_y, a = 61, b = 2.4, c = 1.5, d = 2.4. The numbers are from memory, not checked
-    against the paper; they are those of the single-record statistics for given R_y.
+    """Return C_R = 1 + [(L_R - 1)^-1 + (61/R_y^2.4 + 1.5)(T/T_c)^2.4]^-1, L_R = (1 + (R_y - 1)/slope)/R_y: Chopra and
+    Chintanapakdee (2004), J. Struct. Eng. 130:1309, numbers from memory, unchecked.
     """
     if slope >= 1.0 or reduction <= 1.0:
         return 1.0
