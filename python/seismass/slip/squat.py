@@ -136,13 +136,7 @@ def parse_size(text: str) -> BlockSize:
 
 
 def as_sizes(sizes: Any, blocks: int) -> tuple[BlockSize | None, ...]:
-    """Return one size per block: one for all, or a list with None where a size is not known.
-
-    Raises
-    ------
-    InvalidOption
-        Something else, or another number of sizes than of blocks.
-    """
+    """Return one size per block: one for all, or a list with None where a size is not known."""
     if sizes is None or isinstance(sizes, BlockSize):
         return (sizes,) * blocks
     requirement = f"a BlockSize, or a list of {blocks}, one per block or None"
@@ -153,15 +147,8 @@ def as_sizes(sizes: Any, blocks: int) -> tuple[BlockSize | None, ...]:
 
 
 def demand_in_g(acceleration: FloatArray, vertical: FloatArray | None) -> float:
-    """Return the largest abs(a)/(g + a_v) of a history, which friction and uplift have their limits on.
-
-    Parameters
-    ----------
-    acceleration : ndarray, shape (samples,)
-        Absolute horizontal acceleration of the floor (m/s2); NaN after a collapse.
-    vertical : ndarray, shape (samples,), optional
-        Vertical acceleration (m/s2, up positive); samples at which g + a_v is not positive have no contact and are
-        left out.
+    """Return the largest abs(a)/(g + a_v) of a history (m/s2, up positive, NaN after a collapse), by which friction and
+    uplift are limited. Samples at which g + a_v is not positive have no contact and are left out.
     """
     weight = STANDARD_GRAVITY + (np.zeros(1) if vertical is None else vertical)
     ratio = np.where(weight > 0.0, np.abs(acceleration) / np.where(weight > 0.0, weight, 1.0), 0.0)
