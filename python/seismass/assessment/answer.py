@@ -104,7 +104,7 @@ class Answer:
 
     @property
     def headline(self) -> str:
-        """The statement, behind the first doubt where the input is doubtful."""
+        """The statement, after the first doubt where the input is doubtful."""
         return "; ".join([*self.doubt_lines[:1], self.statement])
 
     @property

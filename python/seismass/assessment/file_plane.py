@@ -39,7 +39,7 @@ def tables_in_y(tables: Mapping[str, Any], file: str) -> Table:
     storeys = other.tables("storeys") if "storeys" in other.values else []
     for key, read in (("building", in_y.table), ("storeys", in_y.tables)):
         if key in whole:
-            read(key)  # what is no table is refused before it is changed
+            read(key)  # what is not a table is refused before it is changed
     of_building, own = whole.setdefault("building", {}), whole.get("storeys", [])
     if storeys and len(storeys) != len(own):
         other.refuse("storeys", f"as many tables as the building has storeys, {len(own)}", str(len(storeys)))

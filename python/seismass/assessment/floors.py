@@ -18,7 +18,7 @@ BY_RULE: Final = "exempt: "
 
 
 NOTHING_STATED: Final = "since nothing is stated"
-"""How the presence of goods ends of which the file says nothing."""
+"""How the text on the presence of goods ends where the file does not state it."""
 
 
 @dataclass(frozen=True)

@@ -183,7 +183,7 @@ class Assessment(Result):
         raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything but the runs as plain values in SI units; null for what is no finite number."""
+        """Return everything but the runs as plain values in SI units; null for what is not finite."""
         building, code = self.building, self.building.code
         document = {
             "schema_version": SCHEMA_VERSION,

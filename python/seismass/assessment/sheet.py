@@ -112,7 +112,7 @@ def _sheet(content: bytes, path: Path) -> list[list[str]]:
 
 
 def _name_of(cell: str, direction: str) -> str:
-    """Name of a column in small letters without its unit; that of the other direction is no known one."""
+    """Name of a column in small letters without its unit; one of the other direction is unknown."""
     matched = _HEAD.match(cell.strip())
     name = re.sub(r"[^a-z0-9%]+", " ", (matched["name"] if matched else cell).lower()).strip()
     words = name.split()

@@ -1,4 +1,4 @@
-"""Parquet files that carry a digest of themselves: a file of which one bit has changed is told from a whole one.
+"""Parquet files that carry a digest of themselves: a change of a single bit is found.
 
 The metadata have a SHA-256 of the file's bytes, taken with zeros where the digest itself stands. Any reader of Parquet
 reads such a file; only `damage` compares the digest.

@@ -66,7 +66,7 @@ def read_table(path: str | os.PathLike[str], *, follow: bool = True) -> pl.DataF
     try:
         with open_regular(path, follow=follow) as file:
             return pl.read_parquet(file)
-    except pl.exceptions.PanicException as error:  # which is no Exception
+    except pl.exceptions.PanicException as error:  # which is not an Exception
         raise pl.exceptions.ComputeError(f"a damaged Parquet file: {error}") from None
 
 

@@ -14,7 +14,7 @@ TABLES: Final = {
     CAMPAIGN_FILE: ("grid", "sample", "motions"),
     SCENE_FILE: ("blocks", "racks", "motion", "vertical_motion", "initial"),
 }
-"""Tables of each kind that files of the other kinds have not."""
+"""Tables of each kind that files of the other kinds do not have."""
 COMMANDS: Final = {
     BUILDING_FILE: "`seismass building`, `animate`, `slip`, `fragility` and `risk`",
     CAMPAIGN_FILE: "`seismass campaign`",

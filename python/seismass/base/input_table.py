@@ -139,7 +139,7 @@ class Table:
             self.excluded(key, *keys[number:])
 
     def left_out(self, keys: Iterable[str], where: str, got: str | None = None) -> None:
-        """Refuse each of the keys; what was got is its value unless told."""
+        """Refuse each of the keys; the message shows its value unless `got` is given."""
         for key, value in self.given(*keys).items():
             self.refuse(key, f"left out where {where}", got or brief(value))
 

@@ -15,7 +15,7 @@ STANDARD_GRAVITY: Final = _kernel.STANDARD_GRAVITY
 FOOT: Final = 0.3048
 """Foot (m), that of 1959, exact."""
 INCH: Final = 0.0254
-"""Inch (m), likewise."""
+"""Inch (m), exact."""
 POUND: Final = 0.45359237
 """Pound (kg), exact."""
 KIP: Final = 1e3 * POUND * STANDARD_GRAVITY
@@ -87,7 +87,7 @@ def stated_unit(text: str) -> str | None:
 
 
 def unknown_unit(text: str) -> str | None:
-    """Return what a header states for a unit where it is none of `ACCELERATION_UNITS`, or several; else None."""
+    """Return the units that a header states where it is not a single one of `ACCELERATION_UNITS`; else None."""
     return None if stated_unit(text) else " and ".join(stated_units(text)) or None
 
 

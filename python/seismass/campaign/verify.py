@@ -33,7 +33,7 @@ def part_problem(folder: Path, sha256: str, part: int) -> str | None:
 
 
 def check_parts(folder: Path, sha256: str, parts: Iterable[int]) -> None:
-    """Refuse parts that are damaged, are no files, or belong to other inputs or other runs."""
+    """Refuse parts that are damaged, are not files, or belong to other inputs or other runs."""
     found = [(part, problem) for part in parts if (problem := part_problem(folder, sha256, part)) is not None]
     if found:
         part, problem = found[0]

@@ -181,7 +181,7 @@ def left_out(suite: Suite | Pairs) -> list[str]:
     else:
         grouped: dict[str, list[str]] = {}
         for item in suite.excluded:
-            # What a reason says of one file, behind a colon, would make every group one of its own.
+            # Text after the colon is about a single file: with it, each file would be a group.
             reason = item.reason.partition(": ")[0] if item.reason.startswith("vertical") else item.reason
             grouped.setdefault(reason, []).append(printable(item.file.name))
         lines = [

@@ -73,7 +73,7 @@ def _read(path: Path, given: Reading) -> Suite:
 
 
 def _all_of(folder: Path, named: Path) -> Suite:
-    """Every record below a folder that is called by a path, with what is none."""
+    """Every record below a folder, which messages call `named`, and the files that are not records."""
     from seismass.base.errors import RecordFormatError
     from seismass.base.values import printable
     from seismass.records import Excluded, Suite

@@ -11,7 +11,7 @@ from seismass.media.fit_text import fitted_blocks, is_row
 
 
 def columns() -> int | None:
-    """Return the width of the terminal, which COLUMNS may state; None where standard output is none."""
+    """Return the width of the terminal, which COLUMNS may state; None where standard output is not a terminal."""
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
 
 

@@ -15,7 +15,7 @@ from seismass.model.building import Building
 _TIE: Final = 1e-12
 """Relative difference of base shears up to which storeys reach a corner together."""
 _FLAT: Final = 1e-13
-"""Tangent over the initial stiffness up to which it is none: what rounding leaves of a difference of two."""
+"""Tangent over the initial stiffness up to which it counts as zero: rounding of a difference of two tangents."""
 _MOST_TURNS: Final = 20
 """Turns of directions, per storey, after which they are taken not to be found."""
 

@@ -81,7 +81,7 @@ def interpolated_roots(fractions: FloatArray, model: FloatArray, real: FloatArra
     roots = []
     for low, high in crossings(fractions, model, real):
         k = int(np.searchsorted(fractions, low))
-        with np.errstate(invalid="ignore"):  # where both collapse the difference is no number
+        with np.errstate(invalid="ignore"):  # where both collapse the difference is NaN
             ends = model[k : k + 2] - real[k : k + 2]
         weight = -ends[0] / (ends[1] - ends[0]) if np.isfinite(ends).all() else 0.5
         roots.append(low + float(weight) * (high - low))

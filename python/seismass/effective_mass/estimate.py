@@ -36,7 +36,7 @@ LONGEST_RATIO: Final = 1.5
 RULE: Final = "min(1, eta_h^p)"
 """The best estimate, as texts and tables name it."""
 SAFE_RULE: Final = "min(1, eta_h)"
-"""The conservative estimate, likewise."""
+"""The conservative estimate, in the same form."""
 RULE_IN_WORDS: Final = (
     "eta_h = mu_k/(C1 sqrt(h_g/h_m)); p = 1.2 (1 + x) where the building yields, 1 + x/2 where it is elastic, "
     "x = T/T_c, at most 1.5"

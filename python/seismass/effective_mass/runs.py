@@ -49,7 +49,7 @@ class NamedMotions:
 
     @property
     def cluster_of(self) -> NDArray[np.int64]:
-        """Number of the earthquake of each motion, from 0; one of its own where it is not known."""
+        """Number of the earthquake of each motion, from 0; a motion without a known one has its own number."""
         names = [event or number for number, event in enumerate(self.events)]
         numbers = {name: number for number, name in enumerate(dict.fromkeys(names))}
         return np.array([numbers[name] for name in names])

@@ -178,7 +178,7 @@ def cloud_fits(
     kind[collapse.kind == FALLING] = FALLING
     fitted = kind == FITTED
     curves[fitted, 0], curves[fitted, 1] = median[fitted], scatter[fitted] / slope[fitted]
-    # All runs on one line but for rounding: no scatter from which a dispersion could be told.
+    # All runs on one line within rounding: no scatter, so no dispersion.
     exact = fitted & (scatter < _SAME)
     kind[exact], curves[exact, 1] = STEP, 0.0
     nothing = number == 0.0

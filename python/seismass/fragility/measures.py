@@ -109,7 +109,7 @@ class IntensityMeasure:
         Raises
         ------
         InvalidMotion
-            No motion, something that is none, or one that is zero throughout.
+            No motion, something else, or a motion that is zero throughout.
         """
         named = named_motions(motions, "intensity measure")
         for name, motion in zip(named.names, named.motions, strict=True):

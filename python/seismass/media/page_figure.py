@@ -1,4 +1,4 @@
-"""Figures of a page: SVG inside it, with a text for who cannot see it and identifiers that no other figure has."""
+"""Figures of a page: inline SVG with an alternative text and with identifiers that are unique in the page."""
 
 from __future__ import annotations
 

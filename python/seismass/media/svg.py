@@ -68,7 +68,7 @@ def figure_svg(figure: Figure) -> str:
     Raises
     ------
     InvalidOption
-        It is no figure.
+        It is not a figure.
     """
     if not isinstance(figure, Figure):
         raise refusal(InvalidOption, "figure", "SVG", "a matplotlib Figure", brief(figure))

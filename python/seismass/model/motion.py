@@ -39,7 +39,7 @@ class Motion(Value, Card):
     Raises
     ------
     InvalidMotion
-        No sample, a value that is not a finite number, a unit that is none of those, a step that is not positive,
+        No sample, a value that is not a finite number, an unknown unit, a step that is not positive,
         unequal lengths.
 
     Examples

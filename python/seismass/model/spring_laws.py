@@ -18,7 +18,7 @@ BackboneLike: TypeAlias = ArrayLike | Sequence[ArrayLike | None]
 """Points for every storey, or a list with those of each storey, None where it has none."""
 
 _NAMES: Final[dict[Part, str]] = {"trilinear": "a trilinear backbone", "stop": "a clearance"}
-"""What errors call a part that is no hysteresis."""
+"""Names in errors of parts other than a hysteresis."""
 _SAME: Final = 1e-9
 """Relative difference up to which a stiffness or strength is that of a backbone."""
 

@@ -231,7 +231,7 @@ def is_default(values: Any, name: str) -> TypeGuard[FloatArray]:
 
 
 def checked_names(given: dict[str, Any], known: dict[str, SpringField], owner: str) -> None:
-    """Refuse a keyword argument that is none of those known, as Python does."""
+    """Refuse an unknown keyword argument, as Python does."""
     for name in given:
         if name not in known:
             raise TypeError(f"{owner}() got an unexpected keyword argument {name!r}")

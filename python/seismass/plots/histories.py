@@ -49,7 +49,7 @@ def drift(
     Raises
     ------
     InvalidOption
-        The run has no histories, there is no such storey or kind of events, or `ax` fits not.
+        The run has no histories, there is no such storey or kind of events, or `ax` does not fit the panels.
     """
     chosen = numbers(storeys, response.scene.storeys, "storeys", "drift figure")
     with mpl.rc_context(STYLE):
@@ -94,7 +94,7 @@ def slip(
     Raises
     ------
     InvalidOption
-        The run has no histories, there is no such block or kind of events, or `ax` fits not.
+        The run has no histories, there is no such block or kind of events, or `ax` does not fit the panels.
     """
     places = goods_names(response.scene)
     chosen = numbers(blocks, len(places), "blocks", "slip figure")
@@ -144,7 +144,7 @@ def acceleration(
     Raises
     ------
     InvalidOption
-        The run has no such histories, there is no such floor or kind of events, or `ax` fits not.
+        The run has no such histories, there is no such floor or kind of events, or `ax` does not fit the panels.
     """
     chosen = numbers(floors, response.scene.storeys, "floors", "acceleration figure")
     with mpl.rc_context(STYLE):

@@ -105,7 +105,7 @@ def events(response: Response, *, ax: Axes | None = None) -> Figure:
     Raises
     ------
     InvalidOption
-        The run has no event log, or `ax` is no Axes.
+        The run has no event log, or `ax` is not an Axes.
     """
     log = response.event_log
     blocks, rows = goods_names(response.scene), list(spring_names(response.scene))

@@ -39,7 +39,7 @@ def is_archive(path: Path) -> bool:
 @contextmanager
 def unpacked(path: Path) -> Iterator[tuple[Path, dict[Path, str]]]:
     """Yield a temporary folder with the files of an archive, and the name of each in the archive. Names of the archive
-    are no paths: each file stands in a numbered folder, under the last part of its name.
+    are not paths: each file stands in a numbered folder, under the last part of its name.
     """
     with tempfile.TemporaryDirectory(prefix="seismass-") as name:
         folder = Path(name)

@@ -69,7 +69,7 @@ def intensity_table(records: Iterable[Record]) -> pl.DataFrame:
     Raises
     ------
     InvalidMotion
-        Something else than records.
+        Something other than records.
 
     Examples
     --------

@@ -42,7 +42,7 @@ def off_ground(record: Record) -> str | None:
 
 
 def reason_to_leave(record: Record) -> str | None:
-    """Return why a record is no horizontal motion of the ground: vertical, in a structure or below; else None."""
+    """Return why a record is not a horizontal motion of the ground: vertical, in a structure or below; else None."""
     return vertical_reason(record) or off_ground(record)
 
 

@@ -41,10 +41,10 @@ FormatName: TypeAlias = Literal[
 ]
 
 HEAD_BYTES: Final = 8192
-"""A format is known by so much of a file."""
+"""Bytes at the start of a file by which its format is recognised."""
 
 FEWEST_WIDE: Final = 16
-"""Fewer bytes say nothing of an encoding."""
+"""Fewest bytes from which an encoding is inferred."""
 
 MOST_NULS: Final = 4
 """A text whose header is padded has no more zero bytes than this."""

@@ -47,7 +47,7 @@ _COLUMNS = ("number", "file", "channel", "name", "event", "station", "component"
 
 @dataclass(frozen=True)
 class Excluded:
-    """A file that is no part of a suite, and why."""
+    """A file that is not part of a suite, and why."""
 
     file: Path
     reason: str
@@ -71,7 +71,7 @@ class Suite:
     Raises
     ------
     InvalidMotion
-        The name is no string, or the records, the files left out or the remarks are something else.
+        The name is not a string, or records, files left out or remarks have another type.
     """
 
     name: str
@@ -174,7 +174,7 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
     ------
     RecordFormatError
         A missing path, no record in it, a CSV without the column or that lists a file twice, a vertical component or a
-        scale that is no finite number, or any file of a record format that is damaged: none is dropped silently.
+        scale that is not finite, or any file of a record format that is damaged: none is dropped silently.
     """
     source = as_path(path, "suite", RecordFormatError)
     if source.is_dir():
@@ -270,7 +270,7 @@ def read_file(file: Path) -> tuple[Record, ...] | str:
 
 
 def _read_columns(file: Path, head: str, size: int) -> tuple[Record, ...] | str:
-    """Read text of columns whose head states a unit and has numbers; other text is no record."""
+    """Read text of columns whose head states a unit and has numbers; other text is not a record."""
     suffix = printable(file.suffix)
     kind = f"not read: {suffix} {_SAID_BY_NAME}" if suffix else f"not read: files without a suffix {_SAID_BY_NAME[6:]}"
     lines = head.splitlines()[:-1] if size > len(head) else head.splitlines()

@@ -34,7 +34,7 @@ def warn_of_doubts(scenes: Any, motions: Any) -> None:
 
 
 def _listed(scenes: Any) -> list[Scene]:
-    """The first scenes of a batch; what is none is refused elsewhere."""
+    """The first scenes of a batch; what is not a scene is refused elsewhere."""
     if isinstance(scenes, Grid):
         try:
             return [scenes.scene(1)]

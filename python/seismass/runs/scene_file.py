@@ -322,7 +322,7 @@ def _storeys(table: Table, over_weight: Any, springs: dict[str, Any]) -> int | N
 
 
 def _infinite_where_null(value: Any) -> Any:
-    """A null in a list stands for infinity, which JSON has not: a storey that stays elastic."""
+    """A null in a list is infinity, which JSON does not have: a storey that stays elastic."""
     return [np.inf if item is None else item for item in value] if isinstance(value, list) else value
 
 

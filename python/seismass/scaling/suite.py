@@ -107,7 +107,7 @@ def suite_spectra(
 
 
 def checked_target(target: Any) -> None:
-    """Refuse what is no target spectrum."""
+    """Refuse what is not a target spectrum."""
     if not isinstance(target, TargetSpectrum):
         raise refusal(InvalidOption, "target", "scaling", "a TargetSpectrum", brief(target))
 

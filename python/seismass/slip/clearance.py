@@ -35,7 +35,7 @@ class Clearance:
     Raises
     ------
     InvalidOption
-        A distance is not positive, or there is none.
+        A distance is not positive, or none is given.
 
     Notes
     -----

@@ -104,7 +104,7 @@ class BlockSize:
         acceleration of g B/H together with a peak velocity of 10 B/sqrt(H) (cm and s), which is B/sqrt(H) in m and s.
         The form is from memory and was not checked in a source. It is 2 % below 0.4 times the velocity by which an
         impulse overturns a slender uniform block, sqrt(8 g R (1 - cos a)/(3 cos^2 a)) with tan a = B/H and
-        2 R = sqrt(B^2 + H^2). Both limits must be exceeded, on a rigid floor; it is no sufficient condition.
+        2 R = sqrt(B^2 + H^2). Both limits must be exceeded, on a rigid floor; it is not a sufficient condition.
         """
         return None if self.centre is not None else float(self.width / np.sqrt(self.height))
 

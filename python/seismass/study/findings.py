@@ -74,7 +74,7 @@ def findings(summary: pl.DataFrame, fractions: pl.DataFrame, code: str = "code")
 
 
 def _finite(row: dict[str, Any]) -> dict[str, Any]:
-    """The row with null for what is no finite number, which JSON does not have."""
+    """The row with null for what is not finite, which JSON does not have."""
     return {name: None if isinstance(value, float) and not np.isfinite(value) else value for name, value in row.items()}
 
 
@@ -85,7 +85,7 @@ def _mean_of_all(name: str) -> pl.Expr:
 
 
 def _growth(rows: pl.DataFrame, varied: str, fixed: str) -> dict[str, int]:
-    # Rows without a result stay in their places: what lies on both sides of one is no single step.
+    # Rows without a result stay in their places: rows on both sides of one are not a single step apart.
     value = pl.col("underestimation_percent")
     known = pl.when(value.is_finite()).then(value)
     steps = rows.sort(varied).with_columns(known.diff().over([*_STOREY, fixed]).alias("step"))

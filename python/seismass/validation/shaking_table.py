@@ -1,7 +1,7 @@
 """The paper's shaking table (Fig. 4): a platform at 1:15 with a sliding block, under the compressed Erzincan record.
 
 The paper gives the mass ratios of the block and that the platform stayed elastic, but neither its period and damping
-nor the friction. They are varied here, and what does not depend on them is told from what does.
+nor the friction. They are varied here, to separate what depends on them from what does not.
 """
 
 from __future__ import annotations

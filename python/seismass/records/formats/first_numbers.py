@@ -13,7 +13,7 @@ LONGEST_STEP: Final = 0.1
 """Between these (s) a number before the data may be a step."""
 
 OUTSTANDING: Final = 5.0
-"""A first number larger than the early samples by this factor is no sample unless the caller says so."""
+"""A first number larger than the early samples by this factor is not a sample unless the caller says so."""
 
 _FIRST_SAMPLES: Final = 3
 """Records begin at rest: so many samples say what size the first has."""

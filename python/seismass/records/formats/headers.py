@@ -10,7 +10,7 @@ from seismass.records.formats.numbers import NUMBER, last_digit, to_float
 
 SHORTEST_STEP: Final = 1e-5
 LONGEST_STEP: Final = 1.0
-"""Steps (s) outside these are no sampling of a ground motion but a damaged header."""
+"""Range of the step (s) of a ground motion; a header outside it is damaged."""
 
 NO_COUNT: Final = "the file states no number of points: a missing end would not show"
 
@@ -92,7 +92,7 @@ WHOLE: Final = 1e-6
 """A rate within this part of a whole number of samples a second is one."""
 
 COARSEST_ROUNDING: Final = 0.5e-4
-"""Half the fourth decimal (s): headers that round a step further say so little that a given one is no contradiction."""
+"""Half the fourth decimal (s): a step rounded further in a header does not contradict a given one."""
 
 
 def rounding_of(written: str) -> tuple[float, float]:

@@ -1,4 +1,4 @@
-"""What the labels of columns say: times, accelerations, another quantity, or a spectrum, which is no motion."""
+"""What the labels of columns say: times, accelerations, another quantity, or a spectrum, which is not a motion."""
 
 from __future__ import annotations
 

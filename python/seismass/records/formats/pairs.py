@@ -33,7 +33,7 @@ def uniform_step(
     if not step > 0.0:
         raise RecordFormatError(f"times of {file} must increase; got {times[0]:g} s first, {times[-1]:g} s last")
     half_digit = 0.5 * last_digits([token.strip() for token in written])
-    half_digit[0] = half_digit.min()  # a first time of "0" is no rounder than the others
+    half_digit[0] = half_digit.min()  # a first time of "0" is as exact as the others
     off = np.abs(times - (times[0] + step * np.arange(len(times))))
     excess = off - UNIFORMITY * step - (2.0 * half_digit if rounding else 0.0)
     worst = int(np.argmax(excess))

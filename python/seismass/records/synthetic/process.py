@@ -235,7 +235,7 @@ def synthetic_motion(parameters: SyntheticParameters, seed: int, dt: float = 0.0
     Raises
     ------
     InvalidMotion
-        The seed is no whole number from 0 on, or the step is not positive or too long.
+        The seed is not a whole number from 0 on, or the step is not positive or too long.
     """
     if not isinstance(parameters, SyntheticParameters):
         raise refusal(InvalidMotion, "parameters", _OWNER, "a SyntheticParameters", brief(parameters))

@@ -94,7 +94,7 @@ def element_html(
 
 
 def description(animation: Animation) -> str:
-    """Return what happens, for who cannot see it."""
+    """Return what happens in words, for screen readers."""
     return " ".join(animation.shown.sentences)
 
 

@@ -23,7 +23,7 @@ from seismass.media.style import SERIES, STYLE, plain
 
 _MARKERS: Final = ("o", "s", "^", "D", "v", "P")
 NEARLY_ONE: Final = 0.97
-"""Probability behind which a curve has nothing more to show."""
+"""Probability at which the axis of a curve may end."""
 _FRACTILE_LOOKS: Final[dict[str, Any]] = {"p16": (0, (1.2, 1.2)), "p50": "-", "p84": (0, (5, 2))}
 _FRACTILE_NAMES: Final = {"p16": "16 %", "p50": "median", "p84": "84 %"}
 
