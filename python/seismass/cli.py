@@ -24,14 +24,8 @@ def _make_output_safe() -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; return the exit code: 0 done, 1 a run failed, 2 bad input, 130 interrupted.
-
-    Nothing else catches what goes wrong: a command returns a code of its own where it has one, or raises.
-
-    Parameters
-    ----------
-    arguments : sequence of str, optional
-        Without the name of the program; default those of the process.
+    """Run the command line; return the exit code: 0 done, 1 a run failed, 2 bad input, 130 interrupted. Nothing else
+    catches errors: a command returns a code of its own where it has one, or raises.
     """
     _make_output_safe()
     words = sys.argv[1:] if arguments is None else list(arguments)

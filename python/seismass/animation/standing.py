@@ -11,18 +11,8 @@ from seismass.model.scene import Scene
 
 @dataclass(frozen=True)
 class Good:
-    """Goods as drawn.
-
-    Attributes
-    ----------
-    rack, level : int
-        Rack, from 1, and its level; rack 0 is the building, and the level its floor, with the ground as 0.
-    size : float
-        Size as drawn over the largest: the square root of the mass over the largest.
-    fixed : bool
-        They are attached to their level.
-    stops : tuple of float, or None
-        Clearances towards minus and plus (m); None without stops.
+    """Goods as drawn: rack (from 1; 0 is the building) and level (0 is the ground), size over the largest (square root
+    of the masses), whether they are attached, and clearances of stops towards minus and plus (m).
     """
 
     rack: int

@@ -1,4 +1,4 @@
-"""Assessment of one's own building: how much of its live load to count as mass, and what its drifts and slips are."""
+"""Assessment of your own building: how much of its live load to count as mass, and what its drifts and slips are."""
 
 from seismass.assessment.building_file import read_building
 from seismass.assessment.own_building import OwnBuilding

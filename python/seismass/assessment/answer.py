@@ -104,7 +104,7 @@ class Answer:
 
     @property
     def headline(self) -> str:
-        """The statement, behind the first doubt where the input is doubtful."""
+        """The statement, after the first doubt where the input is doubtful."""
         return "; ".join([*self.doubt_lines[:1], self.statement])
 
     @property
@@ -133,14 +133,8 @@ def doubt_lines(doubts: tuple[str, ...]) -> tuple[str, ...]:
 
 @dataclass(frozen=True, eq=False)
 class DesignShare:
-    """Share that goes into the design of the strengths.
-
-    Attributes
-    ----------
-    found : EffectiveMass or None
-        The share; by the median, where few runs of a designed building collapse. None where many do.
-    reason : str
-        Why there is none; empty where there is one.
+    """Share that goes into the design of the strengths: `found`, None where many runs collapse, and the `reason` why
+    there is none. Where few runs of a designed building collapse it is that of the median.
     """
 
     found: EffectiveMass | None
@@ -254,9 +248,8 @@ def _reason(
 
 
 def _collapsing(collapses: dict[str, int], words: dict[str, str], motions: int) -> str:
-    """What the statement begins with where few runs collapse, and the statistic: the building first, then analyses.
-
-    `words` are those of the frictions; empty for a building without goods.
+    """Return how the statement begins where few runs collapse, and the statistic: the building first, then the
+    analyses. `words` are those of the frictions; empty for a building without goods.
     """
     mean = "mean drifts are 1.2 times the median or the mean of the others; "
     fallen = {name: collapses[name] for name in REALS if collapses.get(name)}
@@ -368,13 +361,8 @@ def _design(building: OwnBuilding, advised: float, design: DesignShare | None) -
 
 
 def analysis_table(answer: Answer, building: OwnBuilding) -> pl.DataFrame:
-    """Return what to type into another program, in the units that such programs take: one row per floor.
-
-    Returns
-    -------
-    polars.DataFrame
-        floor, name; mass_1_t and mass_2_t (t) and weight_1_kn and weight_2_kn (kN) of the floor in both analyses;
-        multiplier_1 and multiplier_2, of the design live load in their mass sources. Empty where there is no answer.
+    """Return what to type into another program, one row per floor: masses (t), weights (kN) and the multiplier of the
+    design live load in both analyses. It is empty where there is no answer.
     """
     columns: dict[str, Any] = {"floor": [], "name": []}
     if answer.analyses:

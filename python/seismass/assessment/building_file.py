@@ -1,4 +1,4 @@
-"""Building files: one's own building with its goods, site and code, from TOML or JSON, in the units that offices use.
+"""Building files: your own building with its goods, site and code, from TOML or JSON, in the units that offices use.
 
 Every key is known or refused, and every key of a quantity with a unit names it.
 """

@@ -17,22 +17,8 @@ from seismass.spectra import TargetSpectrum
 
 
 def checks_table(building: OwnBuilding, storeys: pl.DataFrame, collapses: dict[str, int]) -> pl.DataFrame:
-    """Return one row per check and model: goods that slide, at all frictions, and both analyses.
-
-    Parameters
-    ----------
-    building : OwnBuilding
-        The building.
-    storeys : polars.DataFrame
-        `Assessment.storeys`.
-    collapses : dict of str to int
-        Collapsed runs of each model.
-
-    Returns
-    -------
-    polars.DataFrame
-        check, model; storey with the largest value; value and limit; met, null where collapses leave no value; source,
-        the clause of the limit and how it was checked.
+    """Return one row per check and model: the storey with the largest value, value, limit, whether it is met (null
+    where collapses leave no value), and the clause of the limit. `collapses` counts collapsed runs by model.
     """
     models = [model for model in (*REALS, ADVISED, BARE) if model in collapses]
     rows: list[dict[str, Any]] = [

@@ -19,21 +19,8 @@ MAX_RATIO: Final = 1.5
 
 
 def force_ratios(scene: Scene, motions: list[Any]) -> FloatArray:
-    """Return the peak of the sum of spring and damping force of each storey over the peak of its spring force.
-
-    That sum is the inertia force of all that is above the storey. Storeys without a force have a ratio of 1.
-
-    Parameters
-    ----------
-    scene : Scene
-        Building and goods.
-    motions : list of Record or Motion
-        Motions, scaled.
-
-    Returns
-    -------
-    ndarray, shape (storeys,)
-        Mean over the motions.
+    """Return the mean over the motions of each storey's peak of spring plus damping force (the inertia force of all
+    above) over the peak of its spring force, shape (storeys,); 1 for a storey without a force.
     """
     building = scene.building
     assert building is not None
@@ -52,13 +39,7 @@ def force_ratios(scene: Scene, motions: list[Any]) -> FloatArray:
 
 
 def damping_doubts(scene: Scene, motions: list[Any]) -> tuple[str, ...]:
-    """Return a sentence about the storey whose damping carries most, where it carries too much.
-
-    Parameters
-    ----------
-    scene, motions
-        As for `force_ratios`.
-    """
+    """Return a sentence about the storey whose damping carries most, where it carries too much."""
     ratios = force_ratios(scene, motions)
     storey = int(np.argmax(ratios))
     if ratios[storey] <= MAX_RATIO:

@@ -54,20 +54,8 @@ def doubts_of(
     target: TargetSpectrum | None,
     storeys: pl.DataFrame,
 ) -> tuple[str, ...]:
-    """Return what makes the input of an assessment doubtful, each sentence once.
-
-    Parameters
-    ----------
-    building : OwnBuilding
-        The building.
-    real : Scene
-        It with its goods.
-    motions : list of Record, Motion or Pair
-        Motions, scaled.
-    target : TargetSpectrum or None
-        Site spectrum.
-    storeys : polars.DataFrame
-        `Assessment.storeys`.
+    """Return what makes the input of an assessment doubtful, each sentence once. `real` is the building with its goods,
+    `motions` are scaled.
     """
     directions = [(real, motions)]
     if real.other_direction is not False:
@@ -84,13 +72,7 @@ def doubts_of(
 
 
 def building_doubts(building: OwnBuilding, real: Scene, target: TargetSpectrum | None) -> tuple[str, ...]:
-    """Return what makes a building file and its site doubtful, without any run.
-
-    Parameters
-    ----------
-    building, real, target
-        As for `doubts_of`.
-    """
+    """Return what makes a building file and its site doubtful, without any run."""
     found = [
         *real.remarks,
         *_about_loads(building),

@@ -11,17 +11,8 @@ BASE_KEYS: Final = ("mu", "mu_s", "mu_k", "radius_m", "mass_kg", "mass_ratio")
 
 
 def base_of(table: Table) -> SlidingBase | None:
-    """Return the sliding base of a building file; None where it has none.
-
-    Parameters
-    ----------
-    table : Table
-        The table `base`, empty where the file has none.
-
-    Raises
-    ------
-    InvalidBuildingFile
-        A key is unknown, contradicts another, or a value is not what it must be.
+    """Return the sliding base of a building file from its table `base`, which is empty where the file has none: then
+    None.
     """
     if not table.values:
         return None

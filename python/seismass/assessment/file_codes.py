@@ -16,7 +16,7 @@ DEFAULT_CODE: Final = "asce7-10"
 
 
 def code_of(table: Table) -> CodeFraction:
-    """Return the code of the file, or a fraction of one's own."""
+    """Return the code of the file, or a fraction of your own."""
     if "fraction" in table.values:
         table.excluded("id", "fraction")
         table.excluded("use", "fraction")

@@ -41,18 +41,8 @@ def live_load_of(storey: Table, goods: Table, building: Table) -> float:
 def kinds_of(
     floor: int, storey: Table, goods: Table, live_load: float, area: float, use: str
 ) -> tuple[FloorGoods, ...]:
-    """Return the goods of a floor, kind by kind.
-
-    Parameters
-    ----------
-    floor : int
-        The floor, from 1.
-    storey, goods : Table
-        Tables of the storey and of the defaults.
-    live_load, area : float
-        Design live load as a mass (kg) and area (m2; NaN: not known).
-    use : str
-        Use of the floor.
+    """Return the goods of a floor, kind by kind. Floors count from 1; `live_load` is the design live load as a mass
+    (kg), `area` in m2, NaN where it is not known.
     """
     tables = storey.tables("goods")
     if not tables:

@@ -29,19 +29,8 @@ _REPLACED: Final = ((*PERIOD, *STIFFNESS), STRENGTH)
 
 
 def tables_in_y(tables: Mapping[str, Any], file: str) -> Table:
-    """Return the tables of a building file as they are for the building in y.
-
-    Parameters
-    ----------
-    tables : mapping
-        The tables as the file has them, with `other_direction`. They are not changed.
-    file : str
-        What errors call the file.
-
-    Raises
-    ------
-    InvalidBuildingFile
-        A key of the other direction is unknown, or it has another number of storeys.
+    """Return the tables of a building file as they are for the building in y, from `other_direction`; `tables` is not
+    changed.
     """
     whole = copy.deepcopy(dict(tables))
     other = Table(whole.pop("other_direction"), "other_direction", file, InvalidBuildingFile)
@@ -50,7 +39,7 @@ def tables_in_y(tables: Mapping[str, Any], file: str) -> Table:
     storeys = other.tables("storeys") if "storeys" in other.values else []
     for key, read in (("building", in_y.table), ("storeys", in_y.tables)):
         if key in whole:
-            read(key)  # what is no table is refused before it is changed
+            read(key)  # what is not a table is refused before it is changed
     of_building, own = whole.setdefault("building", {}), whole.get("storeys", [])
     if storeys and len(storeys) != len(own):
         other.refuse("storeys", f"as many tables as the building has storeys, {len(own)}", str(len(storeys)))

@@ -20,17 +20,8 @@ STOP_KEYS: Final = ("clearance_m", "stiffness_kn_per_m")
 
 
 def rack_of(tables: tuple[Table, ...]) -> GoodsRack | None:
-    """Return the racks under goods; None where they stand on the floor.
-
-    Parameters
-    ----------
-    tables : tuple of Table
-        Tables that may say so, the first that does counts.
-
-    Raises
-    ------
-    InvalidBuildingFile
-        A key is unknown or missing, contradicts another, or a value is out of its range.
+    """Return the racks under goods; None where they stand on the floor. The first of `tables` that describes racks
+    counts.
     """
     table = _stated(tables, "on_racks", RACK_KEYS)
     if table is None:
@@ -58,18 +49,7 @@ def rack_of(tables: tuple[Table, ...]) -> GoodsRack | None:
 
 
 def stops_of(tables: tuple[Table, ...]) -> GoodsStops | None:
-    """Return the stops beside goods; None where there are none.
-
-    Parameters
-    ----------
-    tables : tuple of Table
-        Tables that may say so, the first that does counts.
-
-    Raises
-    ------
-    InvalidBuildingFile
-        As for `rack_of`.
-    """
+    """Return the stops beside goods; None where there are none. The first of `tables` that describes stops counts."""
     table = _stated(tables, "stops", STOP_KEYS)
     if table is None:
         return None

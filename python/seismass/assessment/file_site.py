@@ -63,16 +63,8 @@ def site_of(site: Table, folder: Path) -> TargetSpectrum | None:
 
 
 class StatedPeriod(NamedTuple):
-    """First period of a building file.
-
-    Attributes
-    ----------
-    value : float or None
-        The period (s); None where stiffnesses are stated.
-    mass : str
-        Which goods act as mass in it, one of `PERIOD_MASSES`.
-    rule : PeriodRule or None
-        Row of the code that gave it; None where it was stated.
+    """First period of a building file (s; None where stiffnesses are stated), which goods act as mass in it (one of
+    `PERIOD_MASSES`), and the row of the code that gave it.
     """
 
     value: float | None
@@ -121,16 +113,8 @@ def limit_of(building: Table, code: CodeFraction) -> tuple[float, DriftLimit | N
 
 
 def check_period(building: Table, period: StatedPeriod, stiffness: FloatArray, geometric: FloatArray) -> None:
-    """Refuse a period so long that gravity takes the whole stiffness of a storey.
-
-    Parameters
-    ----------
-    building : Table
-        The table of the file.
-    period : StatedPeriod
-        Its period.
-    stiffness, geometric : ndarray, shape (storeys,)
-        Storey stiffnesses, and P/h with the goods present (N/m).
+    """Refuse a period so long that P-Delta takes the whole stiffness of a storey: `geometric` is P/h with the goods
+    present (N/m), shape (storeys,).
     """
     ratio = geometric / stiffness
     storey = int(np.argmax(ratio))

@@ -58,14 +58,8 @@ def plain_keys(keys: dict[str, dict[str, str]], units: str) -> tuple[str, ...]:
 
 
 def to_si(table: Table, units: str) -> None:
-    """Put the keys in SI units in the place of those without a unit and in US units; both at once are refused.
-
-    Parameters
-    ----------
-    table : Table
-        A table of the file, whose keys are known.
-    units : {"", "si", "us"}
-        The system of keys without a unit; empty: the file does not state one.
+    """Convert the table in place to SI units: keys without a unit are in the `units` of the file ("", "si" or "us"). A
+    key stated in two units is refused.
     """
     for name, of in (PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS).items():
         if name in table.values and units in of:

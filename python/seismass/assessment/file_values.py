@@ -23,7 +23,7 @@ def held(tables: tuple[Table, ...], group: tuple[str, ...]) -> tuple[Table, str]
 
 
 def key_of(storey: Table, default: Table, group: tuple[str, ...]) -> str:
-    """Return by which key a storey's value stands; empty where there is none."""
+    """Return the key that states a value of a storey; empty where none does."""
     place = held((storey, default), group)
     return "" if place is None else place[1]
 

@@ -25,16 +25,8 @@ _BY_THEMSELVES: Final = ("flexural_rigidity_kn_m2", "period_s", "stiffness_matri
 
 
 class Walls(NamedTuple):
-    """Walls beside the storeys.
-
-    Attributes
-    ----------
-    stiffness : ndarray, shape (storeys,)
-        Storey stiffnesses (N/m), scaled where the stated period is that of storeys and walls together.
-    matrix : ndarray, shape (storeys, storeys)
-        Stiffness of the walls over the floors (N/m).
-    how : str
-        How they are stated, in words.
+    """Walls beside the storeys: storey stiffnesses (N/m, scaled where the period stated is that of both together),
+    stiffness matrix of the walls over the floors (N/m), and `how` they are stated.
     """
 
     stiffness: FloatArray
@@ -45,25 +37,8 @@ class Walls(NamedTuple):
 def walls_of(
     walls: Table, building: Table, mass: FloatArray, stiffness: FloatArray, heights: Any, period: float | None
 ) -> Walls | None:
-    """Return the walls of a file; None where it has none.
-
-    Parameters
-    ----------
-    walls, building : Table
-        Tables of the file.
-    mass : ndarray, shape (storeys,)
-        Mass of the floors without goods (kg), as `period_s` of walls takes them.
-    stiffness : ndarray, shape (storeys,)
-        Storey stiffnesses (N/m); where the period of the building is stated, those that alone have it.
-    heights : ndarray, shape (storeys,), or None
-        Storey heights (m).
-    period : float or None
-        First period that is stated for the building, by itself or by a code (s).
-
-    Raises
-    ------
-    InvalidBuildingFile
-        A key is unknown, contradicts another, or a value is not what it must be.
+    """Return the walls of a file; None where it has none. `mass` is that of the floors without goods (kg); where
+    `period` (s) is stated for the building, `stiffness` (N/m) gives it without walls.
     """
     if not walls.values:
         return None

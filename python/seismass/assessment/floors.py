@@ -18,7 +18,7 @@ BY_RULE: Final = "exempt: "
 
 
 NOTHING_STATED: Final = "since nothing is stated"
-"""How the presence of goods ends of which the file says nothing."""
+"""How the text on the presence of goods ends where the file does not state it."""
 
 
 @dataclass(frozen=True)
@@ -95,21 +95,8 @@ class CountedFraction(NamedTuple):
 def counted_fractions(
     code: CodeFraction, floors: tuple[FloorCode, ...], mass: FloatArray, live_load: FloatArray
 ) -> tuple[CountedFraction, ...]:
-    """Return what counts of the design live load of each floor.
-
-    Parameters
-    ----------
-    code : CodeFraction
-        Code, with the use of floors that state none.
-    floors : tuple of FloorCode
-        What the file says of each floor.
-    mass, live_load : ndarray, shape (storeys,)
-        Mass without loose goods, and design live load as a mass (kg).
-
-    Notes
-    -----
-    ASCE 7, 12.7.2: storage that adds at most 5 % to the weight of its level is exempt, as
-    `seismass.design.effective_seismic_weight` has it.
+    """Return what counts of the design live load of each floor. ASCE 7, 12.7.2: storage that adds at most 5 % to the
+    weight of its level is exempt, as in `seismass.design.effective_seismic_weight`.
     """
     found = []
     for index, one in enumerate(floors):

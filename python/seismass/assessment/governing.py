@@ -22,23 +22,8 @@ def friction_words(building: OwnBuilding) -> dict[str, str]:
 
 
 def governing_table(building: OwnBuilding, storeys: pl.DataFrame) -> pl.DataFrame:
-    """Return one row per storey: the mean drifts of both analyses and of the goods that slide, and which is largest.
-
-    Parameters
-    ----------
-    building : OwnBuilding
-        The building.
-    storeys : polars.DataFrame
-        `Assessment.storeys`.
-
-    Returns
-    -------
-    polars.DataFrame
-        storey, name, unit; advised and bare (analysis 1 and 2), real, real_mu_high, real_mu_low: mean peak drift over
-        the motions, null where a run collapses or there is no such model; governing, the largest of them, null where
-        one of them has no mean; governed_by ("analysis 1", "analysis 2", or the friction at which sliding goods
-        drift more than both); sliding, the largest of the goods that slide, and sliding_at, its friction; limit and
-        governing_over_limit (null without heights).
+    """Return one row per storey: mean peak drifts of both analyses and of the goods that slide (null where a run
+    collapses), which governs (null where a mean is missing), its limit and the ratio to it.
     """
     words = friction_words(building)
     known = storeys["model"].unique(maintain_order=True).to_list()
@@ -74,14 +59,8 @@ def _governing(drifts: dict[str, float], words: dict[str, str], scale: float) ->
 
 
 def largest_change(storeys: pl.DataFrame, models: tuple[str, ...]) -> float | None:
-    """Return the largest mean drift over the smallest, less one, of any storey among models; None without means.
-
-    Parameters
-    ----------
-    storeys : polars.DataFrame
-        `Assessment.storeys`.
-    models : tuple of str
-        The models compared.
+    """Return the largest over the smallest mean drift of a storey among `models`, less one: the largest of any storey.
+    None without means.
     """
     found = []
     for _, of in storeys.filter(pl.col("model").is_in(models)).group_by("storey"):

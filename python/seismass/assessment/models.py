@@ -41,15 +41,8 @@ def friction_factors(building: OwnBuilding) -> dict[str, float]:
 
 
 def with_mass(scene: Scene, attached: FloatArray) -> Scene:
-    """Return a building with masses attached to its floors and no goods that slide.
-
-    Parameters
-    ----------
-    scene : Scene
-        Building and goods. Stiffness, strength, walls, damping matrix and P/h stay those of the real building, and so
-        do the friction and the restoring force of a sliding base; frames of racks are attached to their floors.
-    attached : ndarray, shape (storeys,)
-        Mass attached to each floor (kg).
+    """Return a building with masses attached to its floors (kg) and no goods that slide. Stiffness, strength, damping
+    matrix, P/h and the friction of a sliding base stay those of the real building.
     """
     if scene.other_direction is not False:
         x, y = (with_mass(each, attached) for each in scene._directions())
@@ -71,16 +64,8 @@ def with_mass(scene: Scene, attached: FloatArray) -> Scene:
 
 
 def compared_models(building: OwnBuilding, target: TargetSpectrum | None, advised: float | None) -> dict[str, Scene]:
-    """Return the scenes that are compared, by name; without goods the bare building alone.
-
-    Parameters
-    ----------
-    building : OwnBuilding
-        The building.
-    target : TargetSpectrum or None
-        Site spectrum, for strengths of a design.
-    advised : float or None
-        Share of the goods present that the advised model has attached; None leaves that model out.
+    """Return the scenes that are compared, by name; without goods the bare building alone. `advised` is the share of
+    the goods attached in the advised model; None leaves it out.
     """
     real = building.scene(target)
     bare = with_mass(real, np.zeros(building.storeys))
@@ -106,25 +91,8 @@ def solve_models(
     threads: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> tuple[pl.DataFrame, pl.DataFrame]:
-    """Solve all models under all motions.
-
-    Returns
-    -------
-    runs : polars.DataFrame
-        One row per model, motion and storey: model, motion, record, status, collapsed, storey, peak_drift (m),
-        peak_drift_ratio (null without heights), residual_drift (m), peak_storey_shear (N), peak_floor_acceleration
-        (m/s2), peak_slip (m, the largest of the loose goods of the floor; null where none slide), peak_base_slip
-        (m, of a sliding base, the same in every storey; null without one). In two directions drift and shear are the
-        larger of both, with the drifts of each in peak_drift_x and peak_drift_y; the others are lengths of vectors.
-    slips : polars.DataFrame
-        One row per model with goods that slide, motion and kind of loose goods: model, motion, kind (index in
-        `OwnBuilding.loose`), level of its rack (0: on the floor), collapsed, peak_slip, residual_slip and slip_path
-        (m).
-
-    Raises
-    ------
-    SimulationError
-        A run could not be carried to its end.
+    """Solve all models under all motions. Return one row per model, motion and storey, and one per model with goods
+    that slide, motion and kind of loose goods. In two directions drift and shear are the larger of both.
     """
     table = solve_many(list(scenes.values()), list(motions), threads=threads, progress=progress)
     runs, in_plane = table.to_dicts(), "peak_drift_x" in table.columns

@@ -72,13 +72,7 @@ class Question:
     default: str = ""
 
     def answer(self, given: Any) -> Any:
-        """Read an answer.
-
-        Raises
-        ------
-        InvalidOption
-            It is not what it must be.
-        """
+        """Read an answer, or refuse it."""
         try:
             return self.read(str(given))
         except ValueError:
@@ -128,26 +122,8 @@ def fit_of_curves(
     shape: SpringShape = "bilinear",
     pattern: FloorForces = "triangular",
 ) -> PushoverFit:
-    """Return the springs of a building that is to be written, fitted to its pushover curves.
-
-    Parameters
-    ----------
-    curves : PushoverCurves
-        The curves.
-    answers : mapping of str to object
-        As for `building_text`.
-    table : StoreyTable, optional
-        What is known storey by storey; its stiffnesses and yield shears are then the relative ones of a curve of the
-        whole building.
-    shape : {"bilinear", "trilinear"}
-        Lines of the springs.
-    pattern : {"triangular", "uniform"}
-        Lateral forces of a curve of the whole building: as mass times height above ground, or as mass.
-
-    Raises
-    ------
-    InvalidBuildingFile, InvalidOption
-        Curves and storeys do not belong together, or a curve cannot be fitted.
+    """Return springs fitted to pushover curves. Of a curve of the whole building, `table` gives the relative
+    stiffnesses and yield shears and `pattern` the forces: mass times height, or mass.
     """
     _need(answers, questions_for(table, curves))
     storeys = len(table.names) if table is not None else len(curves.names) or int(answers["storeys"])
@@ -187,28 +163,8 @@ def building_text(
     curves: PushoverCurves | None = None,
     fit: PushoverFit | None = None,
 ) -> str:
-    """Return a building file as text.
-
-    Parameters
-    ----------
-    answers : mapping of str to object
-        An answer, as its `Question` reads it, to each of `questions_for`.
-    table : StoreyTable, optional
-        What is known storey by storey.
-    curves : PushoverCurves, optional
-        Pushover curves, with the names of storeys where there is no table.
-    fit : PushoverFit, optional
-        The springs that were fitted to them, in place of the table's.
-
-    Returns
-    -------
-    str
-        TOML with comments.
-
-    Raises
-    ------
-    InvalidOption
-        An answer is missing.
+    """Return a building file as TOML with comments, from an answer to each of `questions_for`. Springs of `fit` replace
+    those of `table`.
     """
     _need(answers, questions_for(table, curves))
     friction = answers["friction"]

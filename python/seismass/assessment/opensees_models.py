@@ -21,20 +21,7 @@ TITLES: Final = {REAL: "goods slide", ADVISED: "analysis 1", BARE: "analysis 2"}
 
 def write_models(folder: str | os.PathLike[str], result: Assessment, suite: Suite) -> list[Path]:
     """Write OpenSeesPy models of an assessed building, with goods that slide and of both analyses, and analysis.csv.
-
-    Parameters
-    ----------
-    folder : path-like
-        As for `seismass.runs.write_opensees`.
-    result : Assessment
-        The assessment.
-    suite : Suite
-        Its motions, unscaled.
-
-    Raises
-    ------
-    InvalidScene, InvalidOption, OSError
-        As for `seismass.runs.write_opensees`.
+    `suite` holds its motions, unscaled.
     """
     share = next((one.share_of_goods_present for one in result.answer.analyses if one.model == ADVISED), None)
     scenes = compared_models(result.building, result.target, share)

@@ -25,23 +25,8 @@ WORDS: Final = {
 def period_sentences(
     building: OwnBuilding, target: TargetSpectrum | None, motions: list[Any], yields: bool | None
 ) -> tuple[str, ...]:
-    """Return which mass acts in the stated period, where it is from, and the share by hand for other masses.
-
-    Parameters
-    ----------
-    building : OwnBuilding
-        The building.
-    target : TargetSpectrum or None
-        Site spectrum.
-    motions : list of Record or Motion
-        Motions, scaled.
-    yields : bool or None
-        Whether the building yields with all goods attached; None without goods.
-
-    Returns
-    -------
-    tuple of str
-        None where stiffnesses were stated.
+    """Return which mass acts in the stated period, its source, and the share by hand for other masses; None where
+    stiffnesses were stated. `yields`: whether the building yields with all goods attached.
     """
     if building.stated_period is None:
         return ()

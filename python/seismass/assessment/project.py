@@ -15,7 +15,7 @@ PROJECT: Final = ("name", "number", "author", "checker", "date")
 
 @dataclass(frozen=True)
 class Project:
-    """What the head of a calculation page says; texts are empty where the file says nothing.
+    """Head of a calculation page; texts are empty where the file does not state them.
 
     Attributes
     ----------
@@ -33,17 +33,11 @@ class Project:
 
 
 NO_PROJECT: Final = Project()
-"""Of a file that says nothing."""
+"""The project of a file that states none."""
 
 
 def project_of(table: Table) -> Project:
-    """Return what a table [project] says.
-
-    Raises
-    ------
-    InvalidBuildingFile
-        A value is no text, or the date is none.
-    """
+    """Return what a table [project] says."""
     return Project(
         **{key: printable(table.text(key)) for key in PROJECT if key != "date"},
         date=_date(table),

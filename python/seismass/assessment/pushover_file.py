@@ -37,20 +37,8 @@ _RATIO: Final = {"": 1.0, "-": 1.0, "rad": 1.0, "%": 0.01}
 
 @dataclass(frozen=True, eq=False)
 class PushoverCurves(Card):
-    """Pushover curves as a file has them.
-
-    Attributes
-    ----------
-    source : str
-        Name of the file.
-    names : tuple of str
-        Names of the storeys, storey 1 first; empty where one curve is of the whole building.
-    drift, shear : tuple of ndarray
-        Drifts or displacements of the roof (m, or ratios of the heights) and shears (N) of each curve.
-    ratio : bool
-        Drifts are ratios: of the storey height, or of the height of the building.
-    remarks : tuple of str
-        What was done beside reading.
+    """Pushover curves of a file: names of the storeys (empty for a curve of the whole building), drifts (m, or ratios
+    of the height), shears (N) and remarks.
     """
 
     source: str
@@ -71,18 +59,7 @@ class PushoverCurves(Card):
         return "\n".join([*lines, *(f"  {remark}" for remark in self.remarks)])
 
     def drift_in_metres(self, heights: FloatArray | None) -> tuple[FloatArray, ...]:
-        """Return the drifts of each curve (m).
-
-        Parameters
-        ----------
-        heights : ndarray, shape (storeys,), or None
-            Storey heights (m), needed where drifts are ratios.
-
-        Raises
-        ------
-        InvalidBuildingFile
-            They are, and there are no heights or another number of them.
-        """
+        """Return the drifts of each curve (m); ratios need `heights` (m), shape (storeys,)."""
         if not self.ratio:
             return self.drift
         if heights is None or (self.names and len(heights) != len(self.names)):
@@ -99,45 +76,8 @@ def read_pushover(
     order: Order | None = None,
     direction: Literal["x", "y"] = "x",
 ) -> PushoverCurves:
-    r"""Read pushover curves.
-
-    Parameters
-    ----------
-    source : path-like
-        CSV (comma, semicolon or tab) or XLSX with a column of drifts (Roof Drift, Displacement, Monitored Displ, Story
-        Drift) and one of shears (Base Shear, Base Force, Story Shear). With a column of storeys there is a curve for
-        each, its rows in the order of the push; without one the curve is of the whole building.
-    units : str, optional
-        Force and length of numbers whose column states no unit: "kN-m", "kip-in". A drift without either, or in %, is
-        a ratio of the height.
-    order : {"roof-first", "ground-first"}, optional
-        Order of the storeys, where their names do not say it.
-    direction : {"x", "y"}
-        Which of the columns "Story Drift X" and "Story Drift Y" is read.
-
-    Returns
-    -------
-    PushoverCurves
-        The curves, storey 1 first.
-
-    Raises
-    ------
-    InvalidBuildingFile
-        The file cannot be read, has no such head, a cell that is no number, signs that change, or a unit or an order
-        that has to be stated.
-    MissingPackage
-        openpyxl is needed for XLSX.
-
-    Examples
-    --------
-    >>> import tempfile, pathlib
-    >>> from seismass.assessment import read_pushover
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     file = pathlib.Path(folder) / "push.csv"
-    ...     _ = file.write_text("Roof Drift (mm),Base Shear (kN)\n0,0\n20,400\n40,500\n80,520\n160,540\n")
-    ...     curves = read_pushover(file)
-    >>> curves.names, curves.drift[0].tolist(), curves.shear[0].tolist()
-    ((), [0.0, 0.02, 0.04, 0.08, 0.16], [0.0, 400000.0, 500000.0, 520000.0, 540000.0])
+    """Read pushover curves of CSV or XLSX: a curve per storey where there is a column of storeys, else one of the whole
+    building. `units` is for numbers without a unit; a drift without a unit or in % is a ratio.
     """
     path = as_path(source, "pushover file", InvalidBuildingFile)
     need = "a head with a column of drifts, such as Roof Drift or Story Drift, and one of shears, such as Base Shear"

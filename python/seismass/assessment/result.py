@@ -29,14 +29,8 @@ SCHEMA_VERSION: Final = 6
 
 
 def shown_figures(fractions: bool, storeys: pl.DataFrame, slip: pl.DataFrame) -> tuple[str, ...]:
-    """Return the names of the figures that have something to show.
-
-    Parameters
-    ----------
-    fractions : bool
-        Whether some effective fraction has a value.
-    storeys, slip : polars.DataFrame
-        Tables of an assessment.
+    """Return the names of the figures that have something to show; `fractions` says whether some effective fraction has
+    a value.
     """
     shown = {
         "effective_fraction": fractions,
@@ -189,7 +183,7 @@ class Assessment(Result):
         raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything but the runs as plain values in SI units; null for what is no finite number."""
+        """Return everything but the runs as plain values in SI units; null for what is not finite."""
         building, code = self.building, self.building.code
         document = {
             "schema_version": SCHEMA_VERSION,

@@ -38,22 +38,8 @@ def fractions_by_friction(
     threads: int | None,
     progress: Progress | None,
 ) -> dict[str, EffectiveMass]:
-    """Return the effective fraction at each friction by the mean; by the median, where the building collapses.
-
-    Parameters
-    ----------
-    building : OwnBuilding
-        The building.
-    target : TargetSpectrum or None
-        Site spectrum, for strengths of a design.
-    frictions : dict of str to float
-        Factor of friction of each model.
-    motions : list of Record, Motion or Pair
-        Motions, scaled.
-    bootstrap : dict
-        confidence, resamples and seed.
-    threads, progress
-        As for `assess`.
+    """Return the effective fraction at each friction (a factor for each model) by the mean; by the median, where the
+    building collapses.
     """
     if not frictions:
         return {}
@@ -88,14 +74,8 @@ def design_share(
     threads: int | None,
     progress: Progress | None,
 ) -> DesignShare:
-    """Return the share that goes into the design of the strengths and is attached, at one friction; no bootstrap.
-
-    Parameters
-    ----------
-    building, target, motions, threads, progress
-        As for `fractions_by_friction`.
-    factor : float
-        Factor of friction.
+    """Return the share that goes into the design of the strengths and is attached, at one factor of friction, without a
+    bootstrap.
     """
 
     def designed(share: float) -> Designed:

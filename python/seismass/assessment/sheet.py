@@ -23,18 +23,8 @@ _HEAD: Final = re.compile(r"^(?P<name>[^([,]*)(?:[(\[,]\s*(?P<unit>[^)\]]*)[)\]]
 
 @dataclass(frozen=True)
 class Sheet:
-    """Rows below a head that is known.
-
-    Attributes
-    ----------
-    path : Path
-        The file.
-    columns : dict of str to int
-        Place of each column that was found.
-    units : dict of str to str
-        Its unit as stated in the head or in a row below; empty where none is.
-    body : list of list of str
-        The rows that have something in them.
+    """Rows below a head that is known: the place of each column found, its unit as stated in the head or in a row below
+    (empty: none), and the rows that are not empty.
     """
 
     path: Path
@@ -47,13 +37,7 @@ class Sheet:
         return [printable(row[self.columns[kind]].strip()) for row in self.body]
 
     def numbers(self, kind: str, factor: float, owners: Sequence[str]) -> list[float]:
-        """Return a column of numbers times a factor, NaN where a cell is empty; `owners` are what errors call its rows.
-
-        Raises
-        ------
-        InvalidBuildingFile
-            A cell is no number.
-        """
+        """Return a column of numbers times a factor, NaN where a cell is empty; `owners` name its rows in errors."""
         place = self.columns[kind]
         return [
             factor * _number(row[place], f"{kind} of {owner}", self.path)
@@ -61,13 +45,7 @@ class Sheet:
         ]
 
     def factor(self, kind: str, quantity: Quantity, system: tuple[float, float] | None) -> float:
-        """Return the factor of a column towards SI units, by its own unit or else by a system (N, m).
-
-        Raises
-        ------
-        InvalidBuildingFile
-            Its unit is unknown, or none is stated.
-        """
+        """Return the factor of a column towards SI units, by its own unit or else by a system (N, m)."""
         unit = self.units[kind]
         if unit:
             return unit_factor(unit, quantity, f"unit of the column {kind}", self.path.name)
@@ -79,27 +57,8 @@ class Sheet:
 
 
 def read_sheet(path: Path, names: Names, *, needed: tuple[str, ...], need: str, direction: str = "x") -> Sheet:
-    """Read a table whose columns are known by their names.
-
-    Parameters
-    ----------
-    path : Path
-        CSV (comma, semicolon or tab) or XLSX.
-    names : mapping
-        Names of columns by what they hold.
-    needed : tuple of str
-        Columns that the head has, beside another one.
-    need : str
-        What errors say of the head.
-    direction : {"x", "y"}
-        Which of two directions is read.
-
-    Raises
-    ------
-    InvalidBuildingFile
-        The file cannot be read, or has no such head.
-    MissingPackage
-        openpyxl is needed for XLSX.
+    """Read a CSV (comma, semicolon or tab) or XLSX whose columns are known by `names`. The columns `needed` must be
+    there beside another one; `need` is what errors say of the head.
     """
     rows = _rows(path)
     head, columns = _head(rows, path, names, needed, need, direction)
@@ -153,7 +112,7 @@ def _sheet(content: bytes, path: Path) -> list[list[str]]:
 
 
 def _name_of(cell: str, direction: str) -> str:
-    """Name of a column in small letters without its unit; that of the other direction is no known one."""
+    """Name of a column in small letters without its unit; one of the other direction is unknown."""
     matched = _HEAD.match(cell.strip())
     name = re.sub(r"[^a-z0-9%]+", " ", (matched["name"] if matched else cell).lower()).strip()
     words = name.split()

@@ -39,9 +39,8 @@ class Shown(NamedTuple):
 
 
 def motion_of_runs(runs: pl.DataFrame) -> int:
-    """Return the number (from 0) of that motion among the runs of an assessment, by the first model of their table.
-
-    Where no run stands it is that of all.
+    """Return the number (from 0) of the motion of median drift among those under which goods slide without a collapse,
+    or among all where there are none, by the first model of the table of runs.
     """
     of = runs.filter(pl.col("model") == runs["model"][0])
     by_motion = of.group_by("motion", maintain_order=True).agg(
@@ -59,23 +58,8 @@ def _median(drift: FloatArray, among: NDArray[np.int64]) -> int:
 
 
 def shown_motion(building: OwnBuilding, suite: Suite | Pairs, target: TargetSpectrum | None = None) -> Shown:
-    """Return the building with its goods and a motion: the median by largest drift of those under which goods slide.
-
-    Where none slide it is the median of all.
-
-    Parameters
-    ----------
-    building : OwnBuilding
-        The building.
-    suite : Suite or Pairs
-        Motions, which are scaled to the site as `assess` does.
-    target : TargetSpectrum, optional
-        Site spectrum; default the building's own.
-
-    Raises
-    ------
-    InvalidOption, InvalidScene, SimulationError
-        As for `assess`.
+    """Return the building with its goods and the motion of median largest drift among those under which goods slide, or
+    among all where none slide. Motions are scaled as in `assess`.
     """
     spectrum = building.site_spectrum(target)
     period = building.scaling_period or building.period(building.goods)

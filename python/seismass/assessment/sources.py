@@ -9,7 +9,7 @@ from seismass.assessment.file_goods import FRICTION, LIVE_LOAD, PRESENT
 from seismass.assessment.file_units import PLAIN_GOODS_KEYS, PLAIN_STOREY_KEYS, US_GOODS_KEYS, US_STOREY_KEYS
 
 DEFAULT: Final = "default"
-"""What stands for a quantity of which the file says nothing."""
+"""Source of a quantity that the file does not state."""
 _STRENGTH: Final = ("yield_shear_kn", "yield_shear_n", "yield_shear_over_weight")
 _OF_STOREYS: Final = {
     "height": ("height_m",),
@@ -39,13 +39,7 @@ _OF_BUILDING: Final = {
 
 
 def sources_of(file: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
-    """Return each quantity with the keys that state it, as the file has them, or `DEFAULT`.
-
-    Parameters
-    ----------
-    file : mapping
-        The tables of a building file that was read without an error.
-    """
+    """Return each quantity with the keys that state it, as the file has them, or `DEFAULT`."""
     building, goods = file.get("building") or {}, file.get("goods") or {}
     storeys: Sequence[Mapping[str, Any]] = file.get("storeys") or []
     found = {}

@@ -19,22 +19,8 @@ DAMPING: Final = 0.05
 
 
 def spectra_table(motions: Sequence[Any], target: TargetSpectrum | None, *, threads: int | None = None) -> pl.DataFrame:
-    """Return spectra of motions as they load the building, 5 % damped.
-
-    Parameters
-    ----------
-    motions : sequence of Record, Motion or Pair
-        Scaled motions; the spectrum of a pair is the geometric mean of those of its components.
-    target : TargetSpectrum or None
-        Site spectrum.
-    threads : int, optional
-        Number of threads; default all cores.
-
-    Returns
-    -------
-    polars.DataFrame
-        period (s); target, mean, p16, median and p84 of the pseudo-acceleration (m/s2) over the motions; target is null
-        without a site spectrum, and outside its range.
+    """Return the period (s) and, in m/s2, the target and the mean, p16, median and p84 of the pseudo-acceleration of
+    scaled motions, 5 % damped; of a pair the geometric mean. The target is null outside its range.
     """
     spectra = spectra_of(list(motions), PERIODS, DAMPING, threads=threads)
     wanted = np.full(len(PERIODS), np.nan)

@@ -31,29 +31,8 @@ _STIFFNESS: Final = re.compile(r"([a-z]+)/([a-z]+)")
 
 
 def unit_factor(unit: str, quantity: Quantity, what: str, owner: str) -> float:
-    """Return the factor of a unit towards SI units.
-
-    Parameters
-    ----------
-    unit : str
-        Such as "mm", "kip", "kN/m", "kg", "kip-s2/in".
-    quantity : {"length", "force", "mass", "stiffness"}
-        What it is the unit of.
-    what, owner : str
-        What errors call it, and whose it is.
-
-    Raises
-    ------
-    InvalidBuildingFile
-        It is no unit of that quantity.
-
-    Examples
-    --------
-    >>> from seismass.assessment.storey_units import unit_factor
-    >>> unit_factor("kN/mm", "stiffness", "unit", "table")
-    1000000.0
-    >>> round(unit_factor("kip-s2/in", "mass", "unit", "table"), 2)
-    175126.84
+    """Return the factor towards SI units of a unit such as "kN/m" or "kip-s2/in" for a length, force, mass or
+    stiffness.
     """
     text = unit.strip().lower().replace(" ", "")
     if quantity == "length" and text in LENGTHS:
@@ -76,19 +55,7 @@ def unit_factor(unit: str, quantity: Quantity, what: str, owner: str) -> float:
 
 
 def system_of(units: str, owner: str) -> tuple[float, float]:
-    """Return the units of force (N) and of length (m) of a system such as "kN-m" or "kip-in".
-
-    Raises
-    ------
-    InvalidBuildingFile
-        It is no such system.
-
-    Examples
-    --------
-    >>> from seismass.assessment.storey_units import system_of
-    >>> system_of("kN-m", "table")
-    (1000.0, 1.0)
-    """
+    """Return the units of force (N) and of length (m) of a system such as "kN-m" or "kip-in"."""
     force, _, length = units.strip().lower().replace(" ", "").replace(",", "-").partition("-")
     length = length.partition("-")[0]  # a third word is that of temperatures
     if force not in FORCES or length not in LENGTHS:

@@ -21,12 +21,8 @@ MEDIAN_FACTOR: Final = 1.2
 
 
 def drift_statistics(drifts: FloatArray) -> dict[str, float | None]:
-    """Return `statistics_of` drifts, with a mean where no more than `MOST_COLLAPSES` of the runs collapsed.
-
-    Parameters
-    ----------
-    drifts : ndarray, shape (motions,)
-        Infinite where the run collapsed.
+    """Return `statistics_of` drifts, with a mean where no more than `MOST_COLLAPSES` of the runs collapsed (infinite
+    drifts).
     """
     known, fallen = statistics_of(drifts), np.isinf(drifts)
     if fallen.any() and few_collapses(int(fallen.sum()), len(drifts)):
@@ -40,12 +36,8 @@ def few_collapses(collapsed: int, motions: int) -> bool:
 
 
 def statistics_of(values: FloatArray) -> dict[str, float | None]:
-    """Return mean, quantiles and largest value over the motions; what a collapsed run decides is null.
-
-    Parameters
-    ----------
-    values : ndarray, shape (motions,)
-        Infinite where the run collapsed.
+    """Return mean, quantiles and largest value over the motions; what a collapsed run (an infinite value) decides is
+    null.
     """
     collapsed = bool(np.isinf(values).any())
     # Between a number and infinity nothing can be interpolated; then a quantile is the next larger value.
@@ -64,26 +56,8 @@ def gravity_of_storeys(building: OwnBuilding, scene: Scene) -> FloatArray:
 
 
 def storey_table(building: OwnBuilding, real: Scene, runs: pl.DataFrame) -> pl.DataFrame:
-    """Return one row per model and storey.
-
-    Parameters
-    ----------
-    building : OwnBuilding
-        The building.
-    real : Scene
-        It with its goods.
-    runs : polars.DataFrame
-        Of `solve_models`.
-
-    Returns
-    -------
-    polars.DataFrame
-        model, storey, name; unit of the drifts ("ratio" of the height, or "m" without heights); mean, p16, median, p84
-        and max of the peak drift over the motions (null where a collapsed run decides it; of the mean see
-        `drift_statistics`); limit, mean_over_limit and
-        motions_above_limit (null without heights); collapsed, the number of runs; mean_peak_shear (N); theta, P d/(V h)
-        with the mean peak drift d and the mean peak storey shear V; theta_elastic = P/(k h); theta_limit. Beside walls,
-        which carry the storeys too, there is no theta of a storey: both are null.
+    """Return one row per model and storey: statistics of the peak drift (null where a collapsed run decides), its
+    limit, and theta = P d/(V h) of mean peak drift and shear with its limit (null beside walls).
     """
     heights = building.heights
     gravity, rows = gravity_of_storeys(building, real), []
@@ -127,21 +101,8 @@ def storey_table(building: OwnBuilding, real: Scene, runs: pl.DataFrame) -> pl.D
 
 
 def slip_table(building: OwnBuilding, slips: pl.DataFrame) -> pl.DataFrame:
-    """Return one row per friction and kind of loose goods that is present, and level of its rack.
-
-    Parameters
-    ----------
-    building : OwnBuilding
-        The building.
-    slips : polars.DataFrame
-        Of `solve_models`.
-
-    Returns
-    -------
-    polars.DataFrame
-        model; friction ("as stated", "lower bound", "upper bound"); floor, name, goods, contact, mu_s, mu_k; motions
-        that slide; mean, p16, median, p84 and max of the peak slip, and mean, median and p84 of the absolute residual
-        slip (m); collapsed, the number of runs, whose slips are those until then.
+    """Return one row per friction, kind of loose goods present and level of its rack: motions that slide, statistics of
+    peak and residual slip (m), and collapsed runs, whose slips are those until the collapse.
     """
     words = dict(zip(REALS, ("as stated", "lower bound", "upper bound"), strict=True))
     rows = []

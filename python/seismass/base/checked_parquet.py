@@ -1,4 +1,4 @@
-"""Parquet files that carry a digest of themselves: a file of which one bit has changed is told from a whole one.
+"""Parquet files that carry a digest of themselves: a change of a single bit is found.
 
 The metadata have a SHA-256 of the file's bytes, taken with zeros where the digest itself stands. Any reader of Parquet
 reads such a file; only `damage` compares the digest.
@@ -28,22 +28,7 @@ MOST_FOOTER: Final = 2**26
 
 
 def write_checked(frame: pl.DataFrame, path: Path, metadata: dict[str, str]) -> None:
-    """Write a frame to a Parquet file that carries a digest of itself.
-
-    Parameters
-    ----------
-    frame : polars.DataFrame
-        The table.
-    path : Path
-        The file.
-    metadata : dict of str to str
-        Further metadata.
-
-    Raises
-    ------
-    OSError
-        The file cannot be written.
-    """
+    """Write a frame to a Parquet file that carries a digest of itself, and further metadata."""
     with polars_writing(path), path.open("wb") as file:
         frame.write_parquet(file, compression="zstd", metadata={**metadata, _KEY: (_MARK + _ZEROS).decode()})
     with path.open("r+b") as file:
@@ -53,9 +38,8 @@ def write_checked(frame: pl.DataFrame, path: Path, metadata: dict[str, str]) -> 
 
 
 def damage(path: Path) -> str | None:
-    """Return what is wrong with a file of `write_checked`, or None where every byte is as it was written.
-
-    A link, a folder and a device are never read.
+    """Return what is wrong with a file of `write_checked`; None where every byte is as written. A link, a folder and a
+    device are never read.
     """
     try:
         mode = path.lstat().st_mode
@@ -72,13 +56,7 @@ def damage(path: Path) -> str | None:
 
 
 def read_checked(path: Path) -> pl.DataFrame:
-    """Return the table of a file that `damage` finds nothing wrong with.
-
-    Raises
-    ------
-    OSError
-        It cannot be read.
-    """
+    """Return the table of a file that `damage` finds nothing wrong with."""
     return read_table(path, follow=False)
 
 
@@ -92,13 +70,7 @@ def metadata_of(path: Path) -> dict[str, str]:
 
 
 def _digest(file: BinaryIO) -> tuple[str, int, str]:
-    """Digest of a file, where in it the digest stands, and what stands there.
-
-    Raises
-    ------
-    ValueError
-        It has no place for a digest.
-    """
+    """Digest of a file, where in it the digest stands, and what stands there."""
     size = file.seek(0, os.SEEK_END)
     if size < _TAIL:
         raise ValueError("is damaged: it is cut off")

@@ -38,13 +38,7 @@ BLOCK: Final = 64
 
 
 def exp(x: ArrayLike) -> FloatArray:
-    """Return e to the power x, of the same shape; 0 below -745.
-
-    Raises
-    ------
-    ValueError
-        An x above 709.7, or not a number.
-    """
+    """Return e to the power x, of the same shape; 0 below -745. An x above 709.7 or a NaN is an error."""
     given = np.asarray(x, dtype=np.float64)
     if not (given <= _MOST).all():
         raise ValueError(f"x of exp must be up to {_MOST}; got {np.max(given):g}")
@@ -56,13 +50,7 @@ def exp(x: ArrayLike) -> FloatArray:
 
 
 def log(x: ArrayLike) -> FloatArray:
-    """Return the natural logarithm of positive numbers, of the same shape.
-
-    Raises
-    ------
-    ValueError
-        An x that is not a positive finite number.
-    """
+    """Return the natural logarithm of positive finite numbers, of the same shape."""
     given = np.asarray(x, dtype=np.float64)
     if not ((given > 0.0) & np.isfinite(given)).all():
         wrong = given[~((given > 0.0) & np.isfinite(given))].flat[0]
@@ -88,9 +76,8 @@ def power(x: ArrayLike, exponent: float) -> FloatArray:
 
 
 def cos_sin(x: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Return the cosine and the sine of angles (rad), each of the same shape.
-
-    Beyond 1e6 the error is that of a change of the angle in its last digit.
+    """Return the cosine and the sine of angles (rad), of the same shape. Beyond 1e6 the error is that of a change of
+    the angle in its last digit.
     """
     quarter, square, rest = _reduced(x)
     cosine, sine = _cos(square), rest + rest * (square * _polynomial(_SIN, square))
@@ -129,19 +116,8 @@ def complex_sinh(x: ComplexArray) -> ComplexArray:
 
 
 def complex_series(start: ComplexArray, rate: ComplexArray, count: int) -> tuple[ComplexArray, ComplexArray]:
-    """Return factors of exp(start + rate k), k = 0, 1, ... up to at least `count` - 1, for the two functions below.
-
-    Parameters
-    ----------
-    start, rate : ndarray, shape (series,)
-        Exponents.
-    count : int
-        Terms, at least 1.
-
-    Returns
-    -------
-    tuple of ndarray, shapes (series, blocks) and (series, `BLOCK`)
-        Term `BLOCK` i + j is the product of column i of the first and column j of the second.
+    """Return factors of exp(start + rate k), k = 0, ..., `count` - 1 or more, shapes (series, blocks) and (series,
+    `BLOCK`): term `BLOCK` i + j is the product of column i of the first and column j of the second.
     """
     blocks = -(-count // BLOCK)
     return (
@@ -151,9 +127,8 @@ def complex_series(start: ComplexArray, rate: ComplexArray, count: int) -> tuple
 
 
 def series_real(far: ComplexArray, near: ComplexArray) -> FloatArray:
-    """Return the real parts of one series, from its rows of what `complex_series` returned.
-
-    They have shape (blocks times `BLOCK`,), not fewer terms than were asked for.
+    """Return the real parts of one series from its rows of `complex_series`, shape (blocks times `BLOCK`,): at least
+    the number of terms asked for.
     """
     return np.asarray(far.real[:, None] * near.real - far.imag[:, None] * near.imag).ravel()
 

@@ -28,20 +28,7 @@ MOST_BYTES: Final = 2**26
 
 
 def open_regular(path: str | os.PathLike[str], *, follow: bool = True) -> BufferedReader:
-    """Open a file for reading, and nothing else: a folder, a device or a pipe is an error at once.
-
-    Parameters
-    ----------
-    path : path-like
-        The file.
-    follow : bool, default True
-        Follow a link at its end; else a link is an error.
-
-    Raises
-    ------
-    OSError
-        It cannot be opened, or is no regular file.
-    """
+    """Open a regular file for reading; a folder, a device or a pipe is an error at once, and a link unless `follow`."""
     # Not blocking, as the opening of a pipe would wait for its writer.
     flags = os.O_RDONLY
     for name in ("O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY"):
@@ -59,13 +46,7 @@ def open_regular(path: str | os.PathLike[str], *, follow: bool = True) -> Buffer
 
 
 def read_file(path: str | os.PathLike[str], most: int = MOST_BYTES, *, follow: bool = True) -> bytes:
-    """Return the content of a regular file of at most `most` bytes.
-
-    Raises
-    ------
-    OSError
-        It cannot be read, is no regular file, or is larger.
-    """
+    """Return the content of a regular file of at most `most` bytes."""
     with open_regular(path, follow=follow) as file:
         content = file.read(most + 1)
     if len(content) > most:
@@ -74,32 +55,18 @@ def read_file(path: str | os.PathLike[str], most: int = MOST_BYTES, *, follow: b
 
 
 def read_utf8(path: str | os.PathLike[str], most: int = MOST_BYTES) -> str:
-    """Return the text of a regular file of at most `most` bytes, without a byte order mark and with line ends of Unix.
-
-    Raises
-    ------
-    OSError
-        As for `read_file`.
-    UnicodeDecodeError
-        It is not UTF-8.
+    """Return the text of a regular UTF-8 file of at most `most` bytes, without a byte order mark and with line ends of
+    Unix.
     """
     return read_file(path, most).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
 
 
 def read_table(path: str | os.PathLike[str], *, follow: bool = True) -> pl.DataFrame:
-    """Return the table of a Parquet file of any name; Polars itself opens none that is not UTF-8.
-
-    Raises
-    ------
-    OSError
-        It cannot be read, or is no regular file.
-    polars.exceptions.PolarsError
-        It is no Parquet file, or damaged.
-    """
+    """Return the table of a Parquet file of any name; Polars itself opens none whose name is not UTF-8."""
     try:
         with open_regular(path, follow=follow) as file:
             return pl.read_parquet(file)
-    except pl.exceptions.PanicException as error:  # which is no Exception
+    except pl.exceptions.PanicException as error:  # which is not an Exception
         raise pl.exceptions.ComputeError(f"a damaged Parquet file: {error}") from None
 
 
@@ -109,33 +76,8 @@ def _size_text(size: int) -> str:
 
 @contextmanager
 def written_whole(path: str | os.PathLike[str], *, durable: bool = False, tidy: bool = True) -> Iterator[Path]:
-    """Give a temporary path to write to, which replaces `path` at the end, or is removed when an error is raised.
-
-    Parameters
-    ----------
-    path : path-like
-        The file to write; its folder must exist.
-    durable : bool, default False
-        Wait until the system has the file, and then its name, on the disk: neither is lost with the power.
-    tidy : bool, default True
-        Remove first what killed runs have left in the folder. Its files are listed for that, which one who writes many
-        files to one folder does once, by `remove_left_behind`.
-
-    Raises
-    ------
-    OSError
-        The path is a folder, or its folder is missing or cannot be written to: before anything is written, and under
-        the name that was given.
-
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> from tempfile import mkdtemp
-    >>> target = Path(mkdtemp(), "note.txt")
-    >>> with written_whole(target) as temporary:
-    ...     _ = temporary.write_text("whole")
-    >>> target.read_text()
-    'whole'
+    """Give a temporary path that replaces `path` at the end, or is removed on an error. `durable` waits for the disk;
+    `tidy` first removes what killed runs left in the folder, which takes a listing of it.
     """
     target = Path(path)
     if not target.name or target.is_dir():
@@ -171,13 +113,8 @@ def _synchronise(path: Path) -> None:
 
 @contextmanager
 def polars_writing(path: Path) -> Iterator[None]:
-    """Raise what Polars says where the system writes no more, as on a full disk, as the error of the system.
-
-    Raises
-    ------
-    OSError
-        Under the name `path`, with the reason of the system where Polars passes it on, else as an error of input or
-        output with what Polars says.
+    """Raise an error of Polars while writing, as on a full disk, as an OSError that names `path`, with the reason of
+    the system where Polars passes it on.
     """
     try:
         yield
@@ -189,9 +126,8 @@ def polars_writing(path: Path) -> Iterator[None]:
 
 
 def without_formulas(frame: pl.DataFrame) -> pl.DataFrame:
-    """Return a frame for a CSV: a text that spreadsheets would run as a formula has an apostrophe before it.
-
-    That is one that begins with =, +, -, @ or a control character and is no number.
+    """Return a frame for a CSV: a text that spreadsheets would run as a formula (not a number, begins with =, +, -, @
+    or a control character) has an apostrophe before it.
     """
 
     def guarded(name: str) -> pl.Expr:
@@ -205,23 +141,8 @@ def without_formulas(frame: pl.DataFrame) -> pl.DataFrame:
 def write_table(
     frame: pl.DataFrame, kind: Literal["parquet", "csv"], path: Path, *, metadata: dict[str, str] | None = None
 ) -> None:
-    """Write a frame to a file of any name; Polars itself opens none that is not UTF-8.
-
-    Parameters
-    ----------
-    frame : polars.DataFrame
-        The table.
-    kind : {"parquet", "csv"}
-        Format of the file.
-    path : Path
-        The file.
-    metadata : dict of str to str, optional
-        Key-value metadata of a Parquet file, for `polars.read_parquet_metadata`; a CSV has no place for it.
-
-    Raises
-    ------
-    OSError
-        The file cannot be written.
+    """Write a frame to a Parquet or CSV file of any name; Polars itself opens none whose name is not UTF-8. A CSV has
+    no metadata.
     """
     with path.open("wb") as file:
         if kind == "csv":

@@ -17,19 +17,8 @@ _is_lost = False
 
 
 def require_polars(owner: str, instead: str = "") -> None:
-    """Raise at once where Polars would wait for threads that a fork has left behind.
-
-    Parameters
-    ----------
-    owner : str
-        What needs Polars, for the message.
-    instead : str
-        What to take instead, for the message.
-
-    Raises
-    ------
-    SimulationError
-        This process, or one that it was forked from, was forked from one in which Polars had threads.
+    """Raise at once where Polars would wait for threads that a fork has left behind; the message says what needs it
+    (`owner`) and what to use `instead`.
     """
     if _is_lost:
         from seismass.base.errors import SimulationError

@@ -14,7 +14,7 @@ TABLES: Final = {
     CAMPAIGN_FILE: ("grid", "sample", "motions"),
     SCENE_FILE: ("blocks", "racks", "motion", "vertical_motion", "initial"),
 }
-"""Tables of each kind that files of the other kinds have not."""
+"""Tables of each kind that files of the other kinds do not have."""
 COMMANDS: Final = {
     BUILDING_FILE: "`seismass building`, `animate`, `slip`, `fragility` and `risk`",
     CAMPAIGN_FILE: "`seismass campaign`",
@@ -30,15 +30,7 @@ def kind_of(values: dict[str, Any]) -> str:
 
 
 def refuse_other_kind(top: Table, kind: str) -> None:
-    """Refuse a file whose tables are those of another kind, with the commands that take it.
-
-    Parameters
-    ----------
-    top : Table
-        The file.
-    kind : str
-        The kind that is needed.
-    """
+    """Refuse a file whose tables are those of another kind than `kind`, and name the commands that take it."""
     found = kind_of(top.values)
     if found and found != kind:
         top.refuse("kind", f"a {kind}", f"a {found}, which {COMMANDS[found]} take{'s' * (found == CAMPAIGN_FILE)}")

@@ -28,22 +28,8 @@ _LONG_KEY: Final = re.compile(
 
 
 def load_table(source: Path, what: str, kind: type[SeismassError]) -> Table:
-    """Return a file of TOML or JSON as a table of its keys, whatever its format.
-
-    Parameters
-    ----------
-    source : Path
-        The file; its suffix says which format it has.
-    what : str
-        What it is, as errors name it: "scene file".
-    kind : type
-        Class of the errors.
-
-    Raises
-    ------
-    SeismassError
-        Of the class `kind`: it cannot be read, is no regular file or larger than `MOST_BYTES` (TOML: `MOST_TOML`), or
-        is not what its suffix says.
+    """Return a file of TOML or JSON, by its suffix, as a table of its keys. `what` names it in errors of the class
+    `kind`; it is a regular file of at most `MOST_BYTES` (TOML: `MOST_TOML`).
     """
     suffix = source.suffix.lower()
     if suffix not in (".toml", ".json"):
@@ -153,7 +139,7 @@ class Table:
             self.excluded(key, *keys[number:])
 
     def left_out(self, keys: Iterable[str], where: str, got: str | None = None) -> None:
-        """Refuse each of the keys; what was got is its value unless told."""
+        """Refuse each of the keys; the message shows its value unless `got` is given."""
         for key, value in self.given(*keys).items():
             self.refuse(key, f"left out where {where}", got or brief(value))
 

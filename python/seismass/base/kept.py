@@ -35,16 +35,8 @@ _MOST_BYTES: Final = 4096
 
 @dataclass(frozen=True)
 class KeptResults:
-    """Tables that are made once for the same inputs, however often the work is interrupted.
-
-    Attributes
-    ----------
-    folder : Path or None
-        Where they are kept; None: nowhere.
-    sha256 : str
-        Digest of the inputs, which every part names.
-    place : Path or None
-        What errors of the system name: a folder that the user knows, as `folder` is hidden.
+    """Tables that are made once for the same inputs, however often the work is interrupted. `sha256` is the digest of
+    the inputs, `folder` is hidden (None: nothing is kept), `place` is the one that errors name.
     """
 
     folder: Path | None = None
@@ -92,28 +84,8 @@ NOTHING_KEPT: Final = KeptResults()
 
 @contextmanager
 def kept_folder(place: Path, name: str, sha256: str) -> Iterator[KeptResults]:
-    """Give a folder for parts of a result, which stays where the work is interrupted and is removed at its end.
-
-    Parameters
-    ----------
-    place : Path
-        Folder in which it is made.
-    name : str
-        What the parts are for; one name has one such folder.
-    sha256 : str
-        Digest of the inputs: parts of others are removed first.
-
-    Notes
-    -----
-    While another process works on the same result, or where that cannot be known, the folder is a temporary one. What
-    this module did not put into the folder is never removed; where there is such a file, the folder stays.
-
-    Raises
-    ------
-    InvalidOption
-        The folder is there and is a link, belongs to another user, or others may write to it.
-    OSError
-        The folder cannot be made or written to.
+    """Give a folder for parts of a result, removed at the end of the work: a temporary one while another process may
+    work on the same. Parts of other digests are removed, but never files of another origin.
     """
     folder = place / f"{PREFIX}kept-{hashlib.sha256(os.fsencode(name)).hexdigest()[:16]}"
     with reported_as(place), suppress(FileExistsError):
@@ -146,12 +118,8 @@ def digest_of(*inputs: Any) -> str:
 
 
 def _checked(folder: Path) -> int:
-    """Return the number of a folder in its file system; refuse one that others have or could have made.
-
-    Raises
-    ------
-    InvalidOption
-        It is a link or a file, belongs to another user, or others may write to it.
+    """Return the number of a folder in its file system; refuse a link, a file, and a folder of another user or that
+    others may write to.
     """
     found = folder.lstat()
     is_link = stat.S_ISLNK(found.st_mode)

@@ -13,34 +13,16 @@ QUANTILES: Final = {"p16": 0.16, "median": 0.50, "p84": 0.84}
 
 
 def quantile(values: FloatArray, share: float) -> FloatArray:
-    """Return the quantile of each row, linear between order statistics; infinite values are larger than all others.
-
-    Parameters
-    ----------
-    values : ndarray, shape (rows, motions)
-        Values; a row with NaN has the quantile NaN.
-    share : float
-        Share of the values below, from 0 to 1.
-
-    Notes
-    -----
-    As `numpy.quantile` by its method "linear", which gives NaN, though, where the order statistic after that of the
-    quantile is infinite.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> quantile(np.array([[3.0, 1.0, 2.0], [1.0, 2.0, np.inf]]), 0.5).tolist()
-    [2.0, 2.0]
+    """Return the quantile of each row, shape (rows, motions), linear between order statistics; infinity is the largest,
+    and a row with NaN gives NaN. `numpy.quantile` gives NaN where the next order statistic is infinite.
     """
     found = _at(np.sort(values.T, axis=0), np.full(len(values), share * (values.shape[1] - 1)))
     return np.where(np.isnan(values).any(axis=1), np.nan, found)
 
 
 def interval_of(values: FloatArray, confidence: float) -> tuple[FloatArray, FloatArray]:
-    """Return the ends of the percentile interval over the first axis.
-
-    NaN are left out. An end between a finite and an infinite value is infinite.
+    """Return the ends of the percentile interval over the first axis. NaN are left out; an end between a finite and an
+    infinite value is infinite.
     """
     ordered = np.sort(values, axis=0)  # NaN last
     last = np.maximum(np.count_nonzero(~np.isnan(values), axis=0) - 1, 0)

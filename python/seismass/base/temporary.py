@@ -54,13 +54,7 @@ def is_left_behind(name: str) -> bool:
 
 @contextmanager
 def temporary_folder(folder: Path) -> Iterator[Path]:
-    """Give a folder in `folder`, which is removed with what is in it at the end.
-
-    Raises
-    ------
-    OSError
-        The folder cannot be made.
-    """
+    """Give a folder in `folder`, which is removed with its content at the end."""
     path = temporary_path(folder)
     with reported_as(folder):
         path.mkdir(mode=0o700)
@@ -71,9 +65,8 @@ def temporary_folder(folder: Path) -> Iterator[Path]:
 
 
 def remove_left_behind(folder: Path) -> None:
-    """Remove what processes of this machine that are gone have left in a folder; what cannot be removed stays.
-
-    What another user has made is no such thing, whatever its name, and a link is removed and never followed.
+    """Remove what ended processes of this machine and user have left in a folder; what cannot be removed stays. A link
+    is removed and never followed.
     """
     with contextlib.suppress(OSError):
         for path in [path for path in folder.iterdir() if path.name.startswith(PREFIX)]:

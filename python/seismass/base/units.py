@@ -15,7 +15,7 @@ STANDARD_GRAVITY: Final = _kernel.STANDARD_GRAVITY
 FOOT: Final = 0.3048
 """Foot (m), that of 1959, exact."""
 INCH: Final = 0.0254
-"""Inch (m), likewise."""
+"""Inch (m), exact."""
 POUND: Final = 0.45359237
 """Pound (kg), exact."""
 KIP: Final = 1e3 * POUND * STANDARD_GRAVITY
@@ -63,16 +63,8 @@ _G = re.compile(rf"[(\[]?[ \t]*(?:g(?:'s|ravity)?|({_PART_OF_G}))(?!\w)(?![ \t]*
 
 
 def acceleration_factor(unit: Any, owner: str, kind: type[SeismassError]) -> float:
-    """Return a unit of accelerations in m/s2, whatever its spelling; another one is refused.
-
-    Parameters
-    ----------
-    unit : str
-        "m/s2", "g", "cm/s2" or "gal", or another spelling of them.
-    owner : str
-        Whose unit it is, as errors name it.
-    kind : type
-        Class of the error.
+    """Return a unit of accelerations in m/s2 whatever its spelling; another one is refused. `owner` is whose unit it is
+    in errors of the class `kind`.
     """
     name = unit_by_name(unit) if isinstance(unit, str) else None
     if name is None:
@@ -81,10 +73,8 @@ def acceleration_factor(unit: Any, owner: str, kind: type[SeismassError]) -> flo
 
 
 def unit_by_name(name: str) -> str | None:
-    """Return a key of `ACCELERATION_UNITS` for any spelling of it, cm/s2 for gal, or None for another unit.
-
-    >>> [unit_by_name(name) for name in ("Gal", "cm/sec^2", "m/s/s", "G", "FT/S2", "% g", "cm/s")]
-    ['cm/s2', 'cm/s2', 'm/s2', 'g', 'ft/s2', '%g', None]
+    """Return a key of `ACCELERATION_UNITS` for any spelling of it ("cm/s2" for "Gal" or "cm/sec^2"), or None for
+    another unit.
     """
     text = name.strip().lower()
     return _SPELLINGS.get(text) or (stated_unit(text) if _PER_SECOND_SQUARED.fullmatch(text.strip("()[]")) else None)
@@ -97,7 +87,7 @@ def stated_unit(text: str) -> str | None:
 
 
 def unknown_unit(text: str) -> str | None:
-    """Return what a header states for a unit where it is none of `ACCELERATION_UNITS`, or several; else None."""
+    """Return the units that a header states where it is not a single one of `ACCELERATION_UNITS`; else None."""
     return None if stated_unit(text) else " and ".join(stated_units(text)) or None
 
 
@@ -128,9 +118,8 @@ def _part_of_g(said: str) -> str:
 
 
 def contradiction(text: str, unit: str) -> str | None:
-    """Return the unit that a header states where it is not `unit`, a key of `ACCELERATION_UNITS`; else None.
-
-    Words behind "units:" that are no unit ("see below") contradict nothing.
+    """Return the unit that a header states where it is not `unit`, a key of `ACCELERATION_UNITS`; else None. Words
+    behind "units:" that are no unit ("see below") contradict nothing.
     """
     found = [said for said in stated_units(text) if said in ACCELERATION_UNITS or _UNIT_LIKE.search(said)]
     same = ACCELERATION_UNITS[unit]

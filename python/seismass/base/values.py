@@ -177,10 +177,8 @@ _OF_LINES: Final = {ord("\n"): "\n", ord("\t"): "\t"}
 
 
 def printable(text: str, *, lines: bool = False) -> str:
-    """Return a name, or a part of a path, as text that can be shown and written to any file.
-
-    What is no text (bytes of a path that are no UTF-8, lone surrogates) and what acts on a terminal (control
-    characters, overrides of direction) become escapes; with `lines`, ends of lines and tabs stay.
+    """Return a name or path as text that can be shown and written: invalid bytes, lone surrogates, control characters
+    and overrides of direction become escapes. With `lines`, ends of lines and tabs stay.
     """
     shown = text.encode("utf-8", "backslashreplace").decode("utf-8")
     return shown.translate({**_SHOWN_AS_ESCAPES, **_OF_LINES} if lines else _SHOWN_AS_ESCAPES)
@@ -228,7 +226,7 @@ def as_number(value: Any, parameter: str, owner: str, kind: type[SeismassError])
 
 
 def is_one_of(value: Any, words: Iterable[str]) -> bool:
-    """Return whether a value is one of these words; one that is no text, as an array, is not."""
+    """Return whether a value is one of these words; False for what is not text, such as an array."""
     return isinstance(value, str) and value in words
 
 

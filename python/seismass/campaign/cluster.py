@@ -16,21 +16,8 @@ RETRIES: Final = 3
 
 @contextmanager
 def dask_executor(*, workers: int | None = None, scheduler: str | None = None) -> Iterator[Executor]:
-    """Give an executor of dask.distributed, and end what was started for it.
-
-    Parameters
-    ----------
-    workers : int, optional
-        Start so many worker processes on this machine, of one thread each.
-    scheduler : str, optional
-        Address of a scheduler that runs, as tcp://host:8786.
-
-    Raises
-    ------
-    MissingPackage
-        dask.distributed is not installed.
-    InvalidOption
-        The number is below 1, or no scheduler answers.
+    """Give an executor of dask.distributed, of so many single-thread `workers` on this machine or of the `scheduler` at
+    an address, and end what was started for it.
     """
     count = None if workers is None else as_count(workers, "workers", "campaign", InvalidOption, least=1)
     if scheduler is not None and not isinstance(scheduler, str):

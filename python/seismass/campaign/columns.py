@@ -45,12 +45,8 @@ RESIDUALS: Final = ("residual_drift", "residual_slip")
 
 
 def chosen_columns(columns: Iterable[str] | None, peaks_only: bool) -> tuple[str, ...]:
-    """Return the columns that parts have, in their order.
-
-    Raises
-    ------
-    InvalidOption
-        There is no such column, or none for runs of peaks only.
+    """Return the columns that parts have, in their order; unknown ones are refused, and those that runs of peaks only
+    lack.
     """
     known = [name for name in UNITS if not (peaks_only and name in RESIDUALS)]
     if columns is None:

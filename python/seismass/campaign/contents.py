@@ -22,12 +22,8 @@ _C = TypeVar("_C", bound=CampaignRuns)
 
 
 def campaign_in(folder: Path, kind: type[_C]) -> _C:
-    """Return the campaign of a folder, made again from what is in it.
-
-    Raises
-    ------
-    InvalidOption
-        The files of the folder do not belong together, or are not as they were written.
+    """Return the campaign of a folder, made again from its files; files that changed or do not belong together are
+    refused.
     """
     document = read_manifest(folder)
     axes, motions = (read_table(folder, name) for name in (AXES, MOTIONS))
@@ -51,13 +47,7 @@ def campaign_in(folder: Path, kind: type[_C]) -> _C:
 
 
 def read_table(folder: Path, name: str) -> pl.DataFrame:
-    """Return the table of axes or of motions.
-
-    Raises
-    ------
-    InvalidOption
-        It is not there, or not as it was written.
-    """
+    """Return the table of axes or of motions; one that is missing or damaged is refused."""
     path = folder / name
     problem = damage(path)
     if problem is not None:
@@ -66,15 +56,7 @@ def read_table(folder: Path, name: str) -> pl.DataFrame:
 
 
 def write_inputs(campaign: CampaignRuns, folder: Path) -> None:
-    """Write the tables of axes and motions that are missing, and refuse those that are not of this campaign.
-
-    Raises
-    ------
-    InvalidOption
-        A table is there that is damaged or of other values.
-    OSError
-        A file cannot be written.
-    """
+    """Write the tables of axes and motions that are missing; refuse those that are damaged or of other values."""
     for name, table in ((AXES, campaign.axes), (MOTIONS, motions_table(campaign.motions))):
         path = folder / name
         try:

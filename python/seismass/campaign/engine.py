@@ -38,9 +38,8 @@ def run_campaign(
     threads: int | None = None,
     progress: Any = None,
 ) -> None:
-    """Solve what is missing in the folder of a campaign; see `Campaign.run`. Parts that are there are checked first.
-
-    What a killed worker has left is removed at the end, or when the folder is next prepared.
+    """Solve what is missing in the folder of a campaign; see `Campaign.run`. Parts that are there are checked first;
+    files of killed workers are removed at the end, or when the folder is next prepared.
     """
     given = {"executor": executor, "workers": workers, "scheduler": scheduler}
     chosen = [name for name, value in given.items() if value is not None]

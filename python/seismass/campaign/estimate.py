@@ -13,14 +13,8 @@ SAMPLE: Final = 256
 
 
 class Estimate(NamedTuple):
-    """About what all runs take.
-
-    Attributes
-    ----------
-    seconds : float
-        Time by the threads of this process (s).
-    bytes : float
-        Size of the parts; those of larger ones are smaller, as they are compressed better.
+    """Estimate for all runs: seconds by the threads of this process, and bytes of the parts, which compress better as
+    they grow.
     """
 
     seconds: float
@@ -28,13 +22,7 @@ class Estimate(NamedTuple):
 
 
 def estimated(campaign: CampaignRuns, *, threads: int | None = None) -> Estimate:
-    """Return what all runs of a campaign take, by three stretches of it.
-
-    Raises
-    ------
-    KeyboardInterrupt
-        Ctrl-C was pressed.
-    """
+    """Return the estimate for all runs of a campaign, from three stretches of it."""
     size = min(SAMPLE, campaign.part_runs)
     solved, spent, written = 0, 0.0, 0
     for part in sorted({1, (campaign.parts + 1) // 2, campaign.parts}):

@@ -168,7 +168,7 @@ class CampaignFolder(Card):
     Raises
     ------
     InvalidOption
-        It is no folder of a campaign.
+        It is not a folder of a campaign.
     """
 
     path: Path
@@ -199,7 +199,7 @@ class CampaignFolder(Card):
         return self._there().files
 
     def strange(self) -> set[int]:
-        """Return the numbers of parts in whose place something else is: a folder, a link, a pipe."""
+        """Return the numbers of parts whose name a folder, a link or a pipe has."""
         return self._there().others
 
     def missing(self) -> Iterator[int]:

@@ -64,13 +64,7 @@ def manifest_of(campaign: CampaignRuns) -> dict[str, Any]:
 
 
 def read_manifest(folder: Path) -> dict[str, Any]:
-    """Return the manifest of a folder.
-
-    Raises
-    ------
-    InvalidOption
-        There is none, it is not one of this schema, or it is not as it was written.
-    """
+    """Return the manifest of a folder; a missing or damaged one and one of another schema are refused."""
     path = folder / MANIFEST
     try:
         found = json.loads(read_file(path))
@@ -104,13 +98,7 @@ def _digest(manifest: dict[str, Any]) -> str:
 
 
 def check_same(present: dict[str, Any], wanted: dict[str, Any], folder: Path) -> None:
-    """Refuse to go on in a folder whose rows come from elsewhere.
-
-    Raises
-    ------
-    InvalidOption
-        Another version, instruction set or input.
-    """
+    """Refuse to go on in a folder of another version, instruction set or input."""
     version = present["package_version"]
     if version != wanted["package_version"]:
         requirement = f"solved by seismass {wanted['package_version']}, the version that goes on"

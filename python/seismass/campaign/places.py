@@ -16,16 +16,8 @@ _PART: Final = re.compile(r"part-(\d{7,16})\.parquet")
 
 
 class Present(NamedTuple):
-    """The parts that are there, by their numbers from 1.
-
-    Attributes
-    ----------
-    files : set of int
-        Those that are files.
-    others : set of int
-        Names of parts that stand for something else: a folder, a link, a pipe.
-    bytes : int
-        Size of the files.
+    """The parts that are there, by their numbers from 1: `files`, `others` (a folder, link or pipe under the name of a
+    part), and the size of the files in bytes.
     """
 
     files: set[int]
@@ -39,13 +31,7 @@ def part_path(folder: Path, part: int) -> Path:
 
 
 def parts_present(folder: Path, most: int | None = None) -> Present:
-    """Return which parts are there, of those up to `most`; none where there is no folder of parts.
-
-    Raises
-    ------
-    OSError
-        The folder of parts cannot be read.
-    """
+    """Return which parts up to `most` are there; none where there is no folder of parts."""
     files, others, size = set(), set(), 0
     try:
         with os.scandir(folder / PARTS) as entries:

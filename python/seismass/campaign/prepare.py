@@ -20,15 +20,8 @@ _OURS: Final = (MANIFEST, AXES, MOTIONS, PARTS)
 
 
 def prepare(campaign: CampaignRuns, folder: Path) -> None:
-    """Make the folder of a campaign ready for its parts; what killed processes have left in it is removed.
-
-    Raises
-    ------
-    InvalidOption
-        It belongs to other inputs, another version or another instruction set, has other files, or has inputs that are
-        not as they were written.
-    OSError
-        It cannot be made or written to.
+    """Make the folder of a campaign ready for its parts and remove what killed processes left in it. A folder of other
+    inputs, another version or another instruction set, or with other files, is refused.
     """
     absolute = str(folder.absolute())
     if printable(absolute) != absolute:

@@ -17,22 +17,7 @@ _RANGE: Final = ("from", "to", "count", "spacing")
 
 
 def axis_values(table: Table, key: str, *, sampled: bool) -> Any:
-    """Return what a key of the table `grid` says: numbers, those of a range, or a distribution.
-
-    Parameters
-    ----------
-    table : Table
-        The table.
-    key : str
-        The key.
-    sampled : bool
-        Whether distributions are allowed.
-
-    Raises
-    ------
-    InvalidCampaignFile
-        A range or a distribution has an unknown or missing key, or a value that cannot be.
-    """
+    """Return what a key of the table `grid` says: numbers, those of a range, or, where `sampled`, a distribution."""
     value = table.values[key]
     if isinstance(value, dict):
         return _of_table(table.table(key), sampled)

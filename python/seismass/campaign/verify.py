@@ -33,13 +33,7 @@ def part_problem(folder: Path, sha256: str, part: int) -> str | None:
 
 
 def check_parts(folder: Path, sha256: str, parts: Iterable[int]) -> None:
-    """Refuse parts that are not whole or come from elsewhere.
-
-    Raises
-    ------
-    InvalidOption
-        A part is damaged, of other inputs or other runs, or no file.
-    """
+    """Refuse parts that are damaged, are not files, or belong to other inputs or other runs."""
     found = [(part, problem) for part in parts if (problem := part_problem(folder, sha256, part)) is not None]
     if found:
         part, problem = found[0]

@@ -34,26 +34,8 @@ class Done(NamedTuple):
 
 
 def solve_part(folder: str, sha256: str, part: int, threads: int | None) -> Done:
-    """Solve a part and write it, as a task.
-
-    Parameters
-    ----------
-    folder : str
-        Folder of the campaign, as the worker reaches it.
-    sha256 : str
-        Digest of the inputs, as the one who gives the task has it.
-    part : int
-        Number of the part, from 1.
-    threads : int or None
-        Threads of the kernel.
-
-    Raises
-    ------
-    InvalidOption
-        The folder cannot be reached by the worker, or has other inputs, or the worker another version or instruction
-        set.
-    OSError
-        The part cannot be written.
+    """Solve a part (from 1) and write it, as a task. A worker whose version, instruction set or folder does not agree
+    with the digest `sha256` of the inputs is refused.
     """
     require_polars("campaign")
     campaign = _campaign(folder, sha256)
@@ -63,12 +45,8 @@ def solve_part(folder: str, sha256: str, part: int, threads: int | None) -> Done
 
 
 def write_part(frame: pl.DataFrame, folder: Path, sha256: str, part: int) -> None:
-    """Write the rows of a part under its name, whole and on the disk. The folder, which may have many, is not listed.
-
-    Raises
-    ------
-    OSError
-        The file cannot be written, or the disk is full.
+    """Write the rows of a part under its name, whole and on the disk. The folder, which may have many parts, is not
+    listed.
     """
     path = part_path(folder, part)
     with reported_as(path), written_whole(path, durable=True, tidy=False) as temporary:

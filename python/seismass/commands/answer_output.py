@@ -35,39 +35,14 @@ class Answer(Protocol):
 def give_answer(
     args: argparse.Namespace, result: Answer, suite: Suite | Pairs, *, head: str = "", indent: int = 0, answer: str = ""
 ) -> None:
-    """Write the files of an answer and print it.
-
-    Parameters
-    ----------
-    args : argparse.Namespace
-        The options of `add_answer_options`.
-    result : Answer
-        The answer.
-    suite : Suite
-        Its motions. What they leave out is printed below the text, or on standard error beside JSON.
-    head : str
-        What is printed before the text, with its ends of lines.
-    indent : int
-        Spaces before what the motions leave out.
-    answer : str
-        As for `show`.
-
-    Raises
-    ------
-    OSError
-        A file cannot be written.
+    """Write the files of an answer and print it below `head`. What its motions leave out is printed below the text,
+    indented by `indent`, or on standard error beside JSON.
     """
     print_answer(args, result, suite, write_answer(args, result), head=head, indent=indent, answer=answer)
 
 
 def write_answer(args: argparse.Namespace, result: Answer) -> list[Path]:
-    """Write the files of an answer where the options ask for them, and return them.
-
-    Raises
-    ------
-    OSError
-        A file cannot be written.
-    """
+    """Write the files of an answer where the options ask for them, and return them."""
     return [] if args.out is None else result.write(args.out, figures=not args.no_figures)
 
 
@@ -97,13 +72,7 @@ def print_answer(
 
 
 def write_figure(figure: Figure, path: Path) -> None:
-    """Write one figure, PNG or SVG by the suffix of its file.
-
-    Raises
-    ------
-    OSError
-        The file cannot be written.
-    """
+    """Write one figure, PNG or SVG by the suffix of its file."""
     from seismass.base.files import written_whole
     from seismass.media.figure_file import save_figure
 

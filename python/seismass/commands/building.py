@@ -1,4 +1,4 @@
-"""`seismass building FILE`: how much of one's own building's live load to count as mass, its drifts and slips."""
+"""`seismass building FILE`: how much of your building's live load to count as mass, its drifts and slips."""
 
 from __future__ import annotations
 

@@ -14,22 +14,8 @@ from seismass.commands.help_text import HelpText
 
 @dataclass(frozen=True, kw_only=True)
 class Command:
-    """One subcommand.
-
-    Attributes
-    ----------
-    description : str
-        What it answers.
-    examples : str
-        What is typed, a line each, without the name of the program.
-    options : callable
-        Adds its options to a parser.
-    run : callable
-        Does it, of the options, and returns an exit code. Errors of the package and of the system leave it.
-    note : str
-        What is to be known besides, below the examples.
-    codes : mapping of int to str
-        Exit codes of its own, or with a meaning of its own, beside `ANY_COMMAND`.
+    """One subcommand: what it answers, examples without the name of the program, a function that adds its options, one
+    that runs and returns an exit code, and exit codes of its own beside `ANY_COMMAND`.
     """
 
     description: str

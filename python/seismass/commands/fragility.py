@@ -105,9 +105,8 @@ def run(args: argparse.Namespace) -> int:
 def models_of(
     scene: Scene, building: OwnBuilding | None, code_share: float | None
 ) -> tuple[dict[str, Scene], str, str]:
-    """Return the models of a scene or a building, what the code's has attached, and the limit by default.
-
-    The code's model of a building file has its code's fraction of the design live load, whatever is present.
+    """Return the models of a scene or a building, what the code's model has attached, and the default limit. The code's
+    model has the code's fraction of the design live load, whatever is present.
     """
     from seismass.assessment.models import with_mass
     from seismass.fragility import compared_models

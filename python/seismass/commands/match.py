@@ -129,14 +129,8 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _check_out(out: Path | None, given: Path, suite: Suite) -> None:
-    """Refuse what --out cannot be for these records, before they are matched.
-
-    Raises
-    ------
-    InvalidOption
-        A file for several records, a file of another kind, or one that would replace a record or stand among them.
-    OSError
-        The folder of a file is missing.
+    """Refuse what --out cannot be for these records, before they are matched: a file for several records, or one that
+    would replace a record or stand among them.
     """
     from seismass.base.errors import InvalidOption
     from seismass.matching.files import SUFFIXES

@@ -116,15 +116,7 @@ def add_records_options(group: argparse._ArgumentGroup) -> None:
 
 
 def read_motions(args: argparse.Namespace, default: BuiltinName = "forty") -> Suite:
-    """Return the suite that the options name.
-
-    Raises
-    ------
-    InvalidOption
-        A built-in suite is named beside --records.
-    RecordFormatError
-        As for `read_suite`.
-    """
+    """Return the suite that the options name; a built-in suite beside --records is refused."""
     from seismass.base.errors import InvalidOption
     from seismass.records import builtin_suite, read_suite
 
@@ -136,14 +128,8 @@ def read_motions(args: argparse.Namespace, default: BuiltinName = "forty") -> Su
 
 
 def read_pairs(args: argparse.Namespace) -> Pairs:
-    """Return the pairs that the options name: those of a folder, or the forty built-in ones.
-
-    Raises
-    ------
-    InvalidOption
-        Another built-in suite is named, which has no second components, or one beside --records.
-    RecordFormatError
-        As for `find_pairs`, or the folder has no pair.
+    """Return the pairs that the options name: those of a folder, or the forty built-in ones, the only suite with second
+    components.
     """
     from seismass.base.errors import InvalidOption, RecordFormatError
     from seismass.records import builtin_pairs, find_pairs
@@ -161,13 +147,7 @@ def read_pairs(args: argparse.Namespace) -> Pairs:
 
 
 def check_files(*paths: Path | None) -> None:
-    """Refuse files that cannot be written since their folder is missing, before anything is computed.
-
-    Raises
-    ------
-    OSError
-        A path is a folder, or its folder is none.
-    """
+    """Refuse files that cannot be written because their folder is missing, before anything is computed."""
     for path in paths:
         if path is None:
             continue
@@ -191,9 +171,8 @@ def warn_remarks(suite: Suite) -> None:
 
 
 def left_out(suite: Suite | Pairs) -> list[str]:
-    """Return a line for each file that the suite left out, with the reason, and for each of its remarks.
-
-    More than a few files are counted by reason.
+    """Return a line for each file that the suite left out, with the reason, and for each of its remarks. More than a
+    few files are counted by reason.
     """
     from seismass.base.values import printable
 
@@ -202,7 +181,7 @@ def left_out(suite: Suite | Pairs) -> list[str]:
     else:
         grouped: dict[str, list[str]] = {}
         for item in suite.excluded:
-            # What a reason says of one file, behind a colon, would make every group one of its own.
+            # Text after the colon is about a single file: with it, each file would be a group.
             reason = item.reason.partition(": ")[0] if item.reason.startswith("vertical") else item.reason
             grouped.setdefault(reason, []).append(printable(item.file.name))
         lines = [
@@ -221,13 +200,7 @@ def add_opensees_option(parser: argparse.ArgumentParser, what: str) -> None:
 
 
 def read_target(args: argparse.Namespace) -> TargetSpectrum:
-    """Return the target spectrum that the options describe.
-
-    Raises
-    ------
-    InvalidOption
-        --target is given together with a number of the ASCE 7 shape, T_L is below T_S, or as `target_of` says.
-    """
+    """Return the target spectrum that the options describe; --target excludes the numbers of the ASCE 7 shape."""
     from seismass.base.errors import InvalidOption
     from seismass.spectra import DEFAULT_SD1_G, DEFAULT_SDS_G, DEFAULT_TL, TargetSpectrum
 
@@ -245,13 +218,7 @@ def read_target(args: argparse.Namespace) -> TargetSpectrum:
 
 
 def read_site(args: argparse.Namespace, command: str) -> TargetSpectrum | None:
-    """Return the site spectrum that the options describe, to stand for a file's; None where they describe none.
-
-    Raises
-    ------
-    InvalidOption
-        One of S_DS and S_D1 is given without the other, or as for `read_target`.
-    """
+    """Return the site spectrum that the options describe, in place of a file's; None where they describe none."""
     from seismass.base.errors import InvalidOption
 
     if args.target is None:
@@ -281,13 +248,7 @@ def add_code_share_option(group: argparse._ActionsContainer, help: str) -> None:
 
 
 def read_code(args: argparse.Namespace, command: str) -> CodeFraction | None:
-    """Return the code that the options name, or None where they name none.
-
-    Raises
-    ------
-    InvalidOption
-        The code is not known, or a use is given without one.
-    """
+    """Return the code that the options name, or None where they name none."""
     from seismass.model.codes import code_fraction
 
     if args.code is None:
@@ -299,21 +260,8 @@ def read_code(args: argparse.Namespace, command: str) -> CodeFraction | None:
 def add_answer_options(
     parser: argparse.ArgumentParser, folder: str | None = None, *, seed: bool = False
 ) -> argparse._ArgumentGroup:
-    """Add --out, --jobs, --json and --no-figures, which `give_answer` reads, and --seed where something is drawn.
-
-    Parameters
-    ----------
-    parser : argparse.ArgumentParser
-        The parser.
-    folder : str, optional
-        Where files go by default; without it none are written unless --out says where.
-    seed : bool
-        Add --seed.
-
-    Returns
-    -------
-    group
-        The group of these options, for others of the kind.
+    """Add --out, --jobs, --json and --no-figures, which `give_answer` reads, and --seed where something is drawn;
+    return their group. Without `folder` files are written only where --out says so.
     """
     output = parser.add_argument_group("running and output")
     add_out_option(output, "DIR", f"folder to write tables and figures to ({folder or 'none'})", folder)
@@ -358,15 +306,7 @@ def add_plot_option(group: argparse._ActionsContainer, of_several: str = "") -> 
 
 
 def check_plot(args: argparse.Namespace, command: str) -> None:
-    """Refuse a figure of another suffix or in no folder, before anything is computed.
-
-    Raises
-    ------
-    InvalidOption
-        The suffix is another.
-    OSError
-        As for `check_files`.
-    """
+    """Refuse a figure of another suffix or in no folder, before anything is computed."""
     from seismass.base.errors import InvalidOption
 
     if args.plot is not None and args.plot.suffix.lower() not in FIGURE_SUFFIXES:
@@ -376,13 +316,7 @@ def check_plot(args: argparse.Namespace, command: str) -> None:
 
 
 def refuse_given(args: argparse.Namespace, names: Iterable[str], command: str, when: str) -> None:
-    """Refuse options that are not used, by the names of their values.
-
-    Raises
-    ------
-    InvalidOption
-        One of them is given.
-    """
+    """Refuse options that are not used, by the names of their values."""
     from seismass.base.errors import InvalidOption
 
     for name in names:
@@ -396,14 +330,8 @@ def refuse_given(args: argparse.Namespace, names: Iterable[str], command: str, w
 def numbers_option(
     count: int | None = None, *, above: float = -math.inf, least: float = -math.inf
 ) -> Callable[[str], tuple[float, ...]]:
-    """Return what reads a list of numbers, which are typed with commas or with spaces between them.
-
-    Parameters
-    ----------
-    count : int, optional
-        How many there must be; by default any number.
-    above, least : float
-        Bounds of each: larger than one, and not less than the other.
+    """Return a parser of a list of `count` numbers (default any), separated by commas or spaces, each above `above` and
+    not less than `least`.
     """
     kind = "positive " if above == 0.0 else ""
     bound = f" of at least {least:g}" if least > -math.inf else ""

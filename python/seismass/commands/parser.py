@@ -54,12 +54,8 @@ _EPILOG: Final = (
 
 
 def build_parser(only: str | None = None) -> argparse.ArgumentParser:
-    """Return the parser of the command line.
-
-    Parameters
-    ----------
-    only : str, optional
-        The one subcommand whose options are needed; others are listed alone. By default all of them.
+    """Return the parser of the command line; with `only`, that subcommand alone has its options and the others are only
+    listed.
     """
     parser = argparse.ArgumentParser(
         prog="seismass", description=_DESCRIPTION, epilog=_EPILOG, formatter_class=grouped(GROUPS)
@@ -81,9 +77,8 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
 
 
 def joined_numbers(words: Sequence[str]) -> Iterator[str]:
-    """Give the words of a command line, with the numbers that follow an option as one list with commas.
-
-    An option that took words up to the next one would take a file that follows, too.
+    """Yield the words of a command line, with numbers that follow an option joined by commas. An option that took words
+    up to the next one would take a file that follows, too.
     """
     run: list[str] = []
     after_option = False

@@ -16,14 +16,8 @@ Progress: TypeAlias = Callable[[int, int], None]
 
 @contextmanager
 def progress(unit: str = "runs") -> Iterator[Progress | None]:
-    """Give what a long function calls with its progress, or None where standard error is no terminal.
-
-    The bar goes again at the end, and where an error or Ctrl-C ends the work.
-
-    Parameters
-    ----------
-    unit : str
-        What is counted.
+    """Give the callback that shows progress in `unit`, or None where standard error is no terminal. The bar is removed
+    at the end, also after an error or Ctrl-C.
     """
     if not sys.stderr.isatty():
         yield None
@@ -88,18 +82,8 @@ def _time_left_column() -> Any:
 
 
 def seconds_left(done: int, total: int, first: int, told: float, now: float) -> float | None:
-    """Return the time left (s), at the rate so far; None before there is one.
-
-    Parameters
-    ----------
-    done, total : int
-        How much is done, and how much there is.
-    first : int
-        How much was done when the work began.
-    told : float
-        When the last of it was done, in seconds from then.
-    now : float
-        The present time, likewise.
+    """Return the time left (s) at the rate so far; None before there is one. `first` runs were done when the work
+    began; `told` is the time (s) of the last progress and `now` the present, from then.
     """
     if done <= first or told <= 0.0:
         return None

@@ -52,13 +52,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Print the classes; return the exit code.
-
-    Raises
-    ------
-    InvalidOption
-        Options that do not go together, or a figure of another suffix.
-    """
+    """Print the classes; return the exit code."""
     from seismass.base.errors import InvalidOption
 
     check_plot(args, "pulse")
@@ -79,14 +73,8 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _groups(args: argparse.Namespace) -> list[Record | Pair]:
-    """What is judged: one component, two, or every pair of a folder; says on standard error what is in no pair.
-
-    Raises
-    ------
-    InvalidOption
-        A second record, a step or a unit beside a folder, or a number of components that are neither one nor two.
-    InvalidMotion
-        A folder without a pair.
+    """Return what is judged: one component, two, or every pair of a folder; report on standard error what is in no
+    pair.
     """
     from seismass.base.errors import InvalidMotion, InvalidOption
     from seismass.records import Pair, Suite, find_pairs, read_record

@@ -31,13 +31,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Print the table or the report; return the exit code.
-
-    Raises
-    ------
-    InvalidOption
-        Both a path and --find are given, or --dt or --unit without a path.
-    """
+    """Print the table or the report; return the exit code."""
     from seismass.base.errors import InvalidOption
 
     if args.path is not None and args.find is not None:
@@ -56,9 +50,8 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _read(path: Path, given: Reading) -> Suite:
-    """The records of a path; of a file every channel, vertical ones too, and of a folder or an archive every file.
-
-    What cannot be read stands among what is left out, since the command is there to look.
+    """Return the records of a path: every channel of a file, vertical ones too, or every file of a folder or archive.
+    What cannot be read is listed as left out, since the command is there to look.
     """
     from seismass.records import Suite
     from seismass.records import read_records as read_channels
@@ -80,7 +73,7 @@ def _read(path: Path, given: Reading) -> Suite:
 
 
 def _all_of(folder: Path, named: Path) -> Suite:
-    """Every record below a folder that is called by a path, with what is none."""
+    """Every record below a folder, which messages call `named`, and the files that are not records."""
     from seismass.base.errors import RecordFormatError
     from seismass.base.values import printable
     from seismass.records import Excluded, Suite

@@ -53,16 +53,8 @@ def doubts_of_input(
     limits: Iterable[tuple[str, float]],
     motions: Any = (),
 ) -> tuple[str, ...]:
-    """Return what makes the input of a study doubtful: of a scene, its limits and motions, and of a building file.
-
-    Parameters
-    ----------
-    scene, building
-        As `read_scene_or_building` returns them.
-    target : TargetSpectrum or None
-        Site spectrum in place of the file's.
-    limits, motions
-        As for `usage_remarks`.
+    """Return what makes the input of a study doubtful: of a scene its limits and motions, of a building its file.
+    `target` stands in place of the site spectrum of the file.
     """
     from seismass.assessment.doubts import building_doubts
     from seismass.model.plausibility import usage_remarks
@@ -72,15 +64,7 @@ def doubts_of_input(
 
 
 def with_doubts(result: Doubtable, doubts: tuple[str, ...]) -> tuple[Doubtable, str]:
-    """Return a result whose remarks begin with the doubts, and the lines that stand before its text.
-
-    Parameters
-    ----------
-    result : dataclass with remarks
-        The result.
-    doubts : tuple of str
-        Of `doubts_of_input`.
-    """
+    """Return a result whose remarks begin with the doubts, and the lines that stand before its text."""
     from seismass.assessment.answer import doubt_lines
 
     merged: Any = replace(cast("Any", result), remarks=tuple(dict.fromkeys([*doubts, *result.remarks])))
@@ -98,25 +82,8 @@ def is_building_file(path: Path) -> bool:
 def read_scene_or_building(
     path: Path, target: TargetSpectrum | None = None, *, only_site: str = ""
 ) -> tuple[Scene, OwnBuilding | None]:
-    """Return the scene of a scene file or a building file, and the building of the latter.
-
-    Parameters
-    ----------
-    path : Path
-        The file. A building file has tables that no scene file has.
-    target : TargetSpectrum, optional
-        Site spectrum of a building file, in place of its own.
-    only_site : str
-        Name of a command that needs the target as a site alone, which a scene file has not.
-
-    Raises
-    ------
-    InvalidSceneFile, InvalidScene
-        It cannot be read, or as for `read_scene`.
-    InvalidBuildingFile
-        As for `read_building`.
-    InvalidOption
-        A site is given that nothing needs.
+    """Return the scene of a scene file or a building file (which has tables that no scene file has) and the building of
+    the latter. `only_site` names a command that needs a site spectrum, which a scene file lacks.
     """
     from seismass.assessment.building_file import read_building
     from seismass.base.errors import InvalidOption

@@ -92,14 +92,8 @@ def run(args: argparse.Namespace) -> int:
 
 
 def parse_clearance(text: str, *, plane: bool = False) -> Clearance:
-    """Return a clearance from its text: a distance for both sides, or one for each with a comma between.
-
-    In two directions four are those of both sides of x and of y; a distance after @ is one in any direction.
-
-    Raises
-    ------
-    InvalidOption
-        It cannot be read.
+    """Return a clearance from its text: a distance for both sides, or one for each, separated by a comma; in two
+    directions four for the sides of x and y. A distance after @ is one in any direction.
     """
     from seismass.base.errors import InvalidOption
     from seismass.base.values import brief, refusal
@@ -123,13 +117,7 @@ def parse_clearance(text: str, *, plane: bool = False) -> Clearance:
 
 
 def _per_block(name: str, given: list[str], blocks: int, parse: Any) -> list[Any] | None:
-    """What is given for all blocks or for single ones, one per block; None where nothing is given.
-
-    Raises
-    ------
-    InvalidOption
-        A block is not there or named twice.
-    """
+    """Return one value per block from values for all blocks or for single ones; None where nothing is given."""
     from seismass.base.errors import InvalidOption
     from seismass.base.values import refusal
 
@@ -155,14 +143,8 @@ def _targeted(args: argparse.Namespace) -> bool:
 def _motions(
     args: argparse.Namespace, target: TargetSpectrum | None, default: float, *, plane: bool
 ) -> tuple[Suite | Pairs, str, list[Any]]:
-    """The suite as it is, how it is scaled, and the motions; without --period to a target for T = `default` (s).
-
-    Scenes in two directions (`plane`) take pairs.
-
-    Raises
-    ------
-    InvalidOption
-        A factor stands beside a target, or a period without one.
+    """Return the suite as it is, how it is scaled, and the motions; without --period it is scaled to a target at T =
+    `default` (s). Scenes in two directions (`plane`) take pairs.
     """
     from seismass.scaling import scale_asce7_10
 

@@ -11,7 +11,7 @@ from seismass.media.fit_text import fitted_blocks, is_row
 
 
 def columns() -> int | None:
-    """Return the width of the terminal, which COLUMNS may state; None where standard output is none."""
+    """Return the width of the terminal, which COLUMNS may state; None where standard output is not a terminal."""
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
 
 
@@ -22,15 +22,7 @@ def shows_bold() -> bool:
 
 
 def show(text: str, answer: str = "") -> None:
-    """Print lines.
-
-    Parameters
-    ----------
-    text : str
-        The lines.
-    answer : str
-        Pattern of the beginnings of lines that are the answer; by default there is none.
-    """
+    """Print lines; those whose beginning matches the pattern `answer` are the answer and stand out."""
     width = columns()
     if width is None:
         print(text)

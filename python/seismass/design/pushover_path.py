@@ -15,7 +15,7 @@ from seismass.model.building import Building
 _TIE: Final = 1e-12
 """Relative difference of base shears up to which storeys reach a corner together."""
 _FLAT: Final = 1e-13
-"""Tangent over the initial stiffness up to which it is none: what rounding leaves of a difference of two."""
+"""Tangent over the initial stiffness up to which it counts as zero: rounding of a difference of two tangents."""
 _MOST_TURNS: Final = 20
 """Turns of directions, per storey, after which they are taken not to be found."""
 
@@ -173,10 +173,8 @@ class WallPath(Path):
         self._step(rates / largest, slope / largest)
 
     def _rates(self, start: FloatArray, tangents: tuple[FloatArray, FloatArray], slope: float) -> FloatArray | None:
-        """Drifts for a base shear of plus or minus 1, each by the tangent of its own direction; None where not found.
-
-        Directions are turned one by one, the lowest storey first, which ends where the stiffness is positive definite
-        in every direction (Murty 1974, Linear Algebra Appl. 9:1, on linear complementarity).
+        """Drifts for a base shear of plus or minus 1, each by the tangent of its direction; None where not found.
+        Lowest first, directions are turned (Murty 1974, Linear Algebra Appl. 9:1); ends if positive definite in all.
         """
         signs = start.copy()
         for _ in range(_MOST_TURNS * len(signs)):

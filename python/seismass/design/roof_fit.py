@@ -19,16 +19,8 @@ _STARTS: Final = (1.0, 0.8, 1.25)
 
 
 def roof_shear(springs: list[FittedSpring], share: FloatArray, roof: FloatArray) -> FloatArray:
-    """Return the base shear (N) at displacements of the roof (m) of storeys in series whose slopes do not fall.
-
-    Parameters
-    ----------
-    springs : list of FittedSpring
-        The storeys.
-    share : ndarray, shape (storeys,)
-        Share of the base shear in each storey.
-    roof : ndarray
-        Displacements (m).
+    """Return the base shear (N) at roof displacements (m) of storeys in series whose slopes do not fall; `share` is
+    that of the base shear in each storey.
     """
     knots = []
     for spring, part in zip(springs, share, strict=True):
@@ -54,18 +46,8 @@ def fitted_storeys(
     strength: FloatArray,
     shape: SpringShape,
 ) -> list[FittedSpring] | None:
-    """Return the springs of least squares to a curve of the whole building; None where the curve does not bend.
-
-    Parameters
-    ----------
-    roof, shear : ndarray, shape (n,)
-        Displacements of the roof (m) that grow from 0, and base shears (N).
-    share : ndarray, shape (storeys,)
-        Share of the base shear in each storey.
-    stiffness, strength : ndarray, shape (storeys,)
-        Relative stiffnesses and strengths of the storeys, of any scale.
-    shape : {"bilinear", "trilinear"}
-        Lines of every spring; slopes and overstrength are alike in all storeys.
+    """Return the least-squares springs for a curve of roof displacement (m) and base shear (N); None where it does not
+    bend. Slopes and overstrength are alike in all storeys; stiffness and strength are relative.
     """
     from scipy.optimize import least_squares
 

@@ -24,15 +24,7 @@ _LEAST_SLOPE: Final = 1e-6
 
 @dataclass(frozen=True)
 class FittedSpring:
-    """A spring as `Building` takes it.
-
-    Attributes
-    ----------
-    stiffness, yield_shear : float
-        First slope (N/m) and yield shear (N).
-    overstrength, second_slope, third_slope : float
-        As in `Building`; of two lines the overstrength is 1 and both slopes are the second one.
-    """
+    """A spring as `Building` takes it (N/m, N); with two lines the overstrength is 1 and both slopes are the second."""
 
     stiffness: float
     yield_shear: float
@@ -66,20 +58,8 @@ def sample_weights(drift: FloatArray) -> FloatArray:
 
 
 def fitted_spring(drift: FloatArray, shear: FloatArray, shape: SpringShape) -> FittedSpring | None:
-    """Return the spring of least squares to a curve from the origin; None where the curve does not bend.
-
-    Parameters
-    ----------
-    drift, shear : ndarray, shape (n,)
-        Drifts (m) that grow from 0, and shears (N).
-    shape : {"bilinear", "trilinear", "capped"}
-        Its lines.
-
-    Notes
-    -----
-    For given corners c the curve is a sum of a_j min(d, c_j) and of a d, elastic-plastic elements and a linear one in
-    parallel, whose coefficients follow from non-negative least squares (Lawson and Hanson 1974): slopes then never
-    grow. The corners are searched among the samples, and from the best of those by least squares.
+    """Return the least-squares spring of a curve from the origin, drifts in m and shears in N; None where it does not
+    bend. For given corners, slopes by non-negative least squares (Lawson and Hanson 1974) never grow.
     """
     from scipy.optimize import least_squares, nnls
 

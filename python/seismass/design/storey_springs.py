@@ -139,15 +139,7 @@ class PeakOrientedSpring:
 
 
 def storey_spring(building: Building, storey: int) -> StoreySpring:
-    """Return the virgin spring of a storey.
-
-    Parameters
-    ----------
-    building : Building
-        The building.
-    storey : int
-        Number of the storey, from 0.
-    """
+    """Return the virgin spring of a storey, numbered from 0."""
     springs = {name: float(values[storey]) for name, values in building.springs.items()}
     k, v_y, clearance = springs["stiffness"], springs["yield_shear"], springs["clearance"]
     points = None if building.backbone is None else building.backbone[storey]

@@ -47,24 +47,8 @@ def first_bracket(shares: FloatArray, model: FloatArray, real: float) -> tuple[f
 
 
 def extended(values: FloatArray, shares: FloatArray, model: FloatArray, real: FloatArray) -> FloatArray:
-    """Return effective fractions of curves in which a model that drifts less at share 1 goes on to larger shares.
-
-    Parameters
-    ----------
-    values : ndarray, shape (curves,)
-        Fractions within 0 and 1, as of `interpolated`.
-    shares : ndarray, shape (beyond,)
-        Shares from 1 on, 1 included.
-    model : ndarray, shape (curves, beyond)
-        Drift of the model there.
-    real : ndarray, shape (curves,)
-        Drift of the real building.
-
-    Returns
-    -------
-    ndarray, shape (curves,)
-        The smallest share above 1 that gives the real drift, by linear interpolation, where the model drifts less at 1:
-        the largest share where none does.
+    """Return the smallest share above 1 at which the model has the real drift, by linear interpolation, for curves
+    whose model drifts less at 1; the largest share where there is none. `model` has shape (curves, beyond).
     """
     below = is_below(model, np.broadcast_to(real[:, None], model.shape))
     found = values.copy()

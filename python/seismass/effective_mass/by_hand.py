@@ -54,10 +54,8 @@ class ByHand:
 
 
 def by_hand(scene: Scene, motions: NamedMotions, full: Peaks, drift: DriftMeasure = LARGER) -> ByHand:
-    """Return what the rule says of the building of a scene; `full` has the peaks of the fully attached model.
-
-    Goods on racks count as if they stood on the floor of the rack. In two directions the building is that in y where
-    `drift` is, else that in x, and the motions are all components.
+    """Return what the rule says of the building of a scene; `full` has the peaks of the fully attached model. Goods on
+    racks count on the floor of the rack; in two directions it is that in y if `drift` is, else in x.
     """
     if drift == "y" and isinstance(scene.other_direction, Building):
         scene = scene.replace(building=scene.other_direction, other_direction=True)

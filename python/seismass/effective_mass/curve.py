@@ -81,7 +81,7 @@ def interpolated_roots(fractions: FloatArray, model: FloatArray, real: FloatArra
     roots = []
     for low, high in crossings(fractions, model, real):
         k = int(np.searchsorted(fractions, low))
-        with np.errstate(invalid="ignore"):  # where both collapse the difference is no number
+        with np.errstate(invalid="ignore"):  # where both collapse the difference is NaN
             ends = model[k : k + 2] - real[k : k + 2]
         weight = -ends[0] / (ends[1] - ends[0]) if np.isfinite(ends).all() else 0.5
         roots.append(low + float(weight) * (high - low))
@@ -89,9 +89,8 @@ def interpolated_roots(fractions: FloatArray, model: FloatArray, real: FloatArra
 
 
 def refined_root(difference: Callable[[float], float], bracket: tuple[float, float]) -> float:
-    """Return the root of a difference of drifts, relative to the real one, within a bracket.
-
-    A model that collapses differs by infinity, from which no interpolation can be made: then the bracket is halved.
+    """Return the root of a difference of drifts, relative to the real one, within a bracket. A model that collapses
+    differs by infinity, which cannot be interpolated: then the bracket is halved.
     """
     from scipy.optimize import bisect, brentq  # slow to import
 
@@ -106,19 +105,8 @@ def refined_root(difference: Callable[[float], float], bracket: tuple[float, flo
 
 
 def interpolated(fractions: FloatArray, model: FloatArray, real: FloatArray) -> FloatArray:
-    """Return the effective fraction of each of several curves by linear interpolation between points of the grid.
-
-    Parameters
-    ----------
-    fractions : ndarray, shape (shares,)
-        Shares from 0 to 1.
-    model, real : ndarray, shape (curves, shares)
-        Drift of the model and of the real building.
-
-    Returns
-    -------
-    ndarray, shape (curves,)
-        The smallest share from which on the model never drifts less than the real building; 1 where it does at 1.
+    """Return the smallest share from which on the model never drifts less than the real building, by linear
+    interpolation, for `model` and `real` of shape (curves, shares); 1 where it does at 1.
     """
     below = is_below(model, real)
     last = below.shape[1] - 1 - np.argmax(below[:, ::-1], axis=1)
@@ -142,25 +130,8 @@ def resampled(
     resamples: int,
     seed: int,
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the statistic of model and real drifts in bootstrap resamples of the records, both drawn together.
-
-    Parameters
-    ----------
-    model : ndarray, shape (shares, records)
-        Largest drift of the model.
-    real : ndarray, shape (1, records) or (shares, records)
-        Largest drift of the real building.
-    statistic : {"mean", "median"}
-        What is taken over the records.
-    cluster_of : ndarray of int, shape (records,)
-        Cluster of each record, from 0; records of one cluster are drawn together.
-    resamples, seed : int
-        Number of resamples; seed of the draws.
-
-    Returns
-    -------
-    model, real : ndarray, shape (resamples, shares)
-        Statistic of each resample.
+    """Return the statistic of model and real drifts, each of shape (resamples, shares), in bootstrap resamples of the
+    records, both drawn together and the records of one cluster together.
     """
     weights = bootstrap_counts(cluster_of, resamples, seed)
     model_drift, real_drift = (_weighted(values, weights, statistic) for values in (model, real))

@@ -204,10 +204,8 @@ class EffectiveMassMap(Result):
 
 @dataclass(frozen=True, slots=True)
 class _Loaded:
-    """One building with one load and one strength: its scenes differ in friction alone.
-
-    `elastic` is V_e over the full weight, of the motions at intensity 1 with all goods attached, `attached_period` the
-    first period of that model.
+    """One building with one load and one strength: its scenes differ in friction alone. `elastic` is V_e over the full
+    weight at intensity 1, `attached_period` the first period, both with all goods attached.
     """
 
     labels: dict[str, Any]

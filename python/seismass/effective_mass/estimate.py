@@ -36,7 +36,7 @@ LONGEST_RATIO: Final = 1.5
 RULE: Final = "min(1, eta_h^p)"
 """The best estimate, as texts and tables name it."""
 SAFE_RULE: Final = "min(1, eta_h)"
-"""The conservative estimate, likewise."""
+"""The conservative estimate, in the same form."""
 RULE_IN_WORDS: Final = (
     "eta_h = mu_k/(C1 sqrt(h_g/h_m)); p = 1.2 (1 + x) where the building yields, 1 + x/2 where it is elastic, "
     "x = T/T_c, at most 1.5"
@@ -54,23 +54,8 @@ def _numbers(values: ArrayLike) -> FloatArray:
 
 
 def exponent(period: ArrayLike, corner_period: ArrayLike, yields: ArrayLike) -> FloatArray:
-    """Return the exponent p of the rule.
-
-    Parameters
-    ----------
-    period : array_like
-        First period of the building without goods (s).
-    corner_period : array_like
-        T_c of the motions (s), as `seismass.spectra.corner_period` takes it from their mean spectrum; T_S = S_D1/S_DS
-        of a site whose motions follow its spectrum.
-    yields : array_like of bool
-        Whether the building yields with all goods attached.
-
-    Examples
-    --------
-    >>> from seismass.effective_mass.estimate import exponent
-    >>> exponent(0.5, 0.5, [True, False]).tolist()
-    [2.4, 1.5]
+    """Return the exponent p of the rule. `corner_period` is T_c of the motions (s), or T_S = S_D1/S_DS of a site;
+    `yields` says whether the building yields with all goods attached.
     """
     ratio = np.minimum(_numbers(period) / _numbers(corner_period), LONGEST_RATIO)
     found: FloatArray = np.where(yields, YIELDING_FACTOR * (1.0 + ratio), 1.0 + ELASTIC_GROWTH * ratio)
@@ -78,20 +63,8 @@ def exponent(period: ArrayLike, corner_period: ArrayLike, yields: ArrayLike) -> 
 
 
 def height_ratio(goods: ArrayLike, mass: ArrayLike, heights: ArrayLike | None = None) -> float:
-    """Return h_g/h_m: mean height of the goods by mass, over that of building and goods together; 1 without goods.
-
-    Parameters
-    ----------
-    goods, mass : array_like, shape (storeys,)
-        Mass of the goods and of the floor without them (kg), lowest floor first.
-    heights : array_like, shape (storeys,), optional
-        Storey heights (m); equal where they are left out.
-
-    Examples
-    --------
-    >>> from seismass.effective_mass.estimate import height_ratio
-    >>> round(height_ratio([1.0, 1.0, 0.0], [1.0, 1.0, 1.0]), 4)  # 1.5 over 9/5
-    0.8333
+    """Return h_g/h_m, the mean height by mass of the goods over that of building and goods together; 1 without goods.
+    Masses in kg, lowest floor first; storey heights are equal where left out.
     """
     loads, floors = _numbers(goods), _numbers(mass)
     if not loads.any():
@@ -101,22 +74,8 @@ def height_ratio(goods: ArrayLike, mass: ArrayLike, heights: ArrayLike | None = 
 
 
 def best_estimate(eta: ArrayLike, power: ArrayLike, heights: ArrayLike = 1.0) -> FloatArray:
-    """Return the best estimate min(1, eta_h^p) of the effective fraction.
-
-    Parameters
-    ----------
-    eta : array_like
-        mu_k over the base shear coefficient with all goods attached.
-    power : array_like
-        p, see `exponent`.
-    heights : array_like
-        h_g/h_m, see `height_ratio`.
-
-    Examples
-    --------
-    >>> from seismass.effective_mass.estimate import best_estimate, exponent
-    >>> float(best_estimate(0.6, exponent(0.2, 0.5, True)).round(3))
-    0.424
+    """Return the best estimate min(1, eta_h^p) of the effective fraction; eta is mu_k over the base shear coefficient
+    with all goods attached, `power` from `exponent`, `heights` from `height_ratio`.
     """
     found: FloatArray = np.minimum(1.0, (_numbers(eta) / np.sqrt(_numbers(heights))) ** _numbers(power))
     return found
@@ -135,31 +94,8 @@ def base_shear_by_hand(
     second_slope: ArrayLike,
     overstrength: ArrayLike,
 ) -> FloatArray:
-    """Return the base shear coefficient C1 without any run.
-
-    The smaller of 1.07 V_e/W and (V_y/W) min(Omega, 1 + r2 (m - 1)), with the ductility demand
-    m = 1 + (V_e/V_y - 1)(1 + 0.6 T_c/T): equal displacement at long periods, more at short ones, as in Newmark and
-    Hall's and in Eurocode 8's rules.
-
-    Parameters
-    ----------
-    yield_coefficient : array_like
-        V_y of storey 1 over the weight W of building and goods; infinite where it is elastic.
-    elastic_coefficient : array_like
-        V_e/W: base shear of an elastic analysis with all goods attached, over W. Of one storey it is Sa/g at `period`;
-        otherwise some 0.9 Sa/g.
-    period : array_like
-        First period with all goods attached (s).
-    corner_period : array_like
-        T_c of the motions (s).
-    second_slope, overstrength : array_like
-        r2 and Omega of storey 1.
-
-    Examples
-    --------
-    >>> from seismass.effective_mass.estimate import base_shear_by_hand
-    >>> float(base_shear_by_hand(0.15, 0.6, 0.5, 0.5, 0.05, 2.0).round(4))
-    0.186
+    """Return C1, the smaller of 1.07 V_e/W and (V_y/W) min(Omega, 1 + r2 (m - 1)) with the ductility demand m = 1 +
+    (V_e/V_y - 1)(1 + 0.6 T_c/T), similar to Newmark and Hall's and Eurocode 8's rules.
     """
     strength, elastic = _numbers(yield_coefficient), _numbers(elastic_coefficient)
     beyond_yield = np.maximum(elastic / strength - 1.0, 0.0)

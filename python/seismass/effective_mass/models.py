@@ -89,19 +89,8 @@ def attached(scene: Scene, fraction: float, damping: ModelDamping) -> Scene:
 
 
 def base_of_model(scene: Scene, mass: FloatArray) -> SlidingBase | None:
-    """Return the sliding base under a model of the building of a scene; None where the scene has none.
-
-    Parameters
-    ----------
-    scene : Scene
-        Building and goods, those on the slab included.
-    mass : ndarray, shape (storeys,)
-        Mass of the floors of the model (kg).
-
-    Returns
-    -------
-    SlidingBase
-        Its friction and restoring force are those of the weight of the scene, whatever mass the model has.
+    """Return the sliding base under a model of the building of a scene; None where the scene has none. Friction and
+    restoring force stay those of the weight of the scene, whatever the floor masses (kg) of the model.
     """
     if scene.base is None:
         return None
@@ -155,9 +144,8 @@ def full_weight(scene: Scene) -> float:
 
 
 def friction(scene: Scene) -> float:
-    """Return the kinetic friction coefficient of the goods that may slide above the ground, averaged by mass.
-
-    Infinite where there are none: all goods are fixed to racks.
+    """Return the mass-weighted mean kinetic friction coefficient of the goods that may slide above the ground; infinite
+    where all goods are fixed.
     """
     on_floor = np.array(scene.goods_floor, dtype=np.int64) > 0
     of_racks = (mass for rack in scene.racks for mass in rack.sliding_masses(scene.building))

@@ -41,20 +41,8 @@ def solve_plane(
     threads: int | None,
     progress: Progress | None,
 ) -> Solved:
-    """Solve scenes in two directions, with friction on the circle.
-
-    Parameters
-    ----------
-    scenes : sequence of Scene
-        Of equal number of storeys.
-    pairs : two sequences of Motion
-        Motions in x and in y.
-    runs : ndarray of int, shape (runs, 2)
-        Index of scene and of motion of each run.
-    measure : {"larger", "vector", "x", "y"}
-        Which drift. The base shear is that of the direction; of "larger" and "vector" the mean of both directions.
-    threads, progress
-        As for `solve`.
+    """Solve scenes in two directions, with friction on the circle; `runs` has rows of scene and motion. The base shear
+    is that of the direction `measure`; of "larger" and "vector" the mean of both.
     """
     (vector, _), (x, of_x), (y, of_y) = _kernel.simulate_many_plane(
         [scene._plane for scene in scenes if scene._plane is not None],

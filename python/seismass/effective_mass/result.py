@@ -193,7 +193,7 @@ class EffectiveMass(Result):
         raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything but the curve as plain values; null for what is no finite number."""
+        """Return everything but the curve as plain values; null for what is not finite."""
         names = ["value", "kind", "roots", "interval", "confidence", "statistic", "real", "model", "unit", "excess"]
         names += ["suite_interval"]
         names += ["eta", "base_shear_coefficient", "estimate", "conservative", "collapses", "remarks"]

@@ -74,18 +74,8 @@ to 1.6."""
 
 
 def compared(ratio: FloatArray) -> dict[str, Any]:
-    """Return how model over real drift is distributed over some cases.
-
-    Parameters
-    ----------
-    ratio : ndarray, shape (cases,)
-        Drift of the model over that of the real building.
-
-    Returns
-    -------
-    dict
-        cases; bias, the geometric mean; log_scatter, the standard deviation of the logarithm; unsafe, the share of
-        cases in which the real building drifts more than 1.05 times the model; low, high: 5 and 95 %; worst, the least.
+    """Return how model over real drift is distributed: geometric mean (bias), standard deviation of the logarithm,
+    share of cases below 1/1.05 (unsafe), 5 and 95 %, and the least (worst).
     """
     logarithm = np.log(ratio)
     return {

@@ -26,18 +26,8 @@ _STATUS = _kernel.Batch.status_names()
 
 @dataclass(frozen=True, slots=True)
 class NamedMotions:
-    """Motions with what their sources call them.
-
-    Attributes
-    ----------
-    motions : list of Motion
-        The motions, as the kernel takes them.
-    names : list of str
-        Name of each record; "motion 3" where it has none.
-    events : list of str
-        Earthquake of each record; empty where it is not known, and of a synthetic motion.
-    others : list of Motion or None
-        Motions in y of pairs, whose motions in x are `motions`; None where there is one direction.
+    """Motions as the kernel takes them with names and events of their records ("motion 3" without a name, empty for an
+    unknown event); `others` are those in y of pairs, whose motions in x are `motions`.
     """
 
     motions: list[Motion]
@@ -59,7 +49,7 @@ class NamedMotions:
 
     @property
     def cluster_of(self) -> NDArray[np.int64]:
-        """Number of the earthquake of each motion, from 0; one of its own where it is not known."""
+        """Number of the earthquake of each motion, from 0; a motion without a known one has its own number."""
         names = [event or number for number, event in enumerate(self.events)]
         numbers = {name: number for number, name in enumerate(dict.fromkeys(names))}
         return np.array([numbers[name] for name in names])
@@ -102,20 +92,8 @@ def _event(motion: Any) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Peaks:
-    """Peaks of scenes under motions.
-
-    Attributes
-    ----------
-    drift : ndarray, shape (scenes, motions, storeys)
-        Peak drift (m), or drift ratio where heights are known; infinite in a run that collapsed. In two directions
-        that of `solve`'s `drift`.
-    base_shear : ndarray, shape (scenes, motions)
-        Peak shear of storey 1 (N), until the collapse where there is one; with the share of walls. In two directions
-        that of the direction, or the mean of both.
-    slides : ndarray of bool, shape (scenes, motions)
-        Whether a block on a floor slid.
-    collapsed : ndarray of bool, shape (scenes, motions)
-        Whether the run collapsed.
+    """Peaks of scenes under motions: drift (m, or ratio where heights are known; infinite after a collapse), base shear
+    (N, until a collapse, with the share of walls), and whether goods slid and the run collapsed.
     """
 
     drift: FloatArray
@@ -152,17 +130,8 @@ def solve(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Peaks:
-    """Solve scenes of equal number of storeys, all of them of the same engine, under all motions.
-
-    Scenes in two directions take pairs, and `drift` says which drift counts; without goods each direction is solved by
-    itself, as nothing couples them.
-
-    Raises
-    ------
-    SimulationError
-        A run could not be carried to its end.
-    KeyboardInterrupt
-        Ctrl-C was pressed.
+    """Solve scenes of equal number of storeys, all of one engine, under all motions. Scenes in two directions take
+    pairs, and `drift` says which drift counts; without goods each direction is solved alone.
     """
     threads, progress = as_threads(threads, "runs"), as_progress(progress, "runs")
     if scenes[0].engine == "plane" and are_uncoupled(scenes, drift):

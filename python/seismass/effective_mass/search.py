@@ -100,20 +100,8 @@ def checked_options(
 
 @dataclass(frozen=True, slots=True)
 class Search:
-    """Everything that is needed to go from drifts at the shares of a grid to the answer.
-
-    Attributes
-    ----------
-    motions : NamedMotions
-        The suite.
-    options : Options
-        How the fraction is sought.
-    at : callable
-        Takes a share, returns the peaks of the real building and of the model there, one scene each.
-    scene_at : callable
-        Takes a share, returns the scene with sliding goods.
-    beyond : Peaks, optional
-        Peaks of the models at `SHARES_BEYOND`; None where no share above 1 is sought.
+    """What leads from drifts at the shares of a grid to the answer. `at` gives the peaks of real building and model at
+    a share, `scene_at` the scene with sliding goods; `beyond` is None where no share above 1 is sought.
     """
 
     motions: NamedMotions

@@ -26,16 +26,8 @@ Designed: TypeAlias = Building | tuple[Building, Building]
 
 @dataclass(frozen=True, slots=True)
 class Solved:
-    """Peaks of a real building and of its models at every share of a grid; answers need few further runs.
-
-    Attributes
-    ----------
-    search : Search
-        What goes from these peaks to an answer.
-    real, model : Peaks
-        Of the real building, one scene or one per share, and of the models, one scene per share.
-    question : str
-        What is asked, for the metadata.
+    """Peaks of a real building (one scene, or one per share) and of its models at every share of a grid; answers need
+    few further runs.
     """
 
     search: Search
@@ -52,23 +44,8 @@ class Solved:
 
 
 def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Options) -> list[Solved]:
-    """Solve a building with its goods at several frictions; its models, which have none, are solved once.
-
-    Parameters
-    ----------
-    scenes : sequence of Scene
-        The same building and goods, with different friction.
-    motions : NamedMotions
-        The suite.
-    options : Options
-        How the fraction is sought.
-
-    Raises
-    ------
-    InvalidScene
-        A scene has no goods on its floors, or the scenes differ in more than friction.
-    SimulationError, KeyboardInterrupt
-        As for `solve`.
+    """Solve a building with its goods at several frictions; its models, which have none, are solved once. The scenes
+    differ in friction alone and have goods on their floors.
     """
     checked = [check_any_load(scene) for scene in scenes]
     first, shares = checked[0], options.fractions
@@ -110,25 +87,8 @@ def solved_designs(
     collapse_drift: FloatArray | None = None,
     base: SlidingBase | None = None,
 ) -> Solved:
-    """Solve the building that is designed with each share, with sliding goods and with that share attached.
-
-    Parameters
-    ----------
-    design, blocks, racks
-        As for `effective_mass_of_design`.
-    motions : NamedMotions
-        The suite.
-    options : Options
-        How the fraction is sought.
-    collapse_drift : ndarray, shape (storeys,), optional
-        Drift at which a storey counts as collapsed (m), beside the limit that P-Delta sets.
-    base : SlidingBase, optional
-        Base that slides under the building.
-
-    Raises
-    ------
-    InvalidScene, InvalidOption, SimulationError, KeyboardInterrupt
-        As for `effective_mass_of_design`.
+    """Solve the building that is designed with each share, with sliding goods and with that share attached; arguments
+    as in `effective_mass_of_design`.
     """
     if not callable(design):
         requirement = "a callable that takes a share and returns a Building"

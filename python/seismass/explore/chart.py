@@ -11,14 +11,8 @@ CASES: Final = 4928
 
 @dataclass(frozen=True)
 class Bin:
-    """Quantiles of the effective fraction of the buildings with eta in a range.
-
-    Attributes
-    ----------
-    start, end : float or None
-        Range of eta = mu_k/C1; None: without end.
-    low, median, high : float
-        16 %, 50 % and 84 % of the effective fractions.
+    """Quantiles (16, 50 and 84 %) of the effective fraction of the buildings with eta = mu_k/C1 in a range, whose ends
+    are None where it is open.
     """
 
     start: float

@@ -16,14 +16,8 @@ from seismass.fragility.likelihood import capacity_fits, cloud_fits, probit_fits
 
 @dataclass(frozen=True, slots=True)
 class Draws:
-    """How often each bootstrap resample has each motion; motions of one earthquake are drawn together.
-
-    Attributes
-    ----------
-    weights : ndarray, shape (resamples, motions)
-        Whole numbers; no rows where all motions are of one earthquake.
-    confidence : float
-        Probability of intervals.
+    """How often each bootstrap resample has each motion, shape (resamples, motions); no rows where all motions are of
+    one earthquake, as motions of one earthquake are drawn together.
     """
 
     weights: FloatArray
@@ -58,16 +52,8 @@ def of_capacities(capacity: FloatArray, exceeded: NDArray[np.bool_], draws: Draw
 
 
 def of_stripes(levels: FloatArray, exceeded: Sequence[FloatArray], draws: Sequence[Draws]) -> Fragility:
-    """Return the fragility of counts at levels.
-
-    Parameters
-    ----------
-    levels : ndarray, shape (levels,)
-        Intensities.
-    exceeded : sequence of ndarray, shape (motions of the level,)
-        1 where a motion exceeds the limit, else 0.
-    draws : sequence of Draws
-        Those of the motions of each level.
+    """Return the fragility of counts at levels: `exceeded` and `draws` have an entry per level, 1 where a motion
+    exceeds the limit.
     """
     rows = min(len(draw.weights) for draw in draws)  # none where the motions of a level are of one earthquake
     hits, runs = (np.array([[f(each) for each in exceeded]], dtype=np.float64) for f in (np.sum, np.size))

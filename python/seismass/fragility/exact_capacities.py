@@ -36,29 +36,8 @@ Demand: TypeAlias = Callable[[IndexArray, FloatArray], FloatArray]
 
 
 def exact_capacities(setting: Setting, limit: LimitState, *, threads: int | None = None) -> FloatArray:
-    """Return the capacity of every model under every motion.
-
-    Parameters
-    ----------
-    setting : Setting
-        Models, motions and intensity measure; its limits are those of which `limit` is one, or have its column.
-    limit : LimitState
-        A limit of a peak drift.
-    threads : int, optional
-        Number of threads; default all cores. The result does not depend on it.
-
-    Returns
-    -------
-    ndarray, shape (models, motions)
-        Intensity at which the demand first exceeds the limit; infinite where it does not up to `HIGHEST` times that of
-        the elastic building.
-
-    Raises
-    ------
-    InvalidOption
-        The limit is not one of a peak drift.
-    SimulationError, KeyboardInterrupt
-        As for `solve_runs`.
+    """Return the capacity of every model under every motion, shape (models, motions): the intensity at which the demand
+    first exceeds the limit; infinite where none up to `HIGHEST` times that of the elastic building.
     """
     if limit.quantity not in ("drift", "drift_ratio"):
         raise refusal(InvalidOption, "limit", "capacities", "one of drift or drift_ratio", limit.quantity)
@@ -91,10 +70,8 @@ def exact_capacities(setting: Setting, limit: LimitState, *, threads: int | None
 def _refined(
     demand: Demand, limit: float, low: FloatArray, high: FloatArray, below: FloatArray, above: FloatArray
 ) -> FloatArray:
-    """Crossings between `low` and `high`, where demands are `below` and `above`: all together, round by round.
-
-    The Illinois variant of false position; next to a collapse, and where it gains less than a half in two rounds as at
-    a jump of the demand, the bracket is halved.
+    """Crossings between `low` and `high` with demands `below` and `above`, all together by the Illinois variant of
+    false position; the bracket is halved at a collapse or where it shrinks slowly, as at a jump.
     """
     # Weights that the Illinois method halves for an end that stays.
     lower, upper = below - limit, above - limit

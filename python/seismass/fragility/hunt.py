@@ -150,27 +150,8 @@ def hunt_and_fill(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> tuple[pl.DataFrame, dict[str, float]]:
-    """Return the runs of all motions under all models, and the steps of the hunt.
-
-    Every round solves one batch for all motions and models that are not done.
-
-    Parameters
-    ----------
-    setting : Setting
-        Models, motions and limits.
-    options : HuntAndFill
-        How intensities are chosen.
-    rule : {"first", "last"}
-        Which crossing is refined.
-    threads, progress
-        As for `solve_runs`; how many runs there will be is an estimate until the end.
-
-    Returns
-    -------
-    runs : polars.DataFrame
-        Rows of `solve_runs`, sorted by model, motion and intensity.
-    steps : dict of str to float
-        First step and increment.
+    """Return the runs of all motions under all models, sorted by model, motion and intensity, and the steps of the
+    hunt. Every round solves one batch for all that are not done; `rule` is the crossing refined.
     """
     hunt = _Hunt(setting, options, rule, threads, progress)
     step, increment = hunt.steps()

@@ -50,19 +50,8 @@ class Fits(NamedTuple):
 
 
 def probit_fits(intensity: FloatArray, exceeding: FloatArray, total: FloatArray) -> Fits:
-    """Return the lognormal curve of the greatest binomial likelihood for each sample of counts.
-
-    Parameters
-    ----------
-    intensity : ndarray, shape (levels,)
-        Positive intensities.
-    exceeding, total : ndarray, shape (samples, levels)
-        Runs that exceed the limit, and runs, at each level; levels without runs do not count.
-
-    Notes
-    -----
-    Baker (2015), Earthquake Spectra 31:579-599, eq. 11: probability Phi(ln(x/theta)/beta). With b = 1/beta and
-    a = -ln(theta)/beta it is a probit regression, whose likelihood is concave in a and b.
+    """Return the most likely lognormal curve for each sample of counts, shape (samples, levels): Baker (2015), Earthq.
+    Spectra 31:579-599, eq. 11. With b = 1/beta and a = -ln(theta)/beta the likelihood is concave.
     """
     log = np.log(intensity)
     safe = total - exceeding
@@ -100,22 +89,8 @@ def probit_fits(intensity: FloatArray, exceeding: FloatArray, total: FloatArray)
 
 
 def capacity_fits(capacity: FloatArray, exceeded: NDArray[np.bool_], weight: FloatArray) -> Fits:
-    """Return the lognormal distribution of the greatest likelihood for each sample of capacities.
-
-    Parameters
-    ----------
-    capacity : ndarray, shape (motions,)
-        Intensity at which each motion exceeds the limit, or up to which it does not. Positive.
-    exceeded : ndarray of bool, shape (motions,)
-        Whether it exceeds the limit there; False: its capacity is larger.
-    weight : ndarray, shape (samples, motions)
-        How often each motion is in each sample.
-
-    Notes
-    -----
-    Baker (2015), eq. 7, of truncated incremental dynamic analysis, each motion having its own intensity up to which it
-    was scaled. In 1/beta and ln(theta)/beta the likelihood is concave: Olsen (1978), Econometrica 46:1211-1215. Without
-    censored motions it is the mean and the standard deviation of ln(capacity), with divisor n.
+    """Return the most likely lognormal distribution for each sample of capacities, those not exceeded being censored:
+    Baker (2015), eq. 7. Concave in 1/beta and ln(theta)/beta (Olsen 1978, Econometrica 46:1211-1215).
     """
     log = np.log(capacity)
     samples = len(weight)
@@ -145,21 +120,8 @@ def capacity_fits(capacity: FloatArray, exceeded: NDArray[np.bool_], weight: Flo
 
 
 def logistic_fits(x: FloatArray, occurred: NDArray[np.bool_], weight: FloatArray) -> Fits:
-    """Return the logistic curve of the greatest likelihood for each sample: expit((x - centre) / width).
-
-    Parameters
-    ----------
-    x : ndarray, shape (runs,)
-        Logarithm of the intensity.
-    occurred : ndarray of bool, shape (runs,)
-        What is regressed.
-    weight : ndarray, shape (samples, runs)
-        How often each run is in each sample.
-
-    Returns
-    -------
-    Fits
-        Centre as `median` (infinite or minus infinite where it never or always occurred), width as `dispersion`, kind.
+    """Return the most likely logistic curve expit((x - centre)/width) for each sample; `weight` has shape (samples,
+    runs). The centre (`median`) is infinite where it never occurred, minus infinite where always.
     """
     drawn = weight > 0.0
     hit, missed = drawn & occurred, drawn & ~occurred
@@ -192,22 +154,8 @@ def logistic_fits(x: FloatArray, occurred: NDArray[np.bool_], weight: FloatArray
 def cloud_fits(
     at: FloatArray, demand: FloatArray, collapsed: NDArray[np.bool_], limit: float, weight: FloatArray
 ) -> tuple[FloatArray, NDArray[np.int8]]:
-    """Return the curve of a cloud for each sample, as `probability` has curves, and its kind.
-
-    Parameters
-    ----------
-    at, demand : ndarray, shape (runs,)
-        Intensity and demand of each run.
-    collapsed : ndarray of bool, shape (runs,)
-        Whether it collapsed.
-    limit : float
-        Limit of the demand.
-    weight : ndarray, shape (samples, runs)
-        How often each run is in each sample.
-
-    Notes
-    -----
-    Least squares of ln(demand) on ln(x) over the runs that have a demand and do not collapse.
+    """Return the curve of a cloud for each sample, in the columns of `probabilities`, and its kind: least squares of
+    ln(demand) on ln(x) over runs with a demand that do not collapse.
     """
     log = np.log(at)
     moves = ~collapsed & (demand > 0.0)
@@ -230,7 +178,7 @@ def cloud_fits(
     kind[collapse.kind == FALLING] = FALLING
     fitted = kind == FITTED
     curves[fitted, 0], curves[fitted, 1] = median[fitted], scatter[fitted] / slope[fitted]
-    # All runs on one line but for rounding: no scatter from which a dispersion could be told.
+    # All runs on one line within rounding: no scatter, so no dispersion.
     exact = fitted & (scatter < _SAME)
     kind[exact], curves[exact, 1] = STEP, 0.0
     nothing = number == 0.0

@@ -239,13 +239,7 @@ class LimitState:
 
 
 def as_limits(limits: Any, owner: str) -> tuple[LimitState, ...]:
-    """Return limit states, of which there is at least one and none twice.
-
-    Raises
-    ------
-    InvalidOption
-        Something is none.
-    """
+    """Return limit states: at least one, and none twice."""
     given = [limits] if isinstance(limits, LimitState) else limits
     if not isinstance(given, Iterable):
         raise refusal(InvalidOption, "limits", owner, "LimitStates", brief(limits))

@@ -109,7 +109,7 @@ class IntensityMeasure:
         Raises
         ------
         InvalidMotion
-            No motion, something that is none, or one that is zero throughout.
+            No motion, something else, or a motion that is zero throughout.
         """
         named = named_motions(motions, "intensity measure")
         for name, motion in zip(named.names, named.motions, strict=True):
@@ -171,15 +171,8 @@ def intensity_of(
 
 
 def measure_for(measure: MeasureName | IntensityMeasure, scene: Scene, period: float | None = None) -> IntensityMeasure:
-    """Return a measure for the models of a scene.
-
-    T1 is `period`, or else the first period of the building without live load, so that one motion has one intensity
-    whatever model it acts on.
-
-    Raises
-    ------
-    InvalidOption
-        Another measure, or one that needs a period where the scene has no building and none is given.
+    """Return a measure for the models of a scene. T1 is `period`, or else the first period of the building without live
+    load, so that a motion has one intensity whatever model it acts on.
     """
     if isinstance(measure, IntensityMeasure):
         if period is not None and period != measure.period:

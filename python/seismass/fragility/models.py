@@ -62,13 +62,7 @@ def compared_models(
 
 
 def as_models(models: Any, owner: str) -> dict[str, Scene]:
-    """Return models by name; one scene alone is the real building.
-
-    Raises
-    ------
-    InvalidScene
-        It is neither a Scene nor a mapping of names to Scenes, there is no model, or they differ in storeys.
-    """
+    """Return models by name, all of one number of storeys; one scene alone is the real building."""
     given = {REAL: models} if isinstance(models, Scene) else models
     if not isinstance(given, Mapping) or not given:
         raise refusal(InvalidScene, "models", owner, "a Scene, or a mapping of names to Scenes", brief(models))

@@ -19,20 +19,8 @@ _BISECTIONS: Final = 60
 
 
 def probabilities(curves: FloatArray, at: FloatArray) -> FloatArray:
-    """Return the probability of each curve at each intensity.
-
-    Parameters
-    ----------
-    curves : ndarray, shape (curves, 4)
-        Rows of median, dispersion, centre and width. A median of infinity or 0 has probability 0 or 1 throughout, one
-        of NaN has NaN.
-    at : ndarray
-        Intensities, zero or positive.
-
-    Returns
-    -------
-    ndarray, shape (curves, *at.shape)
-        P = P_l + P_c (1 - P_l), of the lognormal part P_l and the logistic one P_c; 0 at intensity 0.
+    """Return P = P_l + P_c (1 - P_l) of each curve (rows of median, dispersion, centre and width) at each intensity, of
+    the lognormal part P_l and the logistic P_c; 0 at intensity 0. A NaN median has NaN.
     """
     columns = [column.reshape(-1, *(1,) * at.ndim) for column in curves.T]
     return _probability(columns[0], columns[1], columns[2], columns[3], at)
@@ -56,14 +44,8 @@ def _probability(
 
 
 def quantiles(curves: FloatArray, share: float) -> FloatArray:
-    """Return the intensity at which each curve reaches a probability; infinite, 0 or NaN where its median is.
-
-    Parameters
-    ----------
-    curves : ndarray, shape (curves, 4)
-        As for `probabilities`.
-    share : float
-        Probability, between 0 and 1.
+    """Return the intensity at which each curve, see `probabilities`, reaches a probability between 0 and 1; infinite, 0
+    or NaN where its median is.
     """
     high = _parts_reach(curves, share)
     # Together the parts are at most the sum of both.
@@ -93,9 +75,8 @@ def _parts_reach(curves: FloatArray, share: float) -> FloatArray:
 
 
 def medians_and_dispersions(curves: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the intensity at one half of each curve, and half of ln of the intensities at 84 and 16 %.
-
-    They are those of the lognormal part where there is no collapse.
+    """Return the intensity at one half of each curve, and half of ln of the ratio of the intensities at 84 and 16 %;
+    those of the lognormal part where there is no collapse.
     """
     from scipy.special import ndtr  # slow to import
 

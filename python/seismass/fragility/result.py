@@ -232,7 +232,7 @@ class FragilityAnalysis(Result):
         return found
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the answer as plain values; null for what is no finite number. Runs and curves are in the tables."""
+        """Return the answer as plain values; null for what is not finite. Runs and curves are in the tables."""
         document: dict[str, Any] = {
             "schema_version": SCHEMA_VERSION,
             "method": self.method,

@@ -29,20 +29,8 @@ SAMPLES_AT_ONCE: Final = 2**22
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """Models, motions and limits of an analysis, checked.
-
-    Attributes
-    ----------
-    models : dict of str to Scene
-        Models by name.
-    motions : NamedMotions
-        The motions at scale 1.
-    limits : tuple of LimitState
-        The limit states.
-    measure : IntensityMeasure
-        The intensity measure.
-    unit : ndarray, shape (motions,)
-        Intensity of each motion at scale 1.
+    """Models, motions and limits of an analysis, checked; `unit` is the intensity of each motion at scale 1, shape
+    (motions,).
     """
 
     models: dict[str, Scene]
@@ -72,13 +60,7 @@ def setting_of(
     *,
     threads: int | None = None,
 ) -> Setting:
-    """Return the checked setting of an analysis.
-
-    Raises
-    ------
-    InvalidScene, InvalidMotion, InvalidOption
-        An argument is not what it must be.
-    """
+    """Return the checked setting of an analysis."""
     named, found = as_models(models, owner), as_limits(limits, owner)
     for limit in found:
         for scene in named.values():
@@ -99,34 +81,8 @@ def solve_runs(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> pl.DataFrame:
-    """Solve runs given by the numbers of model and motion, from 0, and the intensity to which the motion is scaled.
-
-    Parameters
-    ----------
-    setting : Setting
-        Models, motions and limits.
-    model, motion : ndarray of int, shape (runs,)
-        Which model under which motion.
-    intensity : ndarray, shape (runs,)
-        Intensity of the motion, both components of which are scaled.
-    threads : int, optional
-        Number of threads; default all cores. The result does not depend on it.
-    progress : callable, optional
-        Called with (runs done, runs in all).
-
-    Returns
-    -------
-    polars.DataFrame
-        One row per run, in the order asked for: model, motion (from 1), record, scale, intensity, status ("completed"
-        or "collapsed"), and the demand of each column of the limits; see `LimitState.demand`. A demand that a model
-        does not have is null.
-
-    Raises
-    ------
-    SimulationError
-        A run could not be carried to its end.
-    KeyboardInterrupt
-        Ctrl-C was pressed.
+    """Solve runs by the numbers (from 0) of model and motion and the intensity, which scales both components. Return a
+    row per run in that order with the demand of each limit, null where a model has none.
     """
     names = list(setting.models)
     total, scale = len(model), intensity / setting.unit[motion]

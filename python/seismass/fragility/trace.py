@@ -14,16 +14,8 @@ CapacityRule: TypeAlias = Literal["first", "last"]
 
 
 class Crossing(NamedTuple):
-    """The capacity of a motion for a limit.
-
-    Attributes
-    ----------
-    lower, upper : float
-        Intensities between which the limit is crossed; `upper` is infinite where it is not exceeded.
-    value : float
-        Intensity of the crossing, by interpolation between them; infinite where the limit is not exceeded.
-    crossings : int
-        How often demand rises above the limit along the curve.
+    """The capacity of a motion for a limit: interpolated intensity and its bracket (both infinite where the limit is
+    not exceeded), and how often the demand rises above the limit along the curve.
     """
 
     lower: float
@@ -33,18 +25,8 @@ class Crossing(NamedTuple):
 
 
 def crossing_of(at: FloatArray, demand: FloatArray, limit: LimitState, rule: CapacityRule) -> Crossing:
-    """Return where a curve crosses a limit.
-
-    Parameters
-    ----------
-    at : ndarray, shape (points,)
-        Intensities in increasing order. The curve starts with no demand at intensity zero.
-    demand : ndarray, shape (points,)
-        Demands; infinite where the run collapsed.
-    limit : LimitState
-        The limit.
-    rule : {"first", "last"}
-        Which crossing counts.
+    """Return where a curve crosses a limit, by the first or the last crossing. Intensities increase, from no demand at
+    zero; a demand is infinite where the run collapsed.
     """
     exceeds = np.append(False, demand > limit.value)
     rises = np.flatnonzero(exceeds[1:] & ~exceeds[:-1])
@@ -61,10 +43,8 @@ def crossing_of(at: FloatArray, demand: FloatArray, limit: LimitState, rule: Cap
 
 
 def demand_at(at: FloatArray, demand: FloatArray, levels: FloatArray, largest: float) -> FloatArray:
-    """Return the demand of a curve at intensities, linear between its points.
-
-    Between a point and a collapse it is infinite from the middle on. Beyond the last point it is infinite where the
-    curve ends above `largest`, the largest limit that is asked of it, and NaN, not known, where it ends below.
+    """Return the demand of a curve at intensities, linear between points. Before a collapse it is infinite from the
+    middle on; past the end infinite if the curve ends above `largest` (limit), NaN (unknown) if below.
     """
     points, values = np.append(0.0, at), np.append(0.0, demand)
     place = np.searchsorted(points, levels, side="left")
@@ -81,9 +61,8 @@ def demand_at(at: FloatArray, demand: FloatArray, levels: FloatArray, largest: f
 
 
 def intensity_at(at: FloatArray, demand: FloatArray, levels: FloatArray) -> FloatArray:
-    """Return the intensity at which a curve first reaches each demand, linear between its points.
-
-    It is infinite where the curve does not reach it. Towards a collapse it is the middle of the two points.
+    """Return the intensity at which a curve first reaches each demand, linear between its points; infinite where it
+    does not. Towards a collapse it is the middle of the two points.
     """
     points, values = np.append(0.0, at), np.append(0.0, demand)
     reached = np.maximum.accumulate(values)

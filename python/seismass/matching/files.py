@@ -15,21 +15,8 @@ SUFFIXES = (".at2", ".csv")
 
 
 def write_record(record: Record, path: str | os.PathLike[str]) -> None:
-    """Write a record as .AT2, in g to eleven digits, or .csv, time (s) and acceleration (m/s2) to the last bit.
-
-    Parameters
-    ----------
-    record : Record
-        What is written; a vertical component is left out.
-    path : path-like
-        The suffix says which.
-
-    Raises
-    ------
-    InvalidOption
-        Another suffix.
-    OSError
-        The file cannot be written.
+    """Write a record as .AT2, in g to eleven digits, or .csv, time (s) and acceleration (m/s2) to the last bit, by the
+    suffix of `path`. A vertical component is left out.
     """
     target = as_path(path, "matched record", InvalidOption)
     kind = target.suffix.lower()

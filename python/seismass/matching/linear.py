@@ -43,10 +43,8 @@ LOWER: Final = 1.5 * 2.0 ** (BITS - 1 - 48)
 
 
 def coarse(matrix: FloatArray, bits: int = BITS // 2) -> FloatArray:
-    """Return a matrix, each row rounded to `bits` bits: whole multiples of 2^-bits of a power of two above its norm.
-
-    By the inequality of Cauchy and Schwarz no sum of products of two such rows, in whatever order it is taken, needs
-    more than the 53 bits of a double, if their bits are 52 together.
+    """Return a matrix whose rows are rounded to `bits` bits, whole multiples of 2^-bits of a power of two above the
+    norm. By Cauchy-Schwarz sums of products of such rows are exact if their bits are 52 together.
     """
     _, exponent = np.frexp(np.sqrt(np.einsum("ij,ij->i", matrix, matrix)))
     large = np.ldexp(1.5, exponent + (BITS - 1 - bits))[:, None]  # its last bit is that multiple
@@ -66,9 +64,8 @@ def halves(matrix: FloatArray, bits: int = BITS // 2) -> Halves:
 
 
 def exact_product(left: FloatArray, right: FloatArray) -> FloatArray:
-    """Return the product of `coarse` matrices of shapes (rows, inner) and (inner, columns), without rounding.
-
-    The right one is coarse by column.
+    """Return the product of `coarse` matrices of shapes (rows, inner) and (inner, columns), without rounding. The right
+    one is coarse by column.
     """
     (rows, inner), columns = left.shape, right.shape[1]
     height, depth = max(min(rows, TILE), 1), max(min(inner, SINGLE_THREAD // TILE // min(max(columns, 1), TILE)), 1)
@@ -87,9 +84,8 @@ def exact_product(left: FloatArray, right: FloatArray) -> FloatArray:
 
 
 def product(left: Halves, right: Halves) -> FloatArray:
-    """Return the product of a matrix and a transposed one, of which the `halves` are given.
-
-    Shapes (rows, inner) and (columns, inner) give (rows, columns).
+    """Return the product, shape (rows, columns), of a matrix of shape (rows, inner) and a transposed one of shape
+    (columns, inner), whose `halves` are given.
     """
     (upper, lower), (above, below) = left, right
     small = exact_product(upper, below.T) + exact_product(lower, above.T)
@@ -97,14 +93,8 @@ def product(left: Halves, right: Halves) -> FloatArray:
 
 
 def solved(matrix: FloatArray, right: FloatArray) -> FloatArray:
-    """Return the solution of a symmetric positive definite system, by Cholesky's factors block by block.
-
-    Where rounding has made it indefinite, as little as it takes is added to the diagonal.
-
-    Raises
-    ------
-    numpy.linalg.LinAlgError
-        The matrix is far from positive definite, or holds values that are not finite.
+    """Return the solution of a symmetric positive definite system, by Cholesky's factors block by block. Where rounding
+    has made it indefinite, as little as it takes is added to the diagonal.
     """
     largest = float(np.max(np.abs(np.diag(matrix))))
     ridge = 0.0

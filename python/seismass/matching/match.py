@@ -69,7 +69,7 @@ def match_spectrum(
 ) -> MatchedRecord:
     """Return a record adjusted in the time domain until its spectrum is the target over a range of periods.
 
-    The record is multiplied by one factor; then wavelets are added that leave no velocity and no displacement behind,
+    The record is multiplied by one factor; then wavelets are added that leave no final velocity or displacement,
     so that both end as those of the scaled record do. Spectra are exact for acceleration that is linear between
     samples. A record whose largest misfit is within the tolerance as it is comes back as it is.
 
@@ -93,7 +93,7 @@ def match_spectrum(
     scale : {"least_squares", "none"} or float
         How the record is scaled first: to the target by least squares in the logarithm, not at all, or by this factor.
     padding : tuple of float
-        Zeros (s) added before and behind the record, where wavelets need room: for a record that begins with its
+        Zeros (s) added before and after the record, where wavelets need room: for a record that begins with its
         strong motion, or is short beside the longest period. The time axis then begins earlier.
     threads : int, optional
         Number of threads for the spectra; default all cores. The result does not depend on it.
@@ -109,7 +109,7 @@ def match_spectrum(
     InvalidOption
         An option out of its range, a shortest period below four time steps, or a target that cannot be evaluated.
     InvalidMotion
-        Something else than a record, fewer than 8 samples, or accelerations of zero throughout.
+        Something other than a record, fewer than 8 samples, or accelerations of zero throughout.
 
     Notes
     -----
@@ -332,11 +332,8 @@ def _ordinates(target: Target, periods: FloatArray) -> FloatArray:
 def _guards(
     periods: FloatArray, target: FloatArray, motion: FloatArray, damping: float, dt: float, threads: int | None
 ) -> tuple[FloatArray, FloatArray]:
-    """Periods outside the range, and the pseudo-acceleration there past which the spectrum is not to grow.
-
-    It is `GROWTH` times that of the motion, or what goes with the ends of the target where that is more: 0.4 of the
-    first ordinate at zero period and a straight line from there, as the shape of ASCE 7 has it, and an ordinate that
-    falls as 1/T behind the last.
+    """Periods outside the range and the pseudo-acceleration that the spectrum must not exceed there: `GROWTH` times the
+    motion's, or if larger the target's continuation: a line from 0.4 at T = 0, and 1/T beyond the end.
     """
     shortest, longest = float(periods[0]), float(periods[-1])
     first = max(shortest / GUARDED, STEPS_PER_PERIOD * dt)
@@ -379,7 +376,7 @@ def _padding(given: tuple[float, float]) -> tuple[float, float]:
 
 
 def _padded(record: Record, before: float, behind: float) -> Record:
-    """The record with zeros before and behind it, as its history says."""
+    """The record with zeros before and after it, as its history says."""
     counts = (int(np.ceil(before / record.dt - 1e-9)), int(np.ceil(behind / record.dt - 1e-9)))
     said = f"{counts[0]} zeros added before the first sample, {counts[1]} behind the last"
     return record.replace(

@@ -32,20 +32,8 @@ UNDERSHOOT: Final = 0.6
 
 @dataclass(frozen=True)
 class Extrema:
-    """Local extrema of the relative displacement of oscillators, those of one after those of another.
-
-    Attributes
-    ----------
-    oscillator : ndarray of int, shape (extrema,)
-        Index of the oscillator.
-    step : ndarray of int, shape (extrema,)
-        The extremum is at time (step + fraction) dt.
-    fraction : ndarray, shape (extrema,)
-        From 0 to 1.
-    value : ndarray, shape (extrema,)
-        Displacement with its sign (m).
-    largest : ndarray of bool, shape (extrema,)
-        Whether it is the largest of its oscillator.
+    """Local extrema of the relative displacement (m, signed) of oscillators, one oscillator after another: at time
+    (step + fraction) dt; `largest` marks the largest of its oscillator.
     """
 
     oscillator: NDArray[np.int64]
@@ -56,16 +44,8 @@ class Extrema:
 
 
 class Oscillators:
-    """Oscillators of one damping at one time step.
-
-    Parameters
-    ----------
-    periods : ndarray, shape (periods,)
-        Natural periods (s), at least four time steps.
-    damping : float
-        Ratio of critical damping, from 0 and below 1.
-    dt : float
-        Time step (s).
+    """Oscillators of one damping ratio (from 0, below 1) at one time step (s); natural periods (s) are at least four
+    time steps.
     """
 
     def __init__(self, periods: FloatArray, damping: float, dt: float) -> None:
@@ -105,16 +85,8 @@ class Oscillators:
         return np.asarray(moved)
 
     def extrema(self, acceleration: FloatArray, share: float, most: int) -> Extrema:
-        """Return the extrema of each oscillator, in continuous time and with one period of free vibration at the end.
-
-        Parameters
-        ----------
-        acceleration : ndarray, shape (samples,)
-            Acceleration (m/s2).
-        share : float
-            Extrema below this share of the largest of their oscillator are left out.
-        most : int
-            Largest number for one oscillator: the largest are kept, the largest first.
+        """Return the extrema of each oscillator under acceleration (m/s2), in continuous time with one period of free
+        vibration at the end: those above `share` of its largest, and the `most` largest.
         """
         longest = int(np.ceil(self.periods.max() / self.dt)) + 3
         samples = np.concatenate([acceleration, np.zeros(longest)])
@@ -143,15 +115,8 @@ class Oscillators:
         return Extrema(index[kept], step[kept], fraction[kept], value[kept], (rank == 0)[kept])
 
     def influence(self, extrema: Extrema, first: int, last: int) -> FloatArray:
-        """Return what each sample adds to the displacement at each extremum (m per m/s2), shape (extrema, samples).
-
-        Parameters
-        ----------
-        extrema : Extrema
-            Of these oscillators.
-        first, last : int
-            The samples from `first` up to, not including, `last`. Sample 0 counts as one with a step before it, which
-            the first sample of a motion has not.
+        """Return what samples `first` to `last` (not included) add to the displacement at each extremum (m per m/s2),
+        shape (extrema, samples). Sample 0 counts as having a step before it, which a motion has not.
         """
         rows = np.zeros((len(extrema.value), last - first))
         within = extrema.fraction * self.dt

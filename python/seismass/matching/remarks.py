@@ -19,15 +19,7 @@ SHIFTED: Final = 0.25
 
 
 def matching_remarks(matched: MatchedRecord, shortened: bool) -> tuple[str, ...]:
-    """Return the remarks on a matched record; none for most.
-
-    Parameters
-    ----------
-    matched : MatchedRecord
-        The result.
-    shortened : bool
-        Whether an end of the record made a wavelet narrower.
-    """
+    """Return the remarks on a matched record; none for most. `shortened`: an end of it made a wavelet narrower."""
     remarks = []
     misfit = matched.misfit
     if not matched.converged:

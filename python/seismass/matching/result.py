@@ -224,7 +224,7 @@ class MatchedRecord(Card):
         Raises
         ------
         InvalidOption
-            A name that ends in something else.
+            Another suffix.
         OSError
             The file cannot be written.
         """

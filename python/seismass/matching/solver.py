@@ -65,18 +65,8 @@ WAVELET_BITS: Final = 30
 
 @dataclass(frozen=True)
 class Adjusted:
-    """What the iteration found.
-
-    Attributes
-    ----------
-    acceleration : ndarray, shape (samples,)
-        The adjusted motion (m/s2).
-    iterations : int
-        Passes made.
-    best : int
-        The pass after which the misfit was the smallest, which is the one returned; 0 for the motion as given.
-    shortened : bool
-        Whether an end of the record made a wavelet of that pass or an earlier one narrower, or moved it.
+    """Result of the iteration: the motion (m/s2) of the `best` pass (0: as given), where the misfit is smallest, and
+    whether an end of the record made a wavelet up to that pass narrower or moved it.
     """
 
     acceleration: FloatArray
@@ -112,33 +102,8 @@ def adjust(
     tolerance: float,
     max_iterations: int,
 ) -> Adjusted:
-    """Return the motion plus wavelets that bring its spectrum to the target.
-
-    Parameters
-    ----------
-    given : ndarray, shape (samples,)
-        Acceleration (m/s2).
-    dt : float
-        Time step (s).
-    periods, target : ndarray, shape (periods,)
-        Where it is matched (s), and the pseudo-acceleration there (m/s2).
-    guards : tuple of ndarray, each of shape (guards,)
-        Periods outside the range (s), and the pseudo-acceleration there (m/s2) past which it is held.
-    between : Ratios
-        Chooses the best of each pass, at the same periods and at others between them.
-    final : Ratios
-        Judges the misfit, at still others.
-    damping : float
-        Ratio of critical damping of the target.
-    tolerance : float
-        Largest misfit |ratio - 1| at which the iteration ends.
-    max_iterations : int
-        Largest number of passes.
-
-    Raises
-    ------
-    Stopped
-        The suite is given up.
+    """Return the motion plus wavelets that bring its spectrum to the target (periods in s, pseudo-acceleration in
+    m/s2). `guards` hold it outside the range; `between` chooses the best pass, `final` judges the misfit.
     """
     grid = _Grid(np.concatenate([periods, guards[0]]), np.concatenate([target, guards[1]]), len(periods), damping, dt)
     acceleration, best = given, given
@@ -210,9 +175,8 @@ class _Grid:
         self.persistence = np.ones(matched)
 
     def emphasis(self, ratio: FloatArray, oscillator: NDArray[np.integer], tolerance: float) -> FloatArray:
-        """Return how much each extremum counts in the sum of squares, up to 1, and note which periods are still off.
-
-        One oscillator has several where equal responses are its largest, as those to next to nothing.
+        """Return how much each extremum counts in the sum of squares, up to 1, and note which periods are still off. An
+        oscillator has several where equal responses are its largest.
         """
         off = np.zeros(self.matched)
         np.maximum.at(off, oscillator, np.abs(1.0 - ratio))
@@ -260,8 +224,7 @@ def _delays(oscillators: Oscillators) -> FloatArray:
 
 def _effect(influence: FloatArray, steps: NDArray[np.int64], wavelets: Placed) -> FloatArray:
     """Displacement at each extremum by each wavelet of unit amplitude (m), shape (extrema, wavelets), to nine digits.
-
-    The influence is that of the samples from the first of the wavelets on; those later than `steps` + 1 have none.
+    `influence` begins at the first sample of the wavelets; samples later than `steps` + 1 have none.
     """
     latest, centred = np.argsort(-steps, kind="stable"), np.argsort(wavelets.starts + wavelets.ends, kind="stable")
     upper, lower = halves(influence[latest], 52 - WAVELET_BITS)
@@ -289,27 +252,8 @@ def _amplitudes(
     ease: float,
     emphasis: FloatArray,
 ) -> list[FloatArray]:
-    """Amplitudes of the wavelets (m/s2), for each factor of `WEIGHTS`: regularised least squares.
-
-    Held are the largest extremum of each matched oscillator, which is brought to the target, and every other that would
-    grow past it. An amplitude counts by what it does to its own extremum.
-
-    Parameters
-    ----------
-    effect : ndarray, shape (extrema, wavelets)
-        Change of each extremum over the target by a wavelet of unit amplitude.
-    of : ndarray of int, shape (wavelets,)
-        The extremum that a wavelet is for.
-    ratio, taken_back : ndarray, shape (extrema,)
-        Extrema over the target, and what is taken from them in this pass.
-    largest : ndarray of bool, shape (extrema,)
-        Whether an extremum is the largest of an oscillator that is matched.
-    weight : float
-        Of the amplitudes against the misfit.
-    ease : float
-        Above 0 and up to 1: with which wavelets of other extrema than the largest are used.
-    emphasis : ndarray, shape (extrema,)
-        Above 0 and up to 1: how much the misfit of an extremum counts.
+    """Amplitudes of the wavelets (m/s2) for each factor of `WEIGHTS`, by regularised least squares over the largest
+    extremum of each matched oscillator, brought to the target, and others that would grow past it.
     """
     # An end of the record may leave a wavelet with hardly any effect on its own extremum.
     size = np.maximum(np.abs(effect[of, np.arange(len(of))]), 0.1 * np.max(np.abs(effect), axis=0))

@@ -25,28 +25,16 @@ EARLY: Final = 0.4
 
 
 def half_width(periods: FloatArray) -> FloatArray:
-    """Return the half-width of the window (s) of a wavelet of each period.
-
-    Al Atik and Abrahamson (2010), equation 16: a Gaussian exp(-(t/gamma)^2) with gamma = 1.178 f^-0.93. The window
-    (1 - x^2)^n that closes at x = 1 is close to it for a half-width of gamma sqrt(n).
+    """Return the half-width (s) of the window (1 - x^2)^n of a wavelet of each period, gamma sqrt(n): close to the
+    Gaussian exp(-(t/gamma)^2), gamma = 1.178 f^-0.93, of Al Atik and Abrahamson (2010), eq. 16.
     """
     return np.asarray(1.178 * power(periods, 0.93) * np.sqrt(WINDOW_POWER))
 
 
 @dataclass(frozen=True)
 class Placed:
-    """Wavelets at their places in a record.
-
-    Attributes
-    ----------
-    samples : ndarray, shape (wavelets, last - first)
-        Acceleration per unit of amplitude: that of a cosine of amplitude 1 at the centre, nearly.
-    first, last : int
-        The samples of the record from `first` up to, not including, `last` hold all that is not zero.
-    starts, ends : ndarray of int, shape (wavelets,)
-        The same for each wavelet.
-    shortened : ndarray of bool, shape (wavelets,)
-        Whether an end of the record made the window narrower or moved it; a wide one has others beside it.
+    """Wavelets at their places in a record: acceleration per unit of amplitude, zero outside the samples from `first`
+    up to, not including, `last`; `shortened` where an end of the record narrowed or moved the window.
     """
 
     samples: FloatArray
@@ -60,29 +48,8 @@ class Placed:
 def place(
     crest: FloatArray, periods: FloatArray, damping: float, dt: float, samples: int, wide: NDArray[np.bool_]
 ) -> Placed:
-    """Return wavelets of `samples` samples that are zero at the first and the last, and whose drift is zero.
-
-    The displacement is -cos(w (t - crest)) (1 - x^2)^6 / w^2 with w the damped frequency and x = (t - centre) over the
-    half-width; centre and crest are the same unless an end of the record is closer than the window is wide, or the
-    window is one of the wide ones, which lie earlier. The samples
-    of acceleration are its second differences: those of a piecewise-linear acceleration a with sum(a) = 0 and
-    sum(a t) = 0, whose velocity and displacement at the end are exactly zero.
-
-    Parameters
-    ----------
-    crest : ndarray, shape (wavelets,)
-        Time (s) of the crest of the cosine.
-    periods : ndarray, shape (wavelets,)
-        Natural periods (s) of the oscillators that they are for.
-    damping : float
-        Their damping.
-    dt : float
-        Time step (s).
-    samples : int
-        Samples of the record, at least 5.
-    wide : ndarray of bool, shape (wavelets,)
-        Which have a wide window: their band is as narrow as that of their oscillator, so that they move its neighbours
-        less.
+    """Return wavelets as second differences of -cos(w (t - crest)) (1 - x^2)^6 / w^2: w damped frequency, x = (t -
+    centre) over the half-width. With sum(a) = sum(a t) = 0 final velocity and displacement are zero.
     """
     inner = (samples - 3) * dt  # from the second sample to the last but one
     least = np.minimum(LEAST_HALF_WIDTH * periods, 0.5 * inner)

@@ -18,16 +18,8 @@ from seismass.media.roles import GREY, INK, PAPER
 
 @dataclass(frozen=True)
 class Panels:
-    """Axes to draw into, one for each thing that is drawn; the same one several times where they share it.
-
-    Attributes
-    ----------
-    axes : list of Axes
-        One per thing, in their order.
-    shared : bool
-        All things are drawn into one.
-    own : bool
-        The figure was made for them.
+    """Axes to draw into, one for each thing that is drawn; the same one several times where they share it. `own`: the
+    figure was made for them.
     """
 
     axes: list[Axes]
@@ -62,12 +54,8 @@ class Panels:
 def panels(
     ax: Axes | Sequence[Axes] | None, count: int, owner: str, *, width: float = 7.0, height: float = 1.25
 ) -> Panels:
-    """Return axes for a number of things, one above the other: the first is lowest.
-
-    Raises
-    ------
-    InvalidOption
-        `ax` is neither one Axes nor one for each thing.
+    """Return axes for a number of things, one above the other, the first the lowest. An `ax` that is given must be one
+    Axes or one for each.
     """
     if ax is None:
         figure = Figure(figsize=(width, 1.0 + height * count), layout="constrained")
@@ -79,9 +67,8 @@ def panels(
 def columns(
     ax: Axes | Sequence[Axes] | None, count: int, owner: str, *, width: float, height: float, most: int = 12
 ) -> Panels:
-    """Return axes for a number of things side by side, that need not have the same scale.
-
-    Beyond `most` of them they go on in further rows, as even as can be.
+    """Return axes for a number of things side by side, which need not have the same scale. Beyond `most` they go on in
+    further rows, as even as can be.
     """
     if ax is None:
         rows = -(-count // most)

@@ -18,7 +18,7 @@ from seismass.media.roles import CODE, SLIDE
 COLOUR: Final = SLIDE.colour
 """The accent: legible on white and on dark grey."""
 SECOND: Final = CODE.colour
-"""The second accent, likewise."""
+"""The second accent, in the same form."""
 
 _CELL: Final = "padding:0.1em 0.8em 0.1em 0;background:none;border:none;white-space:nowrap"
 

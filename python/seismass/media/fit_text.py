@@ -23,26 +23,8 @@ _GAP: Final = re.compile(r"\S( {2,})(?=\S)")
 
 
 def fit_text(text: str, width: int) -> str:
-    """Return a text whose lines fit a width, as far as words do.
-
-    Parameters
-    ----------
-    text : str
-        Lines: sentences, maybe behind a label or a dash, and tables, whose columns are two spaces apart.
-    width : int
-        Columns of the terminal.
-
-    Notes
-    -----
-    A table that is too wide goes on in further parts below, each with its first column. A column that is too wide even
-    beside the first one is filled within its room.
-
-    Examples
-    --------
-    >>> from seismass.media.fit_text import fit_text
-    >>> print(fit_text("why  the share is that of the friction as stated", 40))
-    why  the share is that of the friction
-         as stated
+    """Return a text whose lines fit a width where words allow. A table (columns two spaces apart) that is too wide goes
+    on in parts below, each with its first column; a column that is too wide is wrapped.
     """
     return "\n".join(line for _, fitted in fitted_blocks(text, width) for line in fitted)
 
@@ -55,7 +37,7 @@ def fitted_blocks(text: str, width: int) -> Iterator[tuple[list[str], list[str]]
 
 
 def _spread(text: str) -> str:
-    """A text with so many letters in a line as it takes columns: fillers stand behind wide letters."""
+    """A text with so many letters in a line as it takes columns: fillers follow wide letters."""
     if text.isascii():
         return text
     return "".join(letter + _FILLER * (shown_width(letter) - 1) for letter in text)
@@ -97,7 +79,7 @@ def _indent(line: str) -> int:
 
 
 def _start(line: str) -> int:
-    """Where the words of a line begin, behind its label."""
+    """Where the words of a line begin, after its label."""
     found = _LABEL.match(line)
     return found.end() if found else 0
 
@@ -145,7 +127,7 @@ def _table(rows: list[str], width: int) -> Iterator[str]:
 
 
 def _moved(column: list[str]) -> list[str]:
-    """A column as it stands behind another first one: two spaces from it."""
+    """A column as it follows another first column: two spaces from it."""
     indent = min((_indent(cell) for cell in column if cell.strip()), default=0)
     return [f"  {cell[indent:]}" for cell in column]
 
@@ -164,7 +146,7 @@ def _row(head: str, last: str, width: int) -> Iterator[str]:
 
 
 def _columns(rows: list[str]) -> list[list[str]]:
-    """Cells of each column, all of one width with the spaces behind them: cut where no row has a letter."""
+    """Cells of each column, all of one width with the spaces after them: cut where no row has a letter."""
     length = max(map(len, rows))
     padded = [row.ljust(length) for row in rows]
     empty = [all(row[at] == " " for row in padded) for at in range(length)]

@@ -29,13 +29,7 @@ FILES: Final = "files.json"
 
 
 def check_out(out: Path, owner: str) -> None:
-    """Refuse a folder that cannot be one, before anything is solved.
-
-    Raises
-    ------
-    InvalidOption
-        `out`, or one of its parents, is a file, or it cannot be written to.
-    """
+    """Refuse a folder that cannot be one, before anything is solved."""
     existing = next((path for path in (out, *out.parents) if path.exists()), None)
     if existing is not None and not (existing.is_dir() and os.access(existing, os.W_OK)):
         raise refusal(InvalidOption, "out", owner, "a folder that can be written to", str(out))
@@ -43,13 +37,7 @@ def check_out(out: Path, owner: str) -> None:
 
 @contextmanager
 def folder_for(out: Path) -> Iterator[None]:
-    """Make a folder for what is written to it, which goes again where an error or Ctrl-C leaves it empty.
-
-    Raises
-    ------
-    OSError
-        The folder cannot be made.
-    """
+    """Make a folder for output; it is removed again where an error or Ctrl-C leaves it empty."""
     made = [path for path in (out, *out.parents) if not path.exists()]
     out.mkdir(parents=True, exist_ok=True)
     try:
@@ -63,13 +51,7 @@ def folder_for(out: Path) -> Iterator[None]:
 
 @contextmanager
 def as_written(folder: Path) -> Iterator[None]:
-    """Refuse a folder whose documents and tables do not fit together, whatever they make fail.
-
-    Raises
-    ------
-    InvalidOption
-        What is read is not what was written.
-    """
+    """Refuse a folder whose documents and tables do not fit together, whatever error they cause."""
     try:
         yield
     except SeismassError:
@@ -90,33 +72,8 @@ def write_folder(
     metadata: Mapping[str, dict[str, str]] | None = None,
     earlier: Callable[[str], bool] | None = None,
 ) -> list[Path]:
-    """Write tables (Parquet and CSV), documents and figures to a folder, which is made if it is missing.
-
-    Parameters
-    ----------
-    out : Path
-        The folder.
-    tables, figures : mapping
-        By name without suffix.
-    documents : mapping of str to str
-        Text by file name.
-    kinds : sequence of {"png", "svg"}
-        Formats of the figures.
-    metadata : mapping of str to dict, optional
-        Key-value metadata of the Parquet file of each table that has any.
-    earlier : callable, optional
-        Whether a file name is one that is removed where an earlier call has written it and this one does not. Then
-        files.json is written, and only what the earlier one names, unchanged since, is removed.
-
-    Returns
-    -------
-    list of Path
-        The files, in the order written.
-
-    Raises
-    ------
-    OSError
-        A file cannot be written; then none is changed.
+    """Write tables (Parquet and CSV), documents and figures to a folder; on an error no file is changed. Files of an
+    earlier call (files.json) that `earlier` accepts and nobody changed are removed.
     """
     writers: dict[str, Callable[[Path], object]] = {}
     for name, table in tables.items():

@@ -17,14 +17,7 @@ def runs_leftwards(character: str) -> bool:
 
 
 def isolated(text: str) -> Markup:
-    """Return a name as HTML, isolated where it runs from right to left.
-
-    Examples
-    --------
-    >>> from seismass.media.isolate import isolated
-    >>> str(isolated("roof"))
-    'roof'
-    """
+    """Return a name as HTML, isolated where it runs from right to left."""
     return Markup("<bdi>{}</bdi>").format(text) if any(map(runs_leftwards, text)) else escape(text)
 
 
@@ -34,21 +27,7 @@ def apart(text: str) -> str:
 
 
 def sentence_html(text: str, names: Iterable[str] = ()) -> Markup:
-    """Return a sentence of the package as HTML: symbols as Greek letters, names of the user's as they are.
-
-    Parameters
-    ----------
-    text : str
-        The sentence, as a terminal shows it.
-    names : iterable of str
-        Names of the user's that it may contain.
-
-    Examples
-    --------
-    >>> from seismass.media.isolate import sentence_html
-    >>> str(sentence_html("mu x 1.5 on floor mu", ["floor mu"]))
-    'μ x 1.5 on floor mu'
-    """
+    """Return a sentence of the package as HTML: symbols as Greek letters, the user's `names` in it unchanged."""
     special = {name for name in names if name and (lettered(name) != name or any(map(runs_leftwards, name)))}
     if not special:
         return escape(lettered(text))

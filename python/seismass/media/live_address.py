@@ -28,18 +28,8 @@ LIMITS: Final = {
 
 @dataclass(frozen=True)
 class LiveCase:
-    """A building as the live page has it: equal floor masses and stiffnesses, heights and springs.
-
-    Attributes
-    ----------
-    period, damping, overstrength, second_slope, height : float
-        First period without goods (s), damping ratio, Omega, r2 and storey height (m).
-    strength : sequence of float
-        V_y of each storey over the weight without goods; empty where the building stays elastic.
-    mass_ratio, mu_s, mu_k : sequence of float
-        Goods over floor mass, and their friction, floor by floor.
-    counted : float
-        Share of the goods that the model of the code has attached.
+    """A building as the live page has it: equal floor masses, stiffnesses, heights (m) and springs; strengths V_y over
+    the weight without goods (empty: elastic), goods over floor mass with friction by floor.
     """
 
     period: float

@@ -41,16 +41,8 @@ _NOT_IN_ID: Final = re.compile(r"[^a-z0-9]+")
 
 @dataclass(frozen=True)
 class Section:
-    """A part of a page, with its entry in the table of contents.
-
-    Attributes
-    ----------
-    title : str
-        Heading; also what the section is linked by.
-    content : sequence of Markup
-        What `text_html`, `table_html`, `figure_html` and the like return. Other text is escaped.
-    sections : sequence of Section
-        Parts of it, one level lower.
+    """A part of a page with its entry in the table of contents. The title is what it is linked by; content that is not
+    Markup is escaped; `sections` are one level lower.
     """
 
     title: str
@@ -70,26 +62,12 @@ class _Placed:
 
 
 def text_html(*paragraphs: str) -> Markup:
-    """Return paragraphs; text is escaped, Markup is taken as it is.
-
-    Examples
-    --------
-    >>> from seismass.media.page import text_html
-    >>> str(text_html("drift < limit"))
-    '<p>drift &lt; limit</p>'
-    """
+    """Return paragraphs; text is escaped, Markup is taken as it is."""
     return Markup("\n").join(Markup("<p>{}</p>").format(paragraph) for paragraph in paragraphs)
 
 
 def facts_html(facts: Mapping[str, str]) -> Markup:
-    """Return a list of names and what they are, such as inputs or versions.
-
-    Examples
-    --------
-    >>> from seismass.media.page import facts_html
-    >>> str(facts_html({"period": "0.57 s"}))
-    '<dl class="facts"><div><dt>period</dt><dd>0.57 s</dd></div></dl>'
-    """
+    """Return a list of names and what they are, such as inputs or versions."""
     rows = (Markup("<div><dt>{}</dt><dd>{}</dd></div>").format(name, value) for name, value in facts.items())
     return Markup('<dl class="facts">{}</dl>').format(Markup("").join(rows))
 
@@ -103,30 +81,8 @@ def page_html(
     lead: Iterable[str] = (),
     runs_kernel: bool = False,
 ) -> str:
-    """Return a whole page.
-
-    Its Content-Security-Policy allows no request at all, and no script but those of the page, which it names by their
-    digests.
-
-    Parameters
-    ----------
-    title : str
-        Heading of the page and title of the window.
-    sections : iterable of Section
-        Its parts, in order.
-    subtitle : str, optional
-        A line below the heading, such as the version and the date of the input.
-    description : str, optional
-        What the page is, in a sentence, for lists of links.
-    lead : iterable of Markup, optional
-        What comes before the table of contents: the answer.
-    runs_kernel : bool
-        Whether the page runs WebAssembly, and in a worker too, that it carries itself: then its policy lets it.
-
-    Returns
-    -------
-    str
-        HTML, to be written in UTF-8.
+    """Return a whole page. Its Content-Security-Policy allows no request and only the page's scripts, by their digests;
+    `runs_kernel` adds WebAssembly, also in a worker. `lead` stands before the table of contents.
     """
     placed = _placed(sections, 2, set())
     page: str = (

@@ -1,4 +1,4 @@
-"""Figures of a page: SVG inside it, with a text for who cannot see it and identifiers that no other figure has."""
+"""Figures of a page: inline SVG with an alternative text and with identifiers that are unique in the page."""
 
 from __future__ import annotations
 
@@ -24,34 +24,8 @@ _REFERENCE: Final = re.compile(r"(url\(#|href=\"#)([^)\"]+)")
 
 
 def figure_html(figure: Figure | str, caption: str, alt: str, *, narrow: Figure | str | None = None) -> Markup:
-    """Return a figure as inline SVG.
-
-    It is as wide as the page lets it be, and no wider than it was made; on a narrow screen a large one is scrolled. In
-    dark mode an SVG that uses `currentColor` has the colour of the text; the light and the dark of any other are
-    exchanged, and its hues kept.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure or str
-        The figure, or the text of an SVG.
-    caption : str
-        Text below it; Markup is taken as it is.
-    alt : str
-        What the figure shows, in words: its message rather than its looks.
-    narrow : Figure or str, optional
-        The same for a phone, which stands in its place on narrow screens.
-
-    Raises
-    ------
-    InvalidOption
-        The text is no SVG with a viewBox, or `alt` is empty.
-
-    Examples
-    --------
-    >>> from seismass.media.page import figure_html
-    >>> html = figure_html('<svg viewBox="0 0 4 2" width="4"><path d="M0 0h4"/></svg>', "A line.", "a level line")
-    >>> '<title>a level line</title>' in html
-    True
+    """Return a figure as inline SVG, at most as wide as it was made, scrolled on narrow screens unless `narrow`
+    replaces it. In dark mode light and dark are exchanged, or `currentColor` is that of the text.
     """
     if not alt.strip():
         raise refusal(InvalidOption, "alt", "figure", "a description", brief(alt))

@@ -31,35 +31,8 @@ def table_html(
     headers: Mapping[str, str] | None = None,
     formats: Mapping[str, Format] | None = None,
 ) -> Markup:
-    """Return a table; a long one is sorted by its headers and filtered by a field above it.
-
-    Without the script it is a table of all rows in the order given; it prints as it stands on the screen. Its heads are
-    plain text, from which the script makes buttons for the screen alone: Chromium does not repeat heads that hold
-    buttons on every page.
-
-    Parameters
-    ----------
-    frame : polars.DataFrame
-        Its rows; a column of numbers is aligned to the right and sorted by value, not by text.
-    caption : str
-        What the table shows.
-    headers : mapping of str to str, optional
-        Header of a column where it is not the name of the column.
-    formats : mapping of str to Format, optional
-        How values of a column are written where the default (four digits) does not serve. Markup is not escaped.
-
-    Raises
-    ------
-    InvalidOption
-        A header or format is for a column that the frame does not have.
-
-    Examples
-    --------
-    >>> import polars as pl
-    >>> from seismass.media.page import table_html
-    >>> table = table_html(pl.DataFrame({"R": [1, 2], "ratio": [0.5, None]}), "Ratios.", formats={"ratio": ".2f"})
-    >>> '<td class="number" data-value="0.5">0.50</td>' in table
-    True
+    """Return a table; a long one is sorted by its headers and filtered by a field above it. Headers are plain text,
+    from which the script makes buttons, as Chromium does not repeat heads with buttons on printed pages.
     """
     headers, formats = headers or {}, formats or {}
     for owner, given in (("headers", headers), ("formats", formats)):

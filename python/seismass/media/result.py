@@ -50,7 +50,7 @@ class Result:
         return {name: self.plot(name) for name in self.figure_names}
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the answer as plain values, null for what is no finite number; long tables are left to `tables`."""
+        """Return the answer as plain values, null for what is not finite; long tables are left to `tables`."""
         raise NotImplementedError
 
     def to_json(self) -> str:
@@ -68,7 +68,7 @@ class Result:
         Raises
         ------
         InvalidOption
-            The folder is no path.
+            The folder is not a path.
         OSError
             A file cannot be written; then none is changed.
         """
@@ -92,13 +92,7 @@ class Result:
 
 
 def named_figure(result: Result, name: str | None) -> str:
-    """Return the name of the figure that is asked for.
-
-    Raises
-    ------
-    InvalidOption
-        The result has no figure of that name.
-    """
+    """Return the name of the figure that is asked for."""
     known = result.figure_names
     if name is None:
         return known[0]
@@ -108,7 +102,7 @@ def named_figure(result: Result, name: str | None) -> str:
 
 
 def finite_values(value: Any) -> Any:
-    """Return nested values with null in place of infinities and NaN, which JSON has not."""
+    """Return nested values with null in place of infinities and NaN, which JSON does not have."""
     if isinstance(value, dict):
         return {key: finite_values(item) for key, item in value.items()}
     if isinstance(value, list | tuple):

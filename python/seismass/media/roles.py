@@ -25,22 +25,8 @@ MAGENTA: Final = "#A4276F"
 
 @dataclass(frozen=True)
 class Role:
-    """What stands for one thing in all figures.
-
-    Attributes
-    ----------
-    name : str
-        What it is called.
-    colour : str
-        Colour of lines and markers.
-    text : str
-        The same hue for words and thin lines on white: contrast 4.5 at least (WCAG 2.2, 1.4.3).
-    dark : str
-        The same on dark paper.
-    line : str or tuple
-        Dashes, as matplotlib takes them.
-    marker : str
-        Marker, likewise.
+    """Name, colours, dashes and marker of one thing in all figures. `text` is the hue for words and thin lines on
+    white, contrast 4.5 at least (WCAG 2.2, 1.4.3), `dark` that on dark paper.
     """
 
     name: str
@@ -117,14 +103,7 @@ _WORD: Final = re.compile(rf"\b({'|'.join(_LETTERS)})(?=\b|_)")
 
 
 def lettered(text: str) -> str:
-    """Return a text of the package in which symbols that a terminal spells out are Greek letters.
-
-    Examples
-    --------
-    >>> from seismass.media.roles import lettered
-    >>> lettered("eta = mu_k/C1, lambda = 0.80")
-    'η = μ_k/C1, λ = 0.80'
-    """
+    """Return a text of the package in which symbols that a terminal spells out are Greek letters."""
     return _WORD.sub(lambda found: _LETTERS[found[1]], text)
 
 

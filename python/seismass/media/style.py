@@ -57,9 +57,8 @@ _LEFT_OUT: Final = re.compile(f"{_MISSING}(?: ?{_MISSING})*")
 
 
 def lay_out(figure: Figure, like: Figure | None = None) -> Figure:
-    """Place what a figure has, once and for all, and return it: each file is then a single drawing.
-
-    A figure of the same size with the same panels, whose texts are as long, may lend its places: `like`.
+    """Place the parts of a figure once and return it, so that each file is the same drawing. A figure of the same size
+    and panels with texts as long may lend its places: `like`.
     """
     engine = figure.get_layout_engine()
     if engine is None:
@@ -77,9 +76,8 @@ def lay_out(figure: Figure, like: Figure | None = None) -> Figure:
 
 @contextmanager
 def fewer_collections() -> Iterator[None]:
-    """Let garbage with cycles lie while several figures are drawn.
-
-    Matplotlib makes so many objects that looking through them again and again takes a fifth of the time.
+    """Suspend the collection of garbage while several figures are drawn: Matplotlib makes so many objects that repeated
+    collections take a fifth of the time.
     """
     before = gc.get_threshold()
     gc.set_threshold(100_000, *before[1:])
@@ -90,16 +88,8 @@ def fewer_collections() -> Iterator[None]:
 
 
 def plain(text: str) -> str:
-    """Return a text of the user's as a picture can show it.
-
-    Matplotlib finds no formula in it. Words with characters that its font does not have, or whose script has to be set
-    from right to left, are left out for an ellipsis: pages and tables have them.
-
-    Examples
-    --------
-    >>> from seismass.media.style import plain
-    >>> plain("floor 2: 倉庫 east")
-    'floor 2: … east'
+    """Return a text of the user's as a picture can show it: Matplotlib finds no formula in it, and words that its font
+    lacks or that run from right to left become an ellipsis.
     """
     if text.isascii():
         return text.replace("$", r"\$")

@@ -68,7 +68,7 @@ def figure_svg(figure: Figure) -> str:
     Raises
     ------
     InvalidOption
-        It is no figure.
+        It is not a figure.
     """
     if not isinstance(figure, Figure):
         raise refusal(InvalidOption, "figure", "SVG", "a matplotlib Figure", brief(figure))
@@ -80,14 +80,8 @@ def figure_svg(figure: Figure) -> str:
 
 
 def figure_svgs(figures: Mapping[str, Figure], progress: Callable[[int, int], object] | None = None) -> dict[str, str]:
-    """Return the text of `figure_svg` of each figure, by its name.
-
-    Parameters
-    ----------
-    figures : mapping of str to Figure
-        The figures.
-    progress : callable, optional
-        Called with (figures drawn, figures in all), before the first and after each.
+    """Return the text of `figure_svg` of each figure, by its name; `progress` is called with (figures drawn, figures in
+    all) before the first and after each.
     """
     drawn: dict[str, str] = {}
     for number, (name, figure) in enumerate(figures.items()):
@@ -151,9 +145,8 @@ def inline_svg(figure: Figure | str, title: str, description: str = "", *, name:
 
 
 def short_svg(figure: Figure | str) -> str:
-    """Return a figure, or the text of `figure_svg`, as an `<svg>` element of its size, as short as `inline_svg` has it.
-
-    It has no title yet.
+    """Return a figure, or the text of `figure_svg`, as an `<svg>` element of its size without a title, shortened as in
+    `inline_svg`.
     """
     text = figure if isinstance(figure, str) else figure_svg(figure)
     return ET.tostring(_element(text, "f"), encoding="unicode")

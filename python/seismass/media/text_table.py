@@ -8,22 +8,8 @@ from collections.abc import Iterable, Sequence
 
 
 def text_line(cells: Iterable[str], widths: Iterable[int], *, indent: int = 2, gap: int = 0) -> str:
-    """Return cells as one line of columns of given widths; a cell that is wider than its column moves what follows.
-
-    Parameters
-    ----------
-    cells : iterable of str
-        The cells.
-    widths : iterable of int
-        Width of each column, in characters; a cell stands to the right of its column, and to the left where the width
-        is negative, as in "%-12s".
-    indent, gap : int
-        Spaces before the first column, and between columns.
-
-    Examples
-    --------
-    >>> text_line(["floor 1", "0.40"], (-10, 8))
-    '  floor 1       0.40'
+    """Return cells as one line of columns; a cell wider than its column moves what follows. Cells are aligned to the
+    right, or to the left where the width is negative, as in "%-12s".
     """
     placed = []
     for cell, width in zip(cells, widths, strict=True):
@@ -33,14 +19,7 @@ def text_line(cells: Iterable[str], widths: Iterable[int], *, indent: int = 2, g
 
 
 def shown_width(text: str) -> int:
-    """Return how many columns of a terminal a text takes: two for wide letters, none for marks on letters.
-
-    Examples
-    --------
-    >>> from seismass.media.text_table import shown_width
-    >>> shown_width("2 \u5009\u5eab"), shown_width("roof")
-    (6, 4)
-    """
+    """Return how many columns of a terminal a text takes: two for wide letters, none for marks on letters."""
     if text.isascii():
         return len(text)
     return sum(
@@ -50,16 +29,8 @@ def shown_width(text: str) -> int:
 
 
 def text_table(rows: Sequence[Sequence[str]], *, left: int = 1, indent: int = 2) -> list[str]:
-    """Return rows of cells as lines, each column as wide as its widest cell and two spaces from the next.
-
-    Parameters
-    ----------
-    rows : sequence of sequences of str
-        The cells, the head first.
-    left : int
-        How many columns, from the first, are written to the left; the others are written to the right.
-    indent : int
-        Spaces before the first column.
+    """Return rows of cells, the head first, as lines with columns as wide as their widest cell and two spaces apart.
+    The first `left` columns are aligned to the left, the others to the right.
     """
     sizes = (max(map(shown_width, column)) for column in zip(*rows, strict=True))
     widths = [-size if number < left else size for number, size in enumerate(sizes)]
@@ -69,20 +40,8 @@ def text_table(rows: Sequence[Sequence[str]], *, left: int = 1, indent: int = 2)
 def number_text(
     value: float | None, form: str = ".2f", *, scale: float = 1.0, missing: str = "-", infinite: str | None = None
 ) -> str:
-    """Return a number as text.
-
-    Parameters
-    ----------
-    value : float or None
-        The number.
-    form : str
-        Its format.
-    scale : float
-        What it is multiplied by, as 1000 for m in mm.
-    missing : str
-        What stands for None.
-    infinite : str, optional
-        What stands for a number that is not finite.
+    """Return a number times `scale` as text; `missing` stands for None, and `infinite`, if given, for a number that is
+    not finite.
     """
     if value is None:
         return missing
@@ -94,26 +53,8 @@ def number_text(
 def column_texts(
     values: Sequence[float | None], *, digits: int = 3, scale: float = 1.0, unit: str = "", missing: str = "-"
 ) -> list[str]:
-    """Return numbers of a column as texts whose decimal points stand below one another.
-
-    Parameters
-    ----------
-    values : sequence of float or None
-        The numbers.
-    digits : int
-        Digits of the largest; the others have its decimals. A column whose largest number is below 1e-4 or above 1e9
-        has powers of ten.
-    scale : float
-        What they are multiplied by.
-    unit : str
-        What follows each number.
-    missing : str
-        What stands for None, and for what is not a number.
-
-    Examples
-    --------
-    >>> column_texts([0.06374, 0.00812, 3.296e-6], digits=4, scale=1e3, unit=" mm")
-    ['63.74 mm', '8.12 mm', '0.00 mm']
+    """Return numbers of a column, times `scale`, as texts whose decimal points align. The largest has `digits` digits;
+    powers of ten where it is below 1e-4 or above 1e9. `missing` stands for None and NaN.
     """
     scaled = [None if value is None or math.isnan(value) else scale * value for value in values]
     largest = max((abs(value) for value in scaled if value is not None and math.isfinite(value)), default=0.0)

@@ -185,7 +185,7 @@ def blocks_on_floors(mass_ratio: ArrayLike, mu: ArrayLike, *, mu_k: ArrayLike | 
     mu : array_like
         Friction coefficient, one number for all or one per floor; the static one where `mu_k` is given.
     mu_k : array_like, optional
-        Kinetic coefficient, likewise.
+        Kinetic coefficient, in the same form.
 
     Raises
     ------

@@ -468,26 +468,14 @@ def kernel_springs(building: Building) -> tuple[tuple[dict[str, FloatArray]], di
 
 
 def of_storeys_alone(building: Building, owner: str) -> None:
-    """Refuse a building with an elastic matrix where only shear buildings are taken.
-
-    Raises
-    ------
-    InvalidScene
-        It has one.
-    """
+    """Refuse a building with an elastic matrix where only shear buildings are taken."""
     if building.stiffness_matrix is not None:
         requirement = f"left out in {owner}; simulate takes it"
         raise refusal(InvalidScene, "stiffness_matrix", "building", requirement, "a matrix")
 
 
 def chain_kernel(building: Building, owner: str) -> _kernel.Building:
-    """Return what the kernel's chain engine takes of a building.
-
-    Raises
-    ------
-    InvalidScene
-        It has an elastic matrix.
-    """
+    """Return what the kernel's chain engine takes of a building without an elastic matrix."""
     of_storeys_alone(building, owner)
     kernel: Any = building._kernel
     shear_building: _kernel.Building = kernel

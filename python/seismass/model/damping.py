@@ -52,7 +52,7 @@ Damping: TypeAlias = float | Rayleigh | ArrayLike
 
 
 def read_damping(damping: Any) -> float | Rayleigh | FloatArray:
-    """Return damping as a building holds it; the kernel refuses a ratio that is none, 5 for 5 % among them."""
+    """Return damping as a building holds it; the kernel refuses a ratio out of range, such as 5 for 5 %."""
     if isinstance(damping, Rayleigh):
         return damping
     if isinstance(damping, Real) or (isinstance(damping, np.ndarray) and damping.ndim == 0):

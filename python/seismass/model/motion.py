@@ -39,7 +39,7 @@ class Motion(Value, Card):
     Raises
     ------
     InvalidMotion
-        No sample, a value that is not a finite number, a unit that is none of those, a step that is not positive,
+        No sample, a value that is not a finite number, an unknown unit, a step that is not positive,
         unequal lengths.
 
     Examples
@@ -137,12 +137,8 @@ class Motion(Value, Card):
 
 
 def check_size(samples: int, dt: float, owner: str) -> None:
-    """Refuse a motion of a file whose runs would ask for minutes or for all memory.
-
-    Raises
-    ------
-    InvalidMotion
-        More than `MOST_SAMPLES` samples, or a motion longer than `MOST_SECONDS`.
+    """Refuse a motion of a file with more than `MOST_SAMPLES` samples or longer than `MOST_SECONDS`, whose runs would
+    take minutes or all memory.
     """
     if samples > MOST_SAMPLES:
         raise refusal(InvalidMotion, "samples", owner, f"at most {MOST_SAMPLES}", str(samples))

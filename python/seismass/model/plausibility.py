@@ -54,17 +54,8 @@ LIMITS: Final = {
 
 
 def limit_remarks(limits: Iterable[tuple[str, float]]) -> tuple[str, ...]:
-    """Return what is unlikely about limits.
-
-    Parameters
-    ----------
-    limits : iterable of (str, float)
-        Quantities, as a `LimitState` names them, with their values; others than those of `LIMITS` are left out.
-
-    Examples
-    --------
-    >>> limit_remarks([("drift_ratio", 2.0)])
-    ('the limit of drift_ratio is 2 of the height, above 0.2: limits are ratios, not per cent',)
+    """Return what is unlikely about limits, pairs of a quantity of `LimitState` and its value; quantities that are not
+    in `LIMITS` are left out.
     """
     found = []
     for quantity, value in limits:
@@ -75,16 +66,8 @@ def limit_remarks(limits: Iterable[tuple[str, float]]) -> tuple[str, ...]:
 
 
 def usage_remarks(scene_remarks: Iterable[str], motions: Any, limits: Iterable[tuple[str, float]] = ()) -> list[str]:
-    """Return what is unlikely about a study: its scene, limits and motions; of these the first, with a count.
-
-    Parameters
-    ----------
-    scene_remarks : iterable of str
-        `Scene.remarks` of one or several scenes.
-    motions : iterable of Motion or Record
-        The motions as they are used; none where they are scaled to many intensities.
-    limits : iterable of (str, float)
-        As for `limit_remarks`.
+    """Return what is unlikely about a study: remarks of its scenes, of limits, and of motions as they are used the
+    first, with a count. No motions are given where they are scaled to many intensities.
     """
     strong = motion_remarks(motions)
     if len(strong) > 1:
@@ -93,26 +76,8 @@ def usage_remarks(scene_remarks: Iterable[str], motions: Any, limits: Iterable[t
 
 
 def model_remarks(building: Building | None, blocks: Sequence[Block]) -> tuple[str, ...]:
-    """Return what is unlikely about a building and its blocks.
-
-    Parameters
-    ----------
-    building : Building or None
-        The building.
-    blocks : sequence of Block
-        Its blocks.
-
-    Returns
-    -------
-    tuple of str
-        One sentence per kind of remark; it names the first storey or block concerned and counts the others.
-
-    Examples
-    --------
-    >>> import seismass as sm
-    >>> scene = sm.Scene(sm.Building.uniform(2, 0.4), [sm.Block(1, mass_ratio=1.0, mu=40.0)])
-    >>> scene.remarks
-    ('mu_s of block 1 is 40, above 1.5: friction coefficients are ratios, not per cent',)
+    """Return what is unlikely about a building and its blocks, a sentence per kind of remark, which names the first
+    storey or block concerned and counts the others.
     """
     found = [] if building is None else list(_building_remarks(building))
     found += _numbered(
@@ -167,23 +132,8 @@ def _building_remarks(building: Building) -> Iterator[str]:
 
 
 def motion_remarks(motions: Any) -> tuple[str, ...]:
-    """Return what is unlikely about ground motions as they are used, scale factors included.
-
-    Parameters
-    ----------
-    motions : Motion, Record or iterable of them
-        The motions, which the remarks count from 1 and name where they have a name.
-
-    Returns
-    -------
-    tuple of str
-        One sentence per motion concerned.
-
-    Examples
-    --------
-    >>> import seismass as sm
-    >>> motion_remarks(sm.Motion([0.0, 350.0, 0.0], dt=0.01))
-    ('motion 1 has a PGA of 35.69 g, above 5 g: are its accelerations in m/s2?',)
+    """Return what is unlikely about ground motions as they are used, scale factors included: a sentence per motion,
+    counted from 1 and named where it has a name.
     """
     listed: Iterable[Any] = [motions] if hasattr(motions, "acceleration") else motions
     found = []
@@ -197,23 +147,8 @@ def motion_remarks(motions: Any) -> tuple[str, ...]:
 
 
 def mean_motion_remarks(motions: Any) -> tuple[str, ...]:
-    """Return what is unlikely about the mean PGA of a suite as it is used, scale factors included.
-
-    Parameters
-    ----------
-    motions : Motion, Record or iterable of them
-        The motions.
-
-    Returns
-    -------
-    tuple of str
-        At most one sentence.
-
-    Examples
-    --------
-    >>> import seismass as sm
-    >>> mean_motion_remarks(sm.Motion([0.0, 35.0, 0.0], dt=0.01))
-    ('the mean PGA of the motions is 3.569 g, above 3 g: are site spectrum and accelerations in their units?',)
+    """Return what is unlikely about the mean PGA of a suite as it is used, scale factors included: at most one
+    sentence.
     """
     listed: Iterable[Any] = [motions] if hasattr(motions, "acceleration") else motions
     peaks = [float(np.abs(motion.acceleration).max()) / STANDARD_GRAVITY for motion in listed]

@@ -11,20 +11,8 @@ from seismass.model.codes import FROM_MEMORY
 
 @dataclass(frozen=True)
 class RackDirection:
-    """A direction of pallet racks.
-
-    Attributes
-    ----------
-    name : str
-        "down-aisle", along the beams, or "cross-aisle", along the braced frames.
-    period : float
-        First period (s) with frame and goods, taken where none is stated.
-    low, high : float
-        Range of it (s).
-    source : str
-        Where it is from.
-    status : str
-        How the source was checked.
+    """A direction of pallet racks, "down-aisle" (along the beams) or "cross-aisle" (along the braced frames), with its
+    default first period, frame and goods (s), range, source and how the source was checked.
     """
 
     name: str
@@ -45,19 +33,7 @@ RACK_DIRECTIONS: Final = (
 
 
 def rack_direction(name: str) -> RackDirection:
-    """Return a direction of racks by its name.
-
-    Raises
-    ------
-    InvalidOption
-        There is none of that name.
-
-    Examples
-    --------
-    >>> from seismass.model.rack_periods import rack_direction
-    >>> rack_direction("down-aisle").period
-    1.5
-    """
+    """Return a direction of racks by its name."""
     names = tuple(each.name for each in RACK_DIRECTIONS)
     chosen = known_id(name, names, "direction of racks")
     return RACK_DIRECTIONS[names.index(chosen)]

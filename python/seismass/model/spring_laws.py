@@ -18,7 +18,7 @@ BackboneLike: TypeAlias = ArrayLike | Sequence[ArrayLike | None]
 """Points for every storey, or a list with those of each storey, None where it has none."""
 
 _NAMES: Final[dict[Part, str]] = {"trilinear": "a trilinear backbone", "stop": "a clearance"}
-"""What errors call a part that is no hysteresis."""
+"""Names in errors of parts other than a hysteresis."""
 _SAME: Final = 1e-9
 """Relative difference up to which a stiffness or strength is that of a backbone."""
 
@@ -83,16 +83,8 @@ def read_hysteresis(value: Any, storeys: int) -> tuple[Hysteresis, ...]:
 
 
 def of_first_segment(given: FloatArray, name: str, backbones: tuple[Backbone | None, ...]) -> FloatArray:
-    """Return stiffnesses or yield shears with those of the backbones where they are not given, or are the same.
-
-    Parameters
-    ----------
-    given : ndarray, shape () or (storeys,)
-        One number for the storeys without a backbone, or a value for each storey, NaN where it is not given.
-    name : {"stiffness", "yield_shear"}
-        What they are.
-    backbones : tuple
-        Backbone of each storey, or None.
+    """Return stiffnesses or yield shears, taken from the backbones where they are not given (NaN, or one number for the
+    storeys without a backbone); both must agree where both are given.
     """
     values = np.array(np.broadcast_to(given, len(backbones)))
     for i, points in enumerate(backbones):

@@ -42,25 +42,8 @@ TRILINEAR: Final[frozenset[Hysteresis]] = frozenset({"masing", "peak-oriented"})
 
 @dataclass(frozen=True)
 class SpringField:
-    """A number that every storey's spring has.
-
-    Attributes
-    ----------
-    default : float
-        Its value where none is given.
-    unit : str
-        Its unit; empty for a ratio.
-    symbol : str
-        What summaries call it.
-    meaning : str
-        What it is, with its unit and its range, as a docstring has it.
-    requirement : str
-        Its range, as errors have it.
-    low, high : float
-        The range, both ends included.
-    parts : tuple of str
-        What a spring must have for it to matter, one of these: a trilinear backbone, a stop, a hysteresis. Empty:
-        nothing.
+    """A number that every storey's spring has: default, unit, symbol, meaning, range (both ends included), and the
+    parts of a spring (trilinear backbone, stop, hysteresis; any) without which it has no effect.
     """
 
     default: float
@@ -248,21 +231,15 @@ def is_default(values: Any, name: str) -> TypeGuard[FloatArray]:
 
 
 def checked_names(given: dict[str, Any], known: dict[str, SpringField], owner: str) -> None:
-    """Refuse a keyword argument that is none of those known, as Python does."""
+    """Refuse an unknown keyword argument, as Python does."""
     for name in given:
         if name not in known:
             raise TypeError(f"{owner}() got an unexpected keyword argument {name!r}")
 
 
 def takes_springs(fields: dict[str, SpringField], **instead: Any) -> Callable[[_Function], _Function]:
-    """Return a decorator for a function whose `**` argument is some of the fields: its signature names each of them.
-
-    Parameters
-    ----------
-    fields : dict of str to SpringField
-        The fields.
-    **instead
-        As `default`, what the function has for the default of each, instead of that of the table.
+    """Return a decorator for a function whose `**` argument takes some of the fields: its signature names each of them.
+    `instead` replaces the default of a field for that function.
     """
 
     def decorate(function: _Function) -> _Function:

@@ -66,7 +66,7 @@ def ida(
     Raises
     ------
     InvalidOption
-        A column is missing, all runs failed, or `ax` is no Axes.
+        A column is missing, all runs failed, or `ax` is not an Axes.
 
     Notes
     -----
@@ -135,7 +135,7 @@ def fragility(
     Raises
     ------
     InvalidOption
-        A column is missing, all runs failed, the limit is no number, or `ax` is no Axes.
+        A column is missing, all runs failed, the limit is not a number, or `ax` is not an Axes.
     """
     from scipy.stats import norm  # slow to import
 
@@ -232,7 +232,7 @@ def scatter(table: pl.DataFrame, x: str, y: str, *, by: str | None = None, ax: A
     Raises
     ------
     InvalidOption
-        A column is missing or `by` has too many values, all runs failed, or `ax` is no Axes.
+        A column is missing or `by` has too many values, all runs failed, or `ax` is not an Axes.
     """
     kept = checked_table(table, (x, y) if by is None else (x, y, by), "scatter figure")
     fell = pl.col("status") == "collapsed" if "status" in kept.columns else pl.lit(False)

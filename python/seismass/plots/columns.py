@@ -48,13 +48,7 @@ def in_unit(name: str, values: NDArray[Any]) -> FloatArray:
 
 
 def checked_table(table: Any, columns: tuple[str, ...], owner: str) -> pl.DataFrame:
-    """Return a table of runs without those that failed.
-
-    Raises
-    ------
-    InvalidOption
-        It is no Polars table, a column is missing, or no run is left.
-    """
+    """Return a table of runs, which must have the columns needed, without those that failed."""
     if not isinstance(table, pl.DataFrame):
         raise refusal(InvalidOption, "table", owner, "a polars.DataFrame of runs", brief(table))
     for name in columns:

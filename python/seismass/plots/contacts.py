@@ -44,7 +44,7 @@ def contacts(
     Raises
     ------
     InvalidOption
-        The run has no event log, no block has stops or one that is named has none, or `ax` fits not.
+        The run has no event log, no block has stops or one that is named has none, or `ax` does not fit the panels.
     """
     owner, goods = "figure of contacts", response.scene.goods
     stopped = [number for number, block in enumerate(goods, start=1) if block.stops is not None]

@@ -54,7 +54,7 @@ def energy(response: Response, *, points: int = DEFAULT_POINTS, ax: Axes | None 
     Raises
     ------
     InvalidOption
-        There are fewer than two points, or `ax` is no Axes.
+        There are fewer than two points, or `ax` is not an Axes.
     """
     times, runs = _shortened(response, points, "energy figure", energy=True)
     stated = response.scene.building is None or response.scene.building.mass_is_stated
@@ -122,7 +122,7 @@ def slip_path(
     Raises
     ------
     InvalidOption
-        There is no such block, there are fewer than two points, or `ax` is no Axes.
+        There is no such block, there are fewer than two points, or `ax` is not an Axes.
     """
     places = goods_names(response.scene)
     chosen = numbers(blocks, len(places), "blocks", "figure of slip paths")

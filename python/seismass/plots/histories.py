@@ -49,7 +49,7 @@ def drift(
     Raises
     ------
     InvalidOption
-        The run has no histories, there is no such storey or kind of events, or `ax` fits not.
+        The run has no histories, there is no such storey or kind of events, or `ax` does not fit the panels.
     """
     chosen = numbers(storeys, response.scene.storeys, "storeys", "drift figure")
     with mpl.rc_context(STYLE):
@@ -94,7 +94,7 @@ def slip(
     Raises
     ------
     InvalidOption
-        The run has no histories, there is no such block or kind of events, or `ax` fits not.
+        The run has no histories, there is no such block or kind of events, or `ax` does not fit the panels.
     """
     places = goods_names(response.scene)
     chosen = numbers(blocks, len(places), "blocks", "slip figure")
@@ -144,7 +144,7 @@ def acceleration(
     Raises
     ------
     InvalidOption
-        The run has no such histories, there is no such floor or kind of events, or `ax` fits not.
+        The run has no such histories, there is no such floor or kind of events, or `ax` does not fit the panels.
     """
     chosen = numbers(floors, response.scene.storeys, "floors", "acceleration figure")
     with mpl.rc_context(STYLE):
@@ -165,13 +165,7 @@ def acceleration(
 
 
 def numbers(given: int | Sequence[int] | None, count: int, parameter: str, owner: str) -> list[int]:
-    """Return numbers counted from 1, all of them by default.
-
-    Raises
-    ------
-    InvalidOption
-        There is none, or no such one.
-    """
+    """Return numbers counted from 1, all of them by default."""
     if count == 0:
         raise refusal(InvalidOption, parameter, owner, "in a scene that has any", "a scene without")
     if given is None:
@@ -200,9 +194,8 @@ def histories(
     kinds: tuple[str, ...],
     labels: tuple[str, Callable[[int], str], str],
 ) -> None:
-    """Draw a history of each number into its panel.
-
-    `labels` are the unit, what a number is called, and what is said where there is nothing but zero.
+    """Draw a history of each number into its panel. `labels` are the unit, the name of a number, and the text where
+    there is nothing but zero.
     """
     unit, called, nothing = labels
     time, found = response.time, set[str]()

@@ -60,7 +60,7 @@ def loops(
     Raises
     ------
     InvalidOption
-        The run has no such histories, there is no such storey or kind of events, or `ax` fits not.
+        The run has no such histories, there is no such storey or kind of events, or `ax` does not fit the panels.
     """
     owner = "figure of loops"
     chosen = numbers(storeys, response.scene.storeys, "storeys", owner)

@@ -70,7 +70,7 @@ def profile(
     Raises
     ------
     InvalidOption
-        There is no building or no such quantity, a limit is no number or is for none of the panels, or `ax` fits not.
+        There is no building or no such quantity, a limit is not a number or has no panel, or `ax` does not fit them.
     """
     owner = "profile"
     chosen = [quantities] if isinstance(quantities, str) else list(quantities)
@@ -190,7 +190,7 @@ def floor_spectra(
     ------
     InvalidOption
         The run has no such histories or collapsed, there is no such floor, a period or the damping is out of its range,
-        or `ax` is no Axes.
+        or `ax` is not an Axes.
     """
     owner = "floor spectra"
     chosen = numbers(floors, response.scene.storeys, "floors", owner)
@@ -237,7 +237,7 @@ def floor_spectra(
 
 
 def _in_groups(count: int) -> list[range]:
-    """Floors of each panel: so many that their lines can be told apart, the highest above."""
+    """Floors of each panel: few enough that lines can be distinguished, the highest above."""
     rows = -(-count // len(SERIES))
     ends = [round(count * row / rows) for row in range(rows + 1)]
     return [range(first, end) for first, end in itertools.pairwise(ends)][::-1]

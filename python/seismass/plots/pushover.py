@@ -48,7 +48,7 @@ def pushover(path: Pushover, *, labels: bool = True, ax: Axes | None = None) -> 
     Raises
     ------
     InvalidOption
-        `ax` is no Axes.
+        `ax` is not an Axes.
     """
     with mpl.rc_context(STYLE):
         place = single(ax, "pushover figure")

@@ -51,7 +51,7 @@ def rack_drift(
     Raises
     ------
     InvalidOption
-        The run has no histories, there is no such rack or kind of events, or `ax` fits not.
+        The run has no histories, there is no such rack or kind of events, or `ax` does not fit the panels.
     """
     owner, scene = "rack drift figure", response.scene
     wanted = numbers(racks, len(scene.racks), "racks", owner)
@@ -100,7 +100,7 @@ def rack_profile(
     Raises
     ------
     InvalidOption
-        There is no such rack, or `ax` fits not.
+        There is no such rack, or `ax` does not fit the panels.
     """
     owner, scene = "rack profile", response.scene
     chosen = numbers(racks, len(scene.racks), "racks", owner)

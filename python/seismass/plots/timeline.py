@@ -44,13 +44,7 @@ ALL_BLOCKS: Final = ("lift", "land")
 
 
 def chosen_kinds(kinds: bool | Sequence[str], usual: tuple[str, ...], owner: str) -> tuple[str, ...]:
-    """Return kinds of events: the usual ones for True, none for False, or those of a list.
-
-    Raises
-    ------
-    InvalidOption
-        There is no such kind.
-    """
+    """Return kinds of events: the usual ones for True, none for False, or those of a list."""
     if isinstance(kinds, bool):
         return usual if kinds else ()
     listed = (kinds,) if isinstance(kinds, str) else tuple(kinds)
@@ -111,7 +105,7 @@ def events(response: Response, *, ax: Axes | None = None) -> Figure:
     Raises
     ------
     InvalidOption
-        The run has no event log, or `ax` is no Axes.
+        The run has no event log, or `ax` is not an Axes.
     """
     log = response.event_log
     blocks, rows = goods_names(response.scene), list(spring_names(response.scene))
@@ -149,9 +143,8 @@ def events(response: Response, *, ax: Axes | None = None) -> Figure:
 
 
 def sliding_spans(response: Response, block: int) -> FloatArray:
-    """Return from when to when (s) a block counted from 1 slid, by its events; shape (spans, 2).
-
-    A block that is airborne counts as sliding from the slip before to the stick after.
+    """Return from when to when (s) a block counted from 1 slid, by its events; shape (spans, 2). An airborne block
+    counts as sliding from the slip before to the stick after.
     """
     starts, ends = event_times(response, "slip", block), event_times(response, "stick", block)
     if len(ends) and (not len(starts) or ends[0] < starts[0]):

@@ -106,7 +106,7 @@ def baker2007_orientations(
     InvalidMotion
         As for `shahi_baker2014`.
     InvalidOption
-        Orientations that are no whole number from 1 to 3600.
+        `orientations` is not a whole number from 1 to 3600.
     MissingPackage
         PyWavelets is not installed.
     """

@@ -41,22 +41,8 @@ CENTIMETRES: Final = 100.0
 
 @dataclass(frozen=True, eq=False)
 class Horizontals:
-    """Two perpendicular horizontal velocities of one length.
-
-    Attributes
-    ----------
-    names : tuple of str
-        Names of the two records.
-    velocities : tuple of ndarray, shape (samples,)
-        The velocity (m/s) of the first component, and the one at right angles to it on the side of the second.
-    dt : float
-        Time step (s).
-    azimuth_of_first : float, optional
-        Direction of the first (degrees from north), where both records state theirs.
-    turn : float
-        1 where the second is clockwise from the first, -1 where it is the other way round.
-    remarks : tuple of str
-        What was done to bring them together.
+    """Two perpendicular horizontal velocities (m/s) of one length: the first component and the one at right angles,
+    towards the second. `turn` is 1 where the second is clockwise from the first, else -1.
     """
 
     names: tuple[str, str]
@@ -79,13 +65,7 @@ class Horizontals:
 
 
 def single_velocity(record: Any, owner: str) -> FloatArray:
-    """Return the velocity (m/s) of one record.
-
-    Raises
-    ------
-    InvalidMotion
-        It is no record, its step is longer than the shortest pulse allows, or it has no motion.
-    """
+    """Return the velocity (m/s) of one record, whose step must not be longer than the shortest pulse allows."""
     if not isinstance(record, Record):
         raise refusal(InvalidMotion, "record", owner, "a Record", brief(record))
     scale_range(record.dt, owner)
@@ -99,14 +79,7 @@ def single_velocity(record: Any, owner: str) -> FloatArray:
 
 
 def horizontals(first: Any, second: Any, owner: str) -> Horizontals:
-    """Return the velocities of a pair, or of two records, which are brought together as `Pair.from_records` does.
-
-    Raises
-    ------
-    InvalidMotion
-        Neither a pair nor two records, different steps, directions that are stated and not at right angles, or no
-        motion in one of them.
-    """
+    """Return the velocities of a pair, or of two records, which are brought together as in `Pair.from_records`."""
     if isinstance(first, Pair) and second is None:
         pair = first
     elif isinstance(first, Record) and isinstance(second, Record):
@@ -152,13 +125,7 @@ def doubtful_period(period: float, duration: float) -> tuple[str, ...]:
 
 
 def scale_range(dt: float, owner: str) -> range:
-    """Return the 51 scales searched, in samples: from the shortest to just above the longest pulse period.
-
-    Raises
-    ------
-    InvalidMotion
-        The step is too long for the shortest pulse.
-    """
+    """Return the 51 scales searched, in samples: from the shortest to just above the longest pulse period."""
     smallest = math.floor(SHORTEST_PERIOD / PERIOD_OF_SCALE / dt)
     if smallest < 1:
         most = SHORTEST_PERIOD / PERIOD_OF_SCALE
@@ -169,18 +136,8 @@ def scale_range(dt: float, owner: str) -> range:
 
 @dataclass(frozen=True, eq=False)
 class Extraction:
-    """A pulse that was taken out of a velocity.
-
-    Attributes
-    ----------
-    scale : int
-        Scale of its wavelets, in samples.
-    samples : tuple of int
-        Centres of the ten wavelets, in order of extraction.
-    coefficients : tuple of float
-        Their coefficients.
-    pulse, residual : ndarray, shape (samples,)
-        Sum of the wavelets, and what is left of the velocity.
+    """A pulse that was taken out of a velocity: scale of its wavelets in samples, centres and coefficients of the ten
+    wavelets in order of extraction, their sum and the residual, shape (samples,).
     """
 
     scale: int
@@ -191,24 +148,8 @@ class Extraction:
 
 
 def extract(velocity: FloatArray, scales: range, row: int, sample: int) -> Extraction:
-    """Take ten wavelets of one scale out of a velocity.
-
-    Parameters
-    ----------
-    velocity : ndarray, shape (samples,)
-        The velocity, in any unit.
-    scales : range
-        The scales of the search.
-    row : int
-        Place in it of the scale at which the coefficient is largest.
-    sample : int
-        Sample on which that coefficient is centred.
-
-    Notes
-    -----
-    The scale is refined to the whole number of samples, between its neighbours in the search, at which the coefficient
-    at the sample is largest in size (at steps below 2 ms to every second, third, ... number of samples). Each wavelet
-    is that of the largest coefficient, within 0.4 scales of the sample, of what the ones before it left.
+    """Take ten wavelets of one scale out of a velocity: the whole scale near `scales[row]` with the largest coefficient
+    at `sample`; each wavelet is the largest of the residual within 0.4 scales of the sample.
     """
     low, high = scales[max(0, row - 1)], scales[min(len(scales) - 1, row + 1)]
     between = range(low, high + 1, math.ceil((high + 1 - low) / REFINEMENTS))

@@ -13,4 +13,4 @@ NO_PULSE_BELOW: Final = 0.15
 LEAST_PGV: Final = 0.30
 """Baker (2007): peak velocity (m/s) that a pulse-like record is above."""
 ARRIVAL: Final = {BAKER: (0.10, 0.20), SHAHI_BAKER: (0.05, 0.17)}
-"""Share of the pulse's energy at whose time the record must be below which share of its own, by method."""
+"""Early arrival, by method: when the pulse has the first share of its energy, the record has less than the second."""

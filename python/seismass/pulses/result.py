@@ -32,7 +32,7 @@ class Candidate(Card):
     kind : {"pulse", "ambiguous", "no pulse"}
         What the method calls it.
     reasons : tuple of str
-        Why it is no pulse, one sentence for each criterion that is not met; empty for a pulse.
+        Why it is not a pulse, one sentence for each criterion that is not met; empty for a pulse.
     scale : int
         Scale of its wavelets, in samples.
     dt : float

@@ -52,10 +52,8 @@ def _integral() -> FloatArray:
 
 @functools.lru_cache(maxsize=128)
 def _filter(scale: int) -> FloatArray:
-    """Weights of a transform at one scale, shape (7 scale,): the integral of the wavelet over each sample.
-
-    As MATLAB's `cwt` forms them, which takes the integral at the point before, so that published periods are met to the
-    sample.
+    """Weights of a transform at one scale, shape (7 scale,): the integral of the wavelet over each sample. As in
+    MATLAB's `cwt` the integral is taken at the point before, to meet published periods to the sample.
     """
     points = np.arange(SUPPORT * scale + 1) * 2**_FINE_LEVEL // scale
     return frozen(np.diff(_integral()[points]) * np.sqrt(scale))
@@ -75,27 +73,15 @@ def _spectrum(scale: int, size: int) -> NDArray[np.complex128]:
 
 
 def transform(velocity: FloatArray, scale: int) -> FloatArray:
-    """Return the wavelet coefficient centred on each sample, at one scale.
-
-    Parameters
-    ----------
-    velocity : ndarray, shape (samples,)
-        The history, taken as zero before and after.
-    scale : int
-        Scale of the wavelet in samples.
-
-    Returns
-    -------
-    ndarray, shape (samples,)
-        Sum of the history times the wavelet of unit energy, in the unit of the history times the root of a sample.
+    """Return the wavelet coefficient of unit energy centred on each sample, at one scale (samples), in the unit of the
+    velocity times the root of a sample. The history is zero before and after.
     """
     return transform_near(velocity, scale, 0, len(velocity) - 1)
 
 
 def transform_near(velocity: FloatArray, scale: int, first: int, last: int) -> FloatArray:
-    """Return the coefficients at one scale, centred on the samples from `first` to `last`, both included.
-
-    As `transform`, of what the wavelets there touch alone.
+    """Return the coefficients of `transform` at one scale centred on the samples `first` to `last`, both included,
+    computed only from the samples that these wavelets touch.
     """
     from scipy.fft import irfft, next_fast_len, rfft  # slow to import
 
@@ -116,21 +102,8 @@ def coefficient(velocity: FloatArray, scale: int, sample: int) -> float:
 
 
 def wavelet_history(samples: int, scale: int, sample: int) -> FloatArray:
-    """Return the wavelet of unit energy centred on a sample, as a history.
-
-    Parameters
-    ----------
-    samples : int
-        Length of the history.
-    scale : int
-        Scale of the wavelet in samples.
-    sample : int
-        Where its centre is.
-
-    Returns
-    -------
-    ndarray, shape (samples,)
-        The wavelet of level 4, linear between its points, divided by the root of the scale.
+    """Return the wavelet of unit energy centred on a sample, as a history: level 4, linear between its points, divided
+    by the root of the scale (samples).
     """
     places, psi = _wavelet(_LEVEL)
     at = (np.arange(samples) - sample) / scale + 0.5 * SUPPORT
@@ -138,9 +111,8 @@ def wavelet_history(samples: int, scale: int, sample: int) -> FloatArray:
 
 
 def approximation_energy(velocity: FloatArray) -> float:
-    """Return the energy of the approximation coefficients of one level of the discrete transform.
-
-    Half the frequencies are in it, and nearly all the energy of a velocity.
+    """Return the energy of the approximation coefficients of one level of the discrete transform: half the frequencies,
+    and nearly all the energy of a velocity.
     """
     approximation, _ = _pywt().dwt(velocity, WAVELET)
     return float(np.sum(np.square(approximation)))

@@ -38,15 +38,8 @@ def is_archive(path: Path) -> bool:
 
 @contextmanager
 def unpacked(path: Path) -> Iterator[tuple[Path, dict[Path, str]]]:
-    """Yield a temporary folder with the files of an archive, and the name of each in the archive.
-
-    Nothing is written by the names of the archive: each file stands in a folder of its own number, under the last part
-    of its name.
-
-    Raises
-    ------
-    RecordFormatError
-        The archive is damaged, encrypted, or holds too many or too large files.
+    """Yield a temporary folder with the files of an archive, and the name of each in the archive. Names of the archive
+    are not paths: each file stands in a numbered folder, under the last part of its name.
     """
     with tempfile.TemporaryDirectory(prefix="seismass-") as name:
         folder = Path(name)

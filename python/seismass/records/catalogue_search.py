@@ -54,7 +54,7 @@ def find_catalogue(folder: str | os.PathLike[str]) -> CatalogueSearch:
     Raises
     ------
     RecordFormatError
-        The folder is no directory.
+        The folder is not a directory.
 
     Notes
     -----
@@ -88,7 +88,7 @@ def _without_doubles(found: list[FoundFile]) -> Iterator[FoundFile]:
 
 
 def _identified(file: Path) -> Iterator[FoundFile]:
-    """What a file is, channel by channel; nothing where it is none of the seven."""
+    """What a file is, channel by channel; nothing where it is not one of the seven."""
     if file.stat().st_size > _LARGEST_BYTES:
         return
     reason = ""

@@ -50,13 +50,8 @@ def no_motion(record: Record) -> str | None:
 
 
 def suspicions(record: Record, *, unit_given: bool) -> tuple[str, ...]:
-    """Return remarks on samples that look wrong: the peak at the last sample, a doubtful unit, an offset, a spike.
-
-    Parameters
-    ----------
-    record : Record
-    unit_given : bool
-        Whether the caller stated the unit, and not the file alone.
+    """Return remarks on samples that look wrong: the peak at the last sample, a doubtful unit (unless the caller stated
+    it: `unit_given`), an offset, a spike.
     """
     samples = record.acceleration
     size = np.abs(samples)

@@ -13,7 +13,7 @@ def files_below(directory: Path) -> list[Path]:
 
 
 def _is_file(path: Path) -> bool:
-    """Whether a path is a file; a link to a place that may not be looked at is none."""
+    """Whether a path is a file; not where a link leads to a place without access."""
     try:
         return path.is_file()
     except OSError:

@@ -20,14 +20,8 @@ BRACKET_G: Final = 0.05
 
 
 def integrals(acceleration: FloatArray, dt: float) -> tuple[FloatArray, FloatArray]:
-    """Return velocity (m/s) and displacement (m) at the samples, from rest.
-
-    Parameters
-    ----------
-    acceleration : ndarray, shape (..., samples)
-        Samples (m/s2); linear between them.
-    dt : float
-        Time step (s).
+    """Return velocity (m/s) and displacement (m) at the samples, from rest, of accelerations (m/s2) that are linear
+    between samples, shape (..., samples).
     """
     before, after = acceleration[..., :-1], acceleration[..., 1:]
     velocity = np.zeros(acceleration.shape)
@@ -77,9 +71,8 @@ def _largest(*values: FloatArray) -> FloatArray:
 
 
 def build_up(acceleration: FloatArray, dt: float) -> FloatArray:
-    """Return the Arias intensity up to each sample (m/s): pi/(2 g) times the integral of a^2, cubic within a step.
-
-    Arias (1970), A measure of earthquake intensity.
+    """Return the Arias intensity up to each sample (m/s): pi/(2 g) times the integral of a^2, cubic within a step
+    (Arias 1970, A measure of earthquake intensity).
     """
     before, after = acceleration[..., :-1], acceleration[..., 1:]
     built = np.zeros(acceleration.shape)
@@ -103,13 +96,7 @@ def time_of_share(acceleration: FloatArray, dt: float, share: float) -> float:
 
 
 def significant_duration(acceleration: FloatArray, dt: float, start: float, end: float) -> float:
-    """Return the time (s) between two shares of the Arias intensity; Trifunac and Brady (1975) take 0.05 and 0.95.
-
-    Raises
-    ------
-    InvalidOption
-        The shares are not in order between 0 and 1.
-    """
+    """Return the time (s) between two shares of the Arias intensity; Trifunac and Brady (1975) take 0.05 and 0.95."""
     first = as_number(start, "start", "significant duration", InvalidOption)
     last = as_number(end, "end", "significant duration", InvalidOption)
     if not 0.0 <= first <= 1.0:
@@ -131,12 +118,8 @@ def cumulative_absolute_velocity(acceleration: FloatArray, dt: float) -> float:
 
 
 def bracketed_duration(acceleration: FloatArray, dt: float, threshold_g: float) -> float:
-    """Return the time (s) from the first to the last crossing of a threshold of abs(a); 0 where it is not reached.
-
-    Raises
-    ------
-    InvalidOption
-        The threshold is not a positive number.
+    """Return the time (s) from the first to the last crossing of a positive threshold of abs(a); 0 where it is not
+    reached.
     """
     threshold = as_number(threshold_g, "threshold_g", "bracketed duration", InvalidOption)
     if not (math.isfinite(threshold) and threshold > 0.0):

@@ -32,11 +32,8 @@ MEASURES: Final = (
 
 
 def drift_remarks(record: Record) -> tuple[str, ...]:
-    """Return what the ends of velocity and displacement say about the baseline of a record; nothing for most.
-
-    A recording ends nearly at rest: a velocity at its end above `END_VELOCITY` of PGV, or a displacement above
-    `END_DISPLACEMENT` of PGD, is more often an error of the baseline, or a record cut short, than motion of the
-    ground. Permanent displacement near a fault is the exception.
+    """Return remarks on the baseline: a velocity at the end above `END_VELOCITY` of PGV or a displacement above
+    `END_DISPLACEMENT` of PGD is mostly an error or a cut, save permanent displacement near a fault.
     """
     velocity, displacement = float(record.velocity[-1]), float(record.displacement[-1])
     remarks = []
@@ -72,7 +69,7 @@ def intensity_table(records: Iterable[Record]) -> pl.DataFrame:
     Raises
     ------
     InvalidMotion
-        Something else than records.
+        Something other than records.
 
     Examples
     --------

@@ -23,13 +23,7 @@ class Reading:
     channel: str | None = None
 
     def refuse(self, path: Path, what: str) -> None:
-        """Refuse everything that is typed of one file where there is none.
-
-        Raises
-        ------
-        InvalidOption
-            Something is given.
-        """
+        """Refuse every argument of a single file where there is none."""
         for field in fields(self):
             value = getattr(self, field.name)
             if value is not None:
@@ -42,13 +36,7 @@ class Reading:
 
 def records_named(path: Path, reading: Reading = Reading()) -> Suite:
     """Return the records that a path names: a folder, a ZIP archive, a CSV with a column `file`, or else one file.
-
-    Raises
-    ------
-    InvalidOption
-        A step, a unit or another argument of one file is given for more than one record: a list has columns for them.
-    RecordFormatError
-        As for `read_suite` and `read_records`.
+    Arguments of one file are refused for more than one record: a list has columns for them.
     """
     if path.is_dir() or is_archive(path) or is_list(path):
         reading.refuse(path, "a folder or a list of records")

@@ -44,7 +44,7 @@ class Pair(Value):
     ------
     InvalidMotion
         Steps or lengths that differ, stated directions that are not at right angles (within 5 degrees), a vertical
-        component in place of a horizontal one or the reverse, or something else than records.
+        component in place of a horizontal one or the reverse, or something other than records.
     """
 
     first: Record
@@ -159,7 +159,7 @@ class Pair(Value):
         alike = takewhile(lambda letters: letters[0] == letters[1], zip(one, other, strict=False))
         common = "".join(letter for letter, _ in alike)
         if one != other and self.azimuths is not None:
-            # Directions may begin alike (000 and 090): their digits are no part of the name.
+            # Directions may begin alike (000 and 090): their digits are not part of the name.
             degrees = [f"{azimuth % 360.0:03.0f}" for azimuth in self.azimuths]
             for length in (len(common) - 1, len(common) - 2):
                 if length >= 0 and [name[length : length + 3] for name in (one, other)] == degrees:

@@ -42,7 +42,7 @@ class Pairs(Card):
     pairs : tuple of Pair
         What was found.
     excluded : tuple of Excluded
-        Files that are no component of a pair, with the reason.
+        Files that are not a component of a pair, with the reason.
     """
 
     name: str
@@ -105,8 +105,8 @@ def find_pairs(folder: str | os.PathLike[str], *, lengths: Literal["shorter", "p
     Raises
     ------
     RecordFormatError
-        It is no folder. A damaged file raises nothing: it stands in `excluded` with the reason, as does one that is no
-        record, or a component without a partner or with several.
+        It is not a folder. A damaged file raises nothing: it stands in `excluded` with the reason, as does one that
+        is not a record, or a component without a partner or with several.
     """
     directory = as_path(folder, "pairs", RecordFormatError)
     if not directory.is_dir():

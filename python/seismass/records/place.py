@@ -29,12 +29,8 @@ _BELOW: Final = re.compile(
 
 
 def off_ground(record: Record) -> str | None:
-    """Return why a record is none of the ground surface: its place in a structure or below; None where it is one.
-
-    Parameters
-    ----------
-    record : Record
-        A place that it does not say is taken as the ground surface.
+    """Return why a record is not of the ground surface: its place in a structure or below the ground; None where it is,
+    or where it states no place.
     """
     if not record.place:
         return None
@@ -46,7 +42,7 @@ def off_ground(record: Record) -> str | None:
 
 
 def reason_to_leave(record: Record) -> str | None:
-    """Return why a record is no horizontal motion of the ground: vertical, in a structure or below; else None."""
+    """Return why a record is not a horizontal motion of the ground: vertical, in a structure or below; else None."""
     return vertical_reason(record) or off_ground(record)
 
 

@@ -71,40 +71,8 @@ R = TypeVar("R", bound=Processed)
 
 
 def baseline_corrected(record: R, order: int = 1, fit: Literal["velocity", "acceleration"] = "velocity") -> R:
-    """Return a record less the polynomial of time that fits it best.
-
-    Parameters
-    ----------
-    record : Record
-        The record; its motion starts from rest at its first sample, before and after.
-    order : int, default 1
-        Degree of the polynomial subtracted from the acceleration, 0 to 10: 0 is a constant, 1 a line.
-    fit : {"velocity", "acceleration"}
-        What is fitted by least squares over the samples. For "velocity" the integral of the polynomial is fitted to the
-        velocity (as Boore, 2001, fits parts of it); what is left is the residual of that fit, so that velocity no
-        longer drifts. For "acceleration" the polynomial itself is fitted, which for degree 0 removes the mean.
-
-    Returns
-    -------
-    Record
-        Its first acceleration is no longer zero in general: the correction acts from the first sample on.
-
-    Raises
-    ------
-    InvalidOption
-        A degree or quantity out of range, or a record of fewer samples than the polynomial has coefficients and one.
-
-    Notes
-    -----
-    The polynomial is subtracted at the samples and is linear between them as the record is; the fit of velocities takes
-    its exact integral. Boore (2001), Bull. Seism. Soc. Am. 91:1199-1211.
-
-    Examples
-    --------
-    >>> import seismass as sm
-    >>> drifting = sm.Record([0.5, 1.5, -0.5, 0.5], dt=0.01)
-    >>> drifting.baseline_corrected(0, fit="acceleration").acceleration
-    array([ 0.,  1., -1.,  0.])
+    """Return a record less a polynomial (degree `order`, 0 to 10) of least squares to the acceleration, or whose
+    integral fits the velocity (Boore 2001, Bull. Seism. Soc. Am. 91:1199-1211).
     """
     degree = as_count(order, "order", "baseline correction", InvalidOption)
     if degree > HIGHEST_ORDER:
@@ -137,36 +105,8 @@ def band_passed(
     taper: float = 0.01,
     keep_pads: bool = False,
 ) -> R:
-    """Return a record within a band of frequencies, by a Butterworth filter without phase shift.
-
-    The ends are tapered by half cosines, zeros are added before and after, and the filter is run forwards and backwards
-    (`scipy.signal.sosfiltfilt`), so that its gain is 1/2 (-6 dB) at the corners and falls with twice the order.
-
-    Parameters
-    ----------
-    record : Record
-        The record.
-    low_hz, high_hz : float or None
-        Corner frequencies (Hz); None leaves that side open. The low one must be at least a tenth of one over the
-        duration, the high one below the Nyquist frequency 1/(2 dt).
-    order : int, default 4
-        Order of the filter in one direction at each corner, 1 to 10.
-    taper : float, default 0.01
-        Share of the record that is tapered at each end, 0 to 0.5. A remark says where that reduces the largest
-        acceleration.
-    keep_pads : bool
-        The zeros added at each end last 1.5 times the order over the lowest corner. They hold the filter's transients:
-        with them (the record becomes longer, and its motion starts later) velocity and displacement are consistent with
-        the filtered acceleration (Boore, 2005). Without them, as databases ship records, displacement may drift.
-
-    Raises
-    ------
-    InvalidOption
-        No corner, one out of its range, or corners in the wrong order; an order or taper out of range.
-
-    Notes
-    -----
-    Boore (2005), Bull. Seism. Soc. Am. 95:745-750; Boore and Bommer (2005), Soil Dyn. Earthq. Eng. 25:93-115.
+    """Return a record filtered by a tapered, zero-padded Butterworth filter run forwards and backwards: gain 1/2 (-6
+    dB) at the corners. Pads as in Boore (2005), Bull. Seism. Soc. Am. 95:745-750.
     """
     from scipy import signal  # slow to import
 
@@ -211,28 +151,8 @@ def band_passed(
 
 
 def resampled(record: R, dt: float) -> R:
-    """Return a record at another time step.
-
-    Parameters
-    ----------
-    record : Record
-        The record.
-    dt : float
-        New step (s). Where it divides the old one, samples are added on the straight lines between the old ones: the
-        same motion. Otherwise the samples are taken for those of a band-limited motion and interpolated, with what is
-        above the lower of the two Nyquist frequencies filtered out (`scipy.signal.resample_poly`); a remark says what
-        that does to PGA.
-
-    Raises
-    ------
-    InvalidOption
-        The step is not a positive number, or is in no ratio of whole numbers up to 10000 to the old one.
-
-    Examples
-    --------
-    >>> import seismass as sm
-    >>> sm.Record([0.0, 1.0, 0.0], dt=0.02).resampled(0.01).acceleration
-    array([0. , 0.5, 1. , 0.5, 0. ])
+    """Return a record at another step (s). A divisor of the old step gives the same motion, linear in between;
+    otherwise `scipy.signal.resample_poly` filters above the lower Nyquist frequency, with a remark on PGA.
     """
     step = as_number(dt, "dt", "resampled record", InvalidOption)
     if not (math.isfinite(step) and step > 0.0):

@@ -41,10 +41,10 @@ FormatName: TypeAlias = Literal[
 ]
 
 HEAD_BYTES: Final = 8192
-"""A format is known by so much of a file."""
+"""Bytes at the start of a file by which its format is recognised."""
 
 FEWEST_WIDE: Final = 16
-"""Fewer bytes say nothing of an encoding."""
+"""Fewest bytes from which an encoding is inferred."""
 
 MOST_NULS: Final = 4
 """A text whose header is padded has no more zero bytes than this."""
@@ -182,13 +182,7 @@ def _read(path: Any, dt: Any, unit: Any, format: Any, skip: Any) -> tuple[Channe
 
 
 def format_of(head: str, source: Path) -> Format:
-    """Return the format that the head of a text shows; columns, or .AT2 by its suffix, where it shows none.
-
-    Raises
-    ------
-    NotRead
-        It is known and not read.
-    """
+    """Return the format that the head of a text shows; columns, or .AT2 by its suffix, where it shows none."""
     found = recognise(head)
     if isinstance(found, Format):
         return found
@@ -201,13 +195,7 @@ def format_of(head: str, source: Path) -> Format:
 
 
 def read_bytes(source: Path) -> bytes:
-    """Return the bytes of a record file.
-
-    Raises
-    ------
-    RecordFormatError
-        It cannot be read, is binary, or is too large for a record.
-    """
+    """Return the bytes of a record file, which is neither binary nor too large."""
     try:
         with open_regular(source) as file:
             head = file.read(HEAD_BYTES)
@@ -256,13 +244,7 @@ def read_text(source: Path) -> str:
 
 
 def decoded(content: bytes, source: Path) -> str:
-    """Return bytes as text without blank ends.
-
-    Raises
-    ------
-    RecordFormatError
-        They are binary, or there is nothing but blanks.
-    """
+    """Return bytes as text without blank ends; there must be some text."""
     wide = wide_encoding(content[:HEAD_BYTES])
     if wide is not None:
         content = content.decode(wide, "replace").encode()

@@ -72,8 +72,8 @@ class Record(Value):
     Raises
     ------
     InvalidMotion
-        No sample, a value that is not finite, a unit that is none of those, a step that is not positive, components of
-        different length, remarks or history that are no tuple of strings.
+        No sample, a value that is not finite, an unknown unit, a step that is not positive, components of
+        different length, remarks or history that are not a tuple of strings.
     """
 
     acceleration: NDArray[np.float64]
@@ -319,7 +319,7 @@ class Record(Value):
         Raises
         ------
         InvalidMotion
-            The two have different time steps, or `vertical` is no record.
+            The two have different time steps, or `vertical` is not a record.
         """
         if not isinstance(vertical, Record):
             raise refusal(InvalidMotion, "vertical", f"record {self.name}".rstrip(), "a Record", brief(vertical))

@@ -13,21 +13,8 @@ def between(first: float, second: float) -> float:
 
 
 def at_angles(first: FloatArray, second: FloatArray, degrees: FloatArray, apart: float = 90.0) -> FloatArray:
-    """Return components of a plane motion at angles from its first recorded one towards its second.
-
-    Parameters
-    ----------
-    first, second : ndarray, shape (samples,)
-        Two recorded components.
-    degrees : ndarray, shape (angles,)
-        Angles from the first towards the second.
-    apart : float
-        Angle between the two recorded components (degrees). At 90 the component at an angle is first * cos(angle) +
-        second * sin(angle), exactly the recorded ones at 0 and 90; otherwise the motion in the plane is solved for.
-
-    Returns
-    -------
-    ndarray, shape (angles, samples)
+    """Return components of a plane motion at angles (degrees) from its first towards its second component, shape
+    (angles, samples). `apart` (degrees) is between these; at 90: first cos(angle) + second sin(angle).
     """
     from scipy.special import cosdg, sindg  # exact at quarter turns; slow to import
 

@@ -127,7 +127,7 @@ def rotd(
     Raises
     ------
     InvalidMotion
-        `pair` is no Pair.
+        `pair` is not a Pair.
     InvalidOption
         An option out of its range.
 

@@ -47,7 +47,7 @@ _COLUMNS = ("number", "file", "channel", "name", "event", "station", "component"
 
 @dataclass(frozen=True)
 class Excluded:
-    """A file that is no part of a suite, and why."""
+    """A file that is not part of a suite, and why."""
 
     file: Path
     reason: str
@@ -71,7 +71,7 @@ class Suite:
     Raises
     ------
     InvalidMotion
-        The name is no string, or the records, the files left out or the remarks are something else.
+        The name is not a string, or records, files left out or remarks have another type.
     """
 
     name: str
@@ -174,7 +174,7 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
     ------
     RecordFormatError
         A missing path, no record in it, a CSV without the column or that lists a file twice, a vertical component or a
-        scale that is no finite number, or any file of a record format that is damaged: none is dropped silently.
+        scale that is not finite, or any file of a record format that is damaged: none is dropped silently.
     """
     source = as_path(path, "suite", RecordFormatError)
     if source.is_dir():
@@ -195,13 +195,7 @@ def suite_of_file(
     format: FormatName | None = None,
     skip: int | None = None,
 ) -> Suite:
-    """Return the one record of a file, vertical or not, or the horizontal channels of a file of several.
-
-    Raises
-    ------
-    RecordFormatError
-        As for `read_records`, or all of several channels are vertical.
-    """
+    """Return the one record of a file, vertical or not, or the horizontal channels of a file of several."""
     records = read_records(path, dt=dt, unit=unit, format=format, skip=skip)
     if len(records) == 1:
         return Suite(records[0].name, records)
@@ -249,13 +243,7 @@ def named_after(suite: Suite, archive: Path, names: dict[Path, str]) -> Suite:
 
 
 def read_file(file: Path) -> tuple[Record, ...] | str:
-    """Return the records of a file, or why it is left out.
-
-    Raises
-    ------
-    RecordFormatError
-        It shows a record format and is damaged.
-    """
+    """Return the records of a file, or why it is left out. A damaged file of a known format is an error."""
     quantity = {".vt2": "velocities", ".dt2": "displacements"}.get(file.suffix.lower())
     if quantity:
         return f"not read: {printable(file.suffix)} files hold {quantity}"
@@ -282,7 +270,7 @@ def read_file(file: Path) -> tuple[Record, ...] | str:
 
 
 def _read_columns(file: Path, head: str, size: int) -> tuple[Record, ...] | str:
-    """Read text of columns whose head states a unit and has numbers; other text is no record."""
+    """Read text of columns whose head states a unit and has numbers; other text is not a record."""
     suffix = printable(file.suffix)
     kind = f"not read: {suffix} {_SAID_BY_NAME}" if suffix else f"not read: files without a suffix {_SAID_BY_NAME[6:]}"
     lines = head.splitlines()[:-1] if size > len(head) else head.splitlines()

@@ -54,17 +54,8 @@ class Lognormal(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class RateParts:
-    """Parts of annual rates: over the range of the hazard curve, and beyond its ends. Arrays of one shape.
-
-    Attributes
-    ----------
-    within : ndarray
-        Integral over the range of the curve.
-    below, above : ndarray
-        Integrals beyond its ends, where the end segments go on with their slopes.
-    above_least : ndarray
-        The least that motions above the last intensity of the curve contribute, whatever the curve does there: the
-        probability at the last point times its rate. The most is that rate.
+    """Parts of annual rates, arrays of one shape: within the hazard curve, and beyond its ends with the slopes of the
+    end segments. `above_least` is the probability at the last point times its rate; the most is that rate.
     """
 
     within: FloatArray
@@ -78,18 +69,8 @@ class RateParts:
 
 
 def lognormal_rates(median: ArrayLike, dispersion: ArrayLike, hazard: HazardCurve) -> RateParts:
-    """Return annual rates of lognormal fragilities in closed form, arrays of one shape.
-
-    Notes
-    -----
-    On a segment rate = c x^-k, and with z = (ln x - ln median)/dispersion, integration by parts of
-    P(x) (-d rate(x)) from x1 to x2 gives
-
-        P(x1) rate(x1) - P(x2) rate(x2) + c median^-k exp((k dispersion)^2/2) (Phi(z2 + k dispersion) - Phi(z1 + k
-        dispersion)).
-
-    The first two terms cancel between segments. Over one power law without ends this is the closed form
-    rate(median) exp((k dispersion)^2/2) of Kennedy and Short (1994) and Cornell (1996).
+    """Annual rates of lognormal fragilities in closed form: by parts on segments rate = c x^-k. For one power law:
+    rate(median) exp((k dispersion)^2/2), Kennedy and Short (1994) and Cornell (1996).
     """
     from scipy.special import log_ndtr, ndtr  # slow to import
 
@@ -135,19 +116,8 @@ def lognormal_rates(median: ArrayLike, dispersion: ArrayLike, hazard: HazardCurv
 
 
 def capacity_rates(capacities: ArrayLike, hazard: HazardCurve) -> RateParts:
-    """Return annual rates where a share of motions exceeds the limit from its capacity on: their mean over motions.
-
-    Parameters
-    ----------
-    capacities : array_like, shape (..., motions)
-        Intensity (g) from which on each motion exceeds the limit; infinite where it never does.
-    hazard : HazardCurve
-        The curve.
-
-    Notes
-    -----
-    The fragility is a step of 1/motions at each capacity, and its integral the mean over the motions of
-    rate(capacity).
+    """Return annual rates where a share of motions exceeds the limit from its capacity on (g, infinite: never): the
+    mean over the motions of rate(capacity).
     """
     parts = _step_parts(np.asarray(capacities, dtype=np.float64), hazard)
     return RateParts(*(value.mean(axis=-1) for value in (parts.within, parts.below, parts.above, parts.above_least)))

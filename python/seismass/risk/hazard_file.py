@@ -22,13 +22,7 @@ _OTHER_UNITS: Final = frozenset({"m", "cm", "mm", "gal", "gals", "ms2", "cms2", 
 
 
 def read_hazard(path: str | os.PathLike[str]) -> tuple[FloatArray, FloatArray, str]:
-    """Return intensities (g), annual rates and the name of a CSV; see `HazardCurve.from_csv`.
-
-    Raises
-    ------
-    RecordFormatError
-        As for `HazardCurve.from_csv`.
-    """
+    """Return intensities (g), annual rates and the name of a CSV; see `HazardCurve.from_csv`."""
     source = as_path(path, "hazard curve", RecordFormatError)
     try:
         text = read_utf8(source)

@@ -27,19 +27,8 @@ def check_estimator(estimator: Any, owner: str) -> Estimator:
 
 
 def fitted(capacities: FloatArray, weights: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return median and dispersion of the capacities of each model under each row of weights.
-
-    Parameters
-    ----------
-    capacities : ndarray, shape (models, motions)
-        Finite capacities.
-    weights : ndarray, shape (draws, motions)
-        How often each motion counts.
-
-    Returns
-    -------
-    median, dispersion : ndarray, shape (draws, models)
-        Maximum likelihood, as `fit_capacities`.
+    """Return median and dispersion, each of shape (draws, models), of the finite capacities of each model under each
+    row of weights: maximum likelihood, as in `fit_capacities`.
     """
     exceeded = np.ones(capacities.shape[1], dtype=np.bool_)
     fits = [capacity_fits(own, exceeded, weights) for own in capacities]
@@ -57,20 +46,8 @@ def rate_parts(capacities: FloatArray, hazard: HazardCurve, estimator: Estimator
 
 @dataclass(frozen=True, slots=True)
 class RateCurve:
-    """Annual rates of the real building and of models by share, of all motions and of each resample.
-
-    Attributes
-    ----------
-    shares : ndarray, shape (shares,)
-        Shares of the live load attached, from 0 to 1.
-    real : float
-        Rate of the real building (1/year).
-    model : ndarray, shape (shares,)
-        Rates of the models.
-    real_draws : ndarray, shape (resamples,)
-        Rate of the real building in each resample of the motions.
-    model_draws : ndarray, shape (resamples, shares)
-        Rates of the models in the same resamples.
+    """Annual rates (1/year) of the real building and of models by share of the live load attached, of all motions and
+    of each resample: `model` has shape (shares,), `model_draws` (resamples, shares).
     """
 
     shares: FloatArray

@@ -129,7 +129,7 @@ class RiskTargetedShare(Result):
         }
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything but the curve and the capacities as plain values; null for what is no finite number."""
+        """Return everything but the curve and the capacities as plain values; null for what is not finite."""
         names = ["value", "kind", "roots", "interval", "confidence", "estimator", "real", "code", "attached", "model"]
         names += ["excess", "code_share", "remarks", "metadata"]
         document: dict[str, Any] = {"schema_version": SCHEMA_VERSION}

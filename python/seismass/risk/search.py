@@ -40,12 +40,8 @@ class RiskOptions:
 
 @dataclass(frozen=True, slots=True)
 class FoundShare:
-    """A share, how it came about, and its roots.
-
-    Attributes
-    ----------
-    by_friction : bool
-        Whether friction alone decides: goods never slide up to the capacities, or have no friction.
+    """A share, how it was found, and its roots. `by_friction`: friction alone decides, as goods never slide up to the
+    capacities or have no friction.
     """
 
     value: float
@@ -56,22 +52,8 @@ class FoundShare:
 
 @dataclass(frozen=True)
 class RiskSearch:
-    """Everything that is needed to go from capacities to the share.
-
-    Attributes
-    ----------
-    scene : Scene
-        The building with its goods.
-    setting : Setting
-        The real building and the models of the grid, the motions and the intensity measure; a slip is asked for.
-    hazard : HazardCurve
-        The hazard curve.
-    options : RiskOptions
-        How the share is sought.
-    grid : ndarray, shape (shares,)
-        Shares of the models.
-    capacities : ndarray, shape (1 + shares, motions)
-        Capacities of the real building and of the models.
+    """What leads from capacities, shape (1 + shares, motions), to the share: the scene, the setting (the real building
+    and models of the grid; a slip is asked for), the hazard curve and the options.
     """
 
     scene: Scene
@@ -109,13 +91,7 @@ class RiskSearch:
         )
 
     def found(self) -> FoundShare:
-        """Return the share, its roots refined on the exact models.
-
-        Raises
-        ------
-        InvalidOption
-            Some motion never brings a model to the limit, or the rate is zero.
-        """
+        """Return the share, its roots refined on the exact models; every motion must bring each model to the limit."""
         missing = int((~np.isfinite(self.capacities)).sum(axis=1).max())
         if missing:
             requirement = f"reached by all models under all motions, below {HIGHEST:g} times the elastic intensity"

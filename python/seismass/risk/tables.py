@@ -103,18 +103,8 @@ def capacity_table(search: RiskSearch) -> pl.DataFrame:
 def sensitivity_table(
     search: RiskSearch, capacities: dict[float, FloatArray], found: FoundShare, several: bool
 ) -> pl.DataFrame:
-    """Return one row per changed assumption with its share and rates; see `RiskTargetedShare.sensitivity`.
-
-    Parameters
-    ----------
-    search : RiskSearch
-        The search as it was asked for.
-    capacities : dict of float to ndarray
-        Capacities by the value of the limit.
-    found : FoundShare
-        The share as it was asked for.
-    several : bool
-        Whether there are several earthquakes, so that there are intervals.
+    """Return one row per changed assumption with its share and rates; see `RiskTargetedShare.sensitivity`. There are
+    intervals where `several` earthquakes are there.
     """
     rows = []
 

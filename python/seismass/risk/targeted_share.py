@@ -122,8 +122,8 @@ def risk_targeted_share(
     Raises
     ------
     InvalidScene, InvalidMotion, InvalidOption
-        An argument is not what it must be, the building has no goods, the measure is no acceleration, or the limit is
-        never exceeded within the hazard curve.
+        An argument is not what it must be, the building has no goods, the measure is not an acceleration, or the limit
+        is never exceeded within the hazard curve.
     SimulationError
         A run could not be carried to its end.
     KeyboardInterrupt

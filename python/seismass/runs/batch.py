@@ -326,13 +326,7 @@ def _one_table(stretch: range) -> range:
 
 
 def checked_motions(motions: Any) -> tuple[list[Any], list[Motion], list[str]]:
-    """Return motions in one direction as they were given, as the kernel takes them, and their names.
-
-    Raises
-    ------
-    InvalidMotion
-        One is neither a Motion nor a Record.
-    """
+    """Return motions in one direction as they were given, as the kernel takes them, and their names."""
     given = _given(motions)
     listed = [as_motion(motion, f"motion {number}", "batch") for number, motion in enumerate(given, start=1)]
     return given, listed, motion_names(given)

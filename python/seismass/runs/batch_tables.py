@@ -99,10 +99,8 @@ OF_RACKS: Final = (*OF_LEVELS, *OF_CONTACTS)
 
 
 def rack_columns(table: pl.DataFrame, batch: _kernel.Batch, racks: _kernel.RackColumns | None) -> pl.DataFrame:
-    """Return the table of a batch with the columns of racks, stops and sliding bases.
-
-    Lists per level of all racks, one rack after the other, and per block; numbers of the base, null without one. Runs
-    of the chain engine (None) have no levels, contacts of zero, and no base.
+    """Return the table of a batch with the columns of racks, stops and sliding bases: lists per level of all racks in
+    turn and per block. Runs of the chain engine (None) have no levels, contacts of 0 and no base.
     """
     failed = pl.Series(batch.status == _kernel.Batch.status_names().index("failed"))
     if racks is None:

@@ -16,19 +16,8 @@ MOST_LOOKED_AT: Final = 100
 
 
 def warn_of_doubts(scenes: Any, motions: Any) -> None:
-    """Warn of the first doubtful scene and the first doubtful motion of a batch, each once; the caller's line is named.
-
-    Parameters
-    ----------
-    scenes : Scene, sequence of Scene, or Grid
-        Of a grid the first scene is looked at.
-    motions : Motion, Record, Pair or iterable of them
-        An iterator is not looked at, as it can be read but once.
-
-    Warns
-    -----
-    DoubtfulInput
-        A scene or a motion is so unlikely that a wrong unit is the usual cause.
+    """Warn (`DoubtfulInput`) at the caller's line of the first doubtful scene (of a grid: if its first is) and the
+    first doubtful motion of a batch. An iterator of motions is not looked at: it can be read only once.
     """
     doubtful = [(number, scene.remarks) for number, scene in enumerate(_listed(scenes), start=1) if scene.remarks]
     if doubtful:
@@ -45,7 +34,7 @@ def warn_of_doubts(scenes: Any, motions: Any) -> None:
 
 
 def _listed(scenes: Any) -> list[Scene]:
-    """The first scenes of a batch; what is none is refused elsewhere."""
+    """The first scenes of a batch; what is not a scene is refused elsewhere."""
     if isinstance(scenes, Grid):
         try:
             return [scenes.scene(1)]

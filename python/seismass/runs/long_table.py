@@ -57,7 +57,7 @@ def long_table(table: pl.DataFrame, scenes: Scene | Iterable[Scene] | Grid) -> p
     InvalidScene
         The scenes are not what they must be.
     InvalidOption
-        The table has not the columns of a batch, or a scene that was not given.
+        The table lacks columns of a batch, or has a scene that was not given.
     SimulationError
         The process was forked from one in which Polars had been used.
 

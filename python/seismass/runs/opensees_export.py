@@ -100,20 +100,7 @@ def write_opensees(
 
 
 def model_content(scene: Scene, name: str = "") -> dict[str, Any]:
-    """Return a scene as model.json has it.
-
-    Parameters
-    ----------
-    scene : Scene
-        The scene.
-    name : str
-        What errors call it.
-
-    Raises
-    ------
-    InvalidScene
-        As for `write_opensees`.
-    """
+    """Return a scene, called `name` in errors, as model.json has it."""
     building = scene.building
 
     def refused(what: str) -> SeismassError:

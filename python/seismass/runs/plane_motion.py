@@ -23,19 +23,8 @@ def is_motion_pair(motion: Any) -> bool:
 
 
 def motions_in_plane(pair: Any, parameter: str = "motion", owner: str = "simulate") -> PlaneMotion:
-    """Return the motions in x, with the vertical one, and in y, equally long.
-
-    Parameters
-    ----------
-    pair : Pair, or two of Motion or Record
-        The motions; the vertical one is that of the pair, or of the first.
-    parameter, owner : str
-        What errors call the pair, and what takes it.
-
-    Raises
-    ------
-    InvalidMotion
-        It is no pair, steps differ, or the second has a vertical motion of its own.
+    """Return the motions in x (with the vertical one, of the pair or of the first) and in y, equally long; `parameter`
+    and `owner` name them in errors.
     """
     vertical = None
     if isinstance(pair, Pair):

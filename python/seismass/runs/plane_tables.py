@@ -23,14 +23,8 @@ _AXES: Final = ("x", "y")
 
 
 def with_directions(vector: pl.DataFrame, directions: list[pl.DataFrame]) -> pl.DataFrame:
-    """Return the table of the vectors of runs with the columns of each direction, named as `peak_drift_x`.
-
-    Parameters
-    ----------
-    vector : polars.DataFrame
-        Rows of a batch, of the lengths of vectors.
-    directions : list of polars.DataFrame
-        The same rows in x and in y.
+    """Return the table of the vectors of runs with the columns of each direction, named as `peak_drift_x`; `directions`
+    are the same rows in x and in y.
     """
     columns = [
         table[name].alias(f"{name}_{axis}")

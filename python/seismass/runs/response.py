@@ -170,7 +170,7 @@ class Response(RackResults, BaseResults, ResponseDocument):
 
     @property
     def peak_floor_acceleration(self) -> FloatArray:
-        """Largest absolute acceleration of each floor, relative to no one (m/s2), shape (storeys,)."""
+        """Largest absolute acceleration of each floor (m/s2), that of the ground included, shape (storeys,)."""
         return self._array("peak_floor_acceleration")
 
     @property

@@ -188,13 +188,7 @@ def read_scene(path: str | os.PathLike[str]) -> SceneFile:
 
 
 def scene_without_motion(path: str | os.PathLike[str]) -> Scene:
-    """Return the scene of a scene file, whose motion may be missing and is not read.
-
-    Raises
-    ------
-    InvalidSceneFile, InvalidScene
-        As for `read_scene`.
-    """
+    """Return the scene of a scene file, whose motion may be missing and is not read."""
     top = load_table(as_path(path, "scene file", InvalidSceneFile), "scene file", InvalidSceneFile)
     refuse_other_kind(top, SCENE_FILE)
     top.known(KEYS[""])
@@ -260,14 +254,8 @@ def _other_direction(top: Table, building: Building | None) -> Building | bool:
 
 
 def building_of_table(table: Table, walls: Table | None = None) -> Building:
-    """Return the building of a table with the keys that a scene file has for one, with the walls of another table.
-
-    Raises
-    ------
-    InvalidSceneFile
-        A key is unknown or missing, or contradicts another; the class is that of the table's errors.
-    InvalidScene
-        A value is not what it must be.
+    """Return the building of a table with the keys that a scene file has for one, with the walls of another table;
+    errors in keys have the class of the table's errors.
     """
     table.known(KEYS["building"])
     table.excluded("yield_shear_over_weight", "yield_shear")
@@ -334,7 +322,7 @@ def _storeys(table: Table, over_weight: Any, springs: dict[str, Any]) -> int | N
 
 
 def _infinite_where_null(value: Any) -> Any:
-    """A null in a list stands for infinity, which JSON has not: a storey that stays elastic."""
+    """A null in a list is infinity, which JSON does not have: a storey that stays elastic."""
     return [np.inf if item is None else item for item in value] if isinstance(value, list) else value
 
 

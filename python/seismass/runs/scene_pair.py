@@ -26,22 +26,7 @@ def pair_of_scene(top: Table, scene: Scene, folder: Path) -> Pair | None:
 
 
 def pair_of_table(table: Table, folder: Path) -> Pair:
-    """Return the pair that a table names.
-
-    Parameters
-    ----------
-    table : Table
-        With `PAIR_KEYS`.
-    folder : Path
-        To which paths are relative.
-
-    Raises
-    ------
-    InvalidSceneFile
-        A key is unknown, missing or contradicts another, or no pair has the name; the class is that of the table.
-    InvalidMotion, RecordFormatError
-        The files are no pair, or cannot be read.
-    """
+    """Return the pair that a table with `PAIR_KEYS` names; paths are relative to `folder`."""
     table.known(PAIR_KEYS)
     table.needed("first", "folder", "builtin")
     table.one_of("first", "folder", "builtin")

@@ -1,4 +1,4 @@
-"""`SceneProduct`: scenes of any kind over axes of one's own, such as the period of a rack or the clearance of stops."""
+"""`SceneProduct`: scenes of any kind over axes of your own, such as the period of a rack or the clearance of stops."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class SceneProduct(Card, Sequence[Scene]):
     InvalidOption
         There is no axis, an axis has no values, `make` cannot be called, or there are more than a million scenes.
     InvalidScene
-        What `make` returns is no Scene; the error names the scene, from 1, and its values.
+        `make` does not return a Scene; the error names the scene, from 1, and its values.
 
     Examples
     --------

@@ -25,18 +25,8 @@ Progress: TypeAlias = Callable[[int, int], object]
 
 @dataclass(frozen=True, slots=True)
 class SceneRuns:
-    """Scenes, motions, and which columns their tables have.
-
-    Attributes
-    ----------
-    scenes : tuple of Scene
-        The scenes.
-    motions : tuple of Motion or of two of them
-        The motions; a scene in two directions takes two.
-    names : tuple of str
-        What the motions are called.
-    racks, plane : bool
-        Whether tables have the columns of racks, stops and bases, and those of directions: one scene has them.
+    """Scenes, motions (two each for a scene in two directions) with their names, and whether tables have the columns of
+    racks, stops and bases (`racks`) and those of directions (`plane`): any scene has them.
     """
 
     scenes: tuple[Scene, ...]
@@ -53,13 +43,7 @@ class SceneRuns:
         return cls(tuple(scenes), tuple(motions), tuple(names), racks, plane)
 
     def check(self, rows: IndexArray) -> None:
-        """Refuse runs of scenes in two directions under one motion, and of others under two.
-
-        Raises
-        ------
-        InvalidMotion
-            The first motion that does not suit its scene.
-        """
+        """Refuse runs of scenes in two directions under one motion, and of others under two."""
         is_plane = np.array([scene.engine == "plane" for scene in self.scenes], dtype=np.bool_)[rows[:, 0]]
         are_two = np.array([isinstance(motion, tuple) for motion in self.motions], dtype=np.bool_)[rows[:, 1]]
         wrong = np.flatnonzero(is_plane != are_two)
@@ -75,14 +59,8 @@ class SceneRuns:
     def table(
         self, rows: IndexArray, *, peaks_only: bool, threads: int | None, progress: Progress | None
     ) -> pl.DataFrame:
-        """Solve runs and return their table.
-
-        Parameters
-        ----------
-        rows : ndarray of int, shape (runs, 2)
-            Index of scene and of motion of each run.
-        peaks_only, threads, progress
-            As for `simulate_many`.
+        """Solve runs, rows of scene and motion (runs, 2), and return their table; other arguments as in
+        `simulate_many`.
         """
         engine = np.array([scene.engine for scene in self.scenes], dtype=object)[rows[:, 0]]
         solve: dict[str, Callable[..., pl.DataFrame]] = {

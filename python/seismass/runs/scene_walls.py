@@ -18,13 +18,7 @@ WALL_KEYS: Final = ("flexural_rigidity", "period", "alpha_h", "base_shear_share"
 
 
 def check_walls(walls: Table, building: Table) -> None:
-    """Refuse tables of walls and building that do not fit together, and unknown keys.
-
-    Raises
-    ------
-    InvalidSceneFile
-        A key is unknown or missing, or contradicts another.
-    """
+    """Refuse tables of walls and building that do not fit together, and unknown keys."""
     walls.known(WALL_KEYS)
     walls.needed(*WALL_KEYS)
     walls.one_of(*WALL_KEYS)
@@ -39,13 +33,7 @@ def check_walls(walls: Table, building: Table) -> None:
 
 
 def matrix_of_walls(walls: Table, building: Table) -> FloatArray | None:
-    """Return the stiffness (N/m) of walls that are given by themselves; None where they follow the storeys.
-
-    Raises
-    ------
-    InvalidScene
-        A value is not what it must be.
-    """
+    """Return the stiffness (N/m) of walls that are given by themselves; None where they follow the storeys."""
     by_itself = [key for key in ("flexural_rigidity", "period") if key in walls.values]
     if not by_itself:
         return None
@@ -62,21 +50,8 @@ def matrix_of_walls(walls: Table, building: Table) -> FloatArray | None:
 
 
 def with_walls(building: Building, walls: Table, *, scaled: bool) -> Building:
-    """Return a building with the walls beside it that follow its storeys, by alpha H or their share of the base shear.
-
-    Parameters
-    ----------
-    building : Building
-        The storeys.
-    walls : Table
-        The table of the file.
-    scaled : bool
-        Scale storeys and walls alike, so that together they have the first period of the storeys as they are given.
-
-    Raises
-    ------
-    InvalidSceneFile, InvalidScene
-        A value is not what it must be.
+    """Return a building with walls that follow its storeys, by alpha H or their share of the base shear; `scaled`:
+    storeys and walls alike, so that together they have the first period of the storeys as given.
     """
     if "alpha_h" in walls.values:
         wall = Wall.of_alpha_h(building, walls.number("alpha_h", np.nan, POSITIVE))

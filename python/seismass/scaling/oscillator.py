@@ -55,7 +55,7 @@ class FirstModeOscillator(Card):
 
     @property
     def post_yield_slope(self) -> float:
-        """Slope behind the first yield over the initial one: r2, or r3 where both yields are one."""
+        """Slope after the first yield over the initial one: r2, or r3 where both yields coincide."""
         return self.second_slope if self.overstrength > 1.0 else self.third_slope
 
     @property
@@ -84,14 +84,14 @@ def first_mode_oscillator(building: Building) -> FirstModeOscillator:
     Raises
     ------
     InvalidOption
-        It is no building, or has springs that are not trilinear with Masing unloading.
+        It is not a building, or has springs that are not trilinear with Masing unloading.
 
     Notes
     -----
     Storey shears are fixed shares of the base shear, V_i/V_b = sum_{j>=i} m_j phi_j / sum_j m_j phi_j, so that the
     pushover curve of base shear against roof displacement is the sum of the storeys' own curves: a polygon with a
     corner at each yield of a storey, in closed form. It is idealised by three lines: the initial slope; the corner
-    (u_U, V_U) at which the first storey reaches its second yield, and the slope behind it; and a first yield on the
+    (u_U, V_U) at which the first storey reaches its second yield, and the slope after it; and a first yield on the
     initial line with which the area below the curve up to u_U is kept. With M1* = L1^2/M1 and D = u_r/(Gamma_1 phi_r)
     the oscillator has F = V_b/M1*. Where all storeys yield at once the three lines are the curve.
     """
@@ -153,7 +153,7 @@ def _idealised(building: Building, shares: FloatArray) -> tuple[float, float, fl
 
 
 def _slope_behind(building: Building, shares: FloatArray, base_shear: float) -> float:
-    """Slope (N/m) of the curve just behind a base shear."""
+    """Slope (N/m) of the curve just after a base shear."""
     beyond = shares * base_shear * (1.0 + 1e-9)
     v_y, v_u = building.yield_shear, building.overstrength * building.yield_shear
     slope = np.where(beyond > v_u, building.third_slope, np.where(beyond > v_y, building.second_slope, 1.0))
@@ -163,22 +163,8 @@ def _slope_behind(building: Building, shares: FloatArray, base_shear: float) -> 
 
 
 def deformation_ratio(reduction: float, relative_period: float, slope: float) -> float:
-    """Return C_R, the inelastic over the elastic deformation of a bilinear oscillator.
-
-    Parameters
-    ----------
-    reduction : float
-        R_y, above 1.
-    relative_period : float
-        T/T_c.
-    slope : float
-        Slope behind yield over the initial one; 0: elastoplastic.
-
-    Notes
-    -----
-    Chopra and Chintanapakdee (2004), J. Struct. Eng. 130:1309: C_R = 1 + [(L_R - 1)^-1 + (a/R_y^b + c)(T/T_c)^d]^-1
-    with L_R = (1 + (R_y - 1)/slope)/R_y, a = 61, b = 2.4, c = 1.5, d = 2.4. The numbers are from memory, not checked
-    against the paper; they are those of the single-record statistics for given R_y.
+    """Return C_R = 1 + [(L_R - 1)^-1 + (61/R_y^2.4 + 1.5)(T/T_c)^2.4]^-1, L_R = (1 + (R_y - 1)/slope)/R_y: Chopra and
+    Chintanapakdee (2004), J. Struct. Eng. 130:1309, numbers from memory, unchecked.
     """
     if slope >= 1.0 or reduction <= 1.0:
         return 1.0

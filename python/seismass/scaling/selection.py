@@ -89,7 +89,7 @@ def select_records(
     InvalidOption
         An argument is out of its range.
     InvalidMotion
-        The suite is none, or fewer records than requested are within the limits.
+        `suite` is not a Suite, or fewer records than requested are within the limits.
 
     Notes
     -----

@@ -78,19 +78,8 @@ def suite_spectra(
     threads: int | None,
     least: tuple[int, str] = (1, ""),
 ) -> SuiteSpectra:
-    """Return the spectra of a suite at `count` periods over the range, in geometric spacing.
-
-    Parameters
-    ----------
-    records, target, period, damping, period_range, count, threads
-        As for `scale_asce7_10`.
-    least : tuple of int and str
-        Least number of motions, and what asks for it.
-
-    Raises
-    ------
-    InvalidOption, InvalidMotion
-        As for `scale_asce7_10`.
+    """Return the spectra of a suite at `count` periods over the range, in geometric spacing; `least` is the least
+    number of motions, and what asks for it. Other arguments as in `scale_asce7_10`.
     """
     suite = as_motions(records, "scaling")
     number, clause = least
@@ -118,7 +107,7 @@ def suite_spectra(
 
 
 def checked_target(target: Any) -> None:
-    """Refuse what is no target spectrum."""
+    """Refuse what is not a target spectrum."""
     if not isinstance(target, TargetSpectrum):
         raise refusal(InvalidOption, "target", "scaling", "a TargetSpectrum", brief(target))
 

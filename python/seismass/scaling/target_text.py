@@ -30,22 +30,7 @@ ALIASES: Final = {"nzs": "nzs1170", "asce": "asce7"}
 
 
 def target_of(text: str, folder: Path = Path()) -> TargetSpectrum:
-    """Return the target spectrum that an option or a key names.
-
-    Parameters
-    ----------
-    text : str
-        A file, or one of `FORMS`.
-    folder : Path
-        What relative paths are relative to.
-
-    Raises
-    ------
-    InvalidOption
-        A name with numbers that are missing, too many or none.
-    RecordFormatError
-        A file that cannot be read.
-    """
+    """Return the target spectrum of a file, relative to `folder`, or of one of `FORMS`, with its numbers."""
     from seismass.spectra import TargetSpectrum
     from seismass.spectra.tables import read_table
 

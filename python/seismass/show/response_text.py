@@ -29,16 +29,8 @@ def run_text(
     source: str | None = None,
     remarks: Sequence[str] = (),
 ) -> str:
-    """Return building, motion, peaks of storeys and blocks, events, energy and status as lines.
-
-    Parameters
-    ----------
-    response : Response
-        The run.
-    title, note, source : str, optional
-        Heading, a line below it, and name of the record; by default those of the scene and of its record.
-    remarks : sequence of str
-        What is to be known of the input.
+    """Return building, motion, peaks of storeys and blocks, events, energy and status as lines below a heading, by
+    default the name of the scene and of its record. `remarks` tell what is to be known of the input.
     """
     scene, motion = response.scene, response.motion
     lines = [(scene.name if title is None else title) or "Response"]

@@ -35,7 +35,7 @@ class Clearance:
     Raises
     ------
     InvalidOption
-        A distance is not positive, or there is none.
+        A distance is not positive, or none is given.
 
     Notes
     -----
@@ -79,14 +79,8 @@ class Clearance:
 
 
 def as_clearances(clearance: Any, blocks: int, *, plane: bool = False) -> tuple[Clearance | None, ...]:
-    """Return one clearance per block: a distance or a Clearance for all, or a list with None for none.
-
-    A distance counts on all sides, in two directions (`plane`) on those of y too.
-
-    Raises
-    ------
-    InvalidOption
-        Something else, another number of them than of blocks, or a distance in y where there is one direction.
+    """Return one clearance per block: a distance (all sides, with `plane` those of y too) or a Clearance for all, or a
+    list with None for none.
     """
     found = _clearances(clearance, blocks, 4 if plane else 2)
     for number, each in enumerate(found, start=1):

@@ -109,7 +109,7 @@ def slip_demand(
     attached (without vertical motion), so that this one is set beside mu_s.
 
     The published estimates use peaks or the spectrum of the ground motion, and of the motion of the floor of the
-    building alone, as an engineer has it who analyses the building first and the goods afterwards. "rigid_block" is
+    building alone, as where the building is analysed first and the goods afterwards. "rigid_block" is
     the exact slip on that motion: on the ground it is the ground slip itself; on the floor it differs from the slip in
     the building by what the goods do to the building.
 

@@ -28,22 +28,8 @@ def slip_fragilities(
     seed: int,
     threads: int | None,
 ) -> tuple[dict[int, Fragility], tuple[str, ...]]:
-    """Return the fragility of each block with a clearance, by its number, and remarks of the analysis.
-
-    The limit is one of the largest absolute slip: the smaller clearance, as if both sides had it.
-
-    Parameters
-    ----------
-    scene : Scene
-        Building and goods.
-    motions : Motion, Record or iterable of them
-        The suite.
-    clearances : tuple of Clearance or None
-        One per block.
-    measure : IntensityMeasure
-        The intensity measure.
-    confidence, resamples, seed, threads
-        As for `incremental_dynamic_analysis`.
+    """Return the fragility of each block with a clearance, by its number, and remarks of the analysis. The limit of the
+    largest absolute slip is the smaller clearance, as if both sides had it.
     """
     limits = {
         number: LimitState("slip", each.smallest, block=number)

@@ -16,16 +16,8 @@ from seismass.runs.response import Response
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a block stands.
-
-    Attributes
-    ----------
-    floor : int
-        Floor of the building, for goods of a rack the one under the rack; 0 is the ground.
-    rack, level : int
-        Number of the rack and of its level, both from 1; 0 where it stands on the floor itself.
-    node : int
-        Index among the ground (0), the floors and the levels of all racks.
+    """Where a block stands: floor (0 is the ground; of a rack that under it), rack and level (from 1; 0: on the floor
+    itself), and index `node` among the ground, the floors and the levels of all racks.
     """
 
     floor: int
@@ -75,9 +67,8 @@ def histories_at_nodes(response: Response, of_floors: str, of_racks: str, ground
 
 
 def without_loose_goods(scene: Scene, *, attached: bool) -> Scene:
-    """Return the building with its racks where they stand, without loose goods or with all of them attached for good.
-
-    Springs of racks keep stiffness and strength; their damping is the ratio in their modes with what is attached.
+    """Return the building with its racks, without loose goods or with all of them attached for good. Springs of racks
+    stay the same; their damping is the ratio in their modes with what is attached.
     """
     if scene.other_direction is not False:
         x, y = (without_loose_goods(each, attached=attached) for each in scene._directions())

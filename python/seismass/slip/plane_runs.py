@@ -23,19 +23,8 @@ VECTOR = 2
 
 @dataclass(frozen=True, slots=True)
 class PlaneSlip:
-    """Slip of the blocks in both directions; arrays have shape (blocks, 2), of all motions (motions, blocks, 2).
-
-    Attributes
-    ----------
-    peak : ndarray
-        Largest absolute slip in x and in y (m).
-    plus, minus : ndarray
-        Largest slip to each side of both directions (m).
-    residual : ndarray
-        Slip at the end (m).
-    alone : ndarray
-        Largest absolute slip in x under the motion in x alone, and in y under that in y (m): the analysis of one
-        direction.
+    """Slip of the blocks in x and y (m), shape (blocks, 2), or (motions, blocks, 2): largest absolute, to each side, at
+    the end, and `alone`, the largest under the motion in that direction alone.
     """
 
     peak: FloatArray
@@ -52,21 +41,8 @@ class PlaneSlip:
 
 @dataclass(frozen=True, slots=True)
 class PlaneSolved:
-    """Runs of a scene under one pair: the scene, its goods on the ground, and what they stand on.
-
-    Attributes
-    ----------
-    slip : PlaneSlip
-        The slips.
-    real, ground : PlaneResponse
-        The scene, and its goods on the ground.
-    moving : ndarray of bool, shape (blocks,)
-        Whether the block still slides at the end.
-    acceleration, velocity, demand : ndarray, shape (blocks,)
-        Of what the block stands on: peak length of its absolute acceleration (m/s2) and velocity (m/s), the largest
-        length of the acceleration over g + a_v.
-    alone_acceleration, full_acceleration : ndarray, shape (blocks,)
-        The first of these in the building alone, and with all goods attached (m/s2); NaN where that collapsed.
+    """Runs of a scene under one pair. Acceleration (m/s2), velocity (m/s) and demand (acceleration over g + a_v) are
+    peak lengths of what a block stands on; in the building alone or with goods attached NaN on collapse.
     """
 
     slip: PlaneSlip
@@ -83,21 +59,8 @@ class PlaneSolved:
 def solve_pair(
     scene: Scene, on_the_ground: Scene, alone: Scene | None, full: Scene | None, motions: PlaneMotion
 ) -> PlaneSolved:
-    """Solve a scene in two directions, its goods on the ground, and each direction by itself.
-
-    Parameters
-    ----------
-    scene, on_the_ground : Scene
-        The scene and its goods on the ground.
-    alone, full : Scene or None
-        The building alone, and with all goods attached; None where no goods stand on it.
-    motions : tuple of Motion
-        In x, with the vertical one, and in y.
-
-    Raises
-    ------
-    SimulationError
-        A run could not be carried to its end.
+    """Solve a scene in two directions, its goods on the ground, and each direction by itself; `alone` and `full` (all
+    goods attached) are None where no goods stand on the building.
     """
     x, y = motions
     nodes = np.array([place.node for place in places_of(scene)], dtype=np.int64)

@@ -111,7 +111,7 @@ class SlipDemand(Result):
         return {name: table for name, table in every.items() if table.height}
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything but the rows of single runs as plain values; null for what is no finite number."""
+        """Return everything but the rows of single runs as plain values; null for what is not finite."""
         document = {
             "schema_version": SCHEMA_VERSION,
             "blocks": self.blocks.to_dicts(),

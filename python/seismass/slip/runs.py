@@ -27,7 +27,6 @@ from seismass.slip.squat import demand_in_g
 @dataclass(frozen=True, slots=True)
 class SlipModels:
     """The scene, its goods on the ground, and the building alone and with all goods attached (None without goods).
-
     Racks stand in the latter two, empty or with all goods attached to their levels.
     """
 
@@ -56,16 +55,8 @@ def on_ground(block: Block) -> Block:
 
 @dataclass(frozen=True, slots=True)
 class EstimateRow:
-    """Estimates of the slip of one block under one motion.
-
-    Attributes
-    ----------
-    block : int
-        Index of the block, from 0.
-    base : {"ground", "floor"}
-        Whose motion they are of: the ground, or the block's floor (or level of a rack) in the building alone.
-    values : dict of str to float
-        Slip (m) by the name of the estimate; "rigid_block" is exact for that motion.
+    """Estimates of the slip (m) by name of one block (from 0) under one motion, that of the ground or of the block's
+    floor (or rack level) in the building alone; "rigid_block" is exact for that motion.
     """
 
     block: int
@@ -75,32 +66,8 @@ class EstimateRow:
 
 @dataclass(frozen=True, slots=True)
 class SolvedMotion:
-    """What is kept of the runs under one motion; arrays have shape (blocks,).
-
-    Attributes
-    ----------
-    peak, plus, minus, residual, path : ndarray
-        Slip of each block (m): largest absolute, largest to each side, final, and the path; up to a collapse.
-    contact_force, contact_velocity : ndarray
-        Largest force of each block on its stop (N), and velocity at which it comes to it (m/s); zero without stops.
-    moving : ndarray of bool
-        Whether the block still slides at the end.
-    collapsed : bool
-        Whether the building with sliding goods collapsed.
-    ground_peak, ground_residual : ndarray
-        Slip of the same block on the ground (m).
-    acceleration, velocity : ndarray
-        Peak absolute acceleration (m/s2) and velocity (m/s) of what the block stands on, goods sliding.
-    demand : ndarray
-        Largest abs(a)/(g + a_v) there.
-    alone_acceleration, full_acceleration : ndarray
-        Peak absolute acceleration of the floor in the building alone, and with all goods attached (m/s2); NaN where
-        that collapsed.
-    estimates : list of EstimateRow
-        Published estimates.
-    plane : PlaneSlip or None
-        Slips by direction, where there are two; then the others are of lengths of vectors, `plus` and `minus` of the
-        sides of x, and there are no estimates.
+    """What is kept of the runs under one motion, arrays of shape (blocks,) in SI units, slips up to a collapse;
+    `demand` is abs(a)/(g + a_v). In `plane` they are lengths, `plus` and `minus` in x, without estimates.
     """
 
     peak: FloatArray
@@ -159,13 +126,7 @@ class SlipRuns:
 
 
 def solve_motion(models: SlipModels, motion: Motion, other: Motion | None = None) -> SolvedMotion:
-    """Solve the models under one motion, or in two directions under that in x and the other one in y.
-
-    Raises
-    ------
-    SimulationError
-        A run could not be carried to its end.
-    """
+    """Solve the models under one motion, or in two directions under that in x and the other one in y."""
     if other is not None:
         return _solve_pair(models, (motion, other))
     scene = models.scene

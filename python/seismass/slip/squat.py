@@ -104,7 +104,7 @@ class BlockSize:
         acceleration of g B/H together with a peak velocity of 10 B/sqrt(H) (cm and s), which is B/sqrt(H) in m and s.
         The form is from memory and was not checked in a source. It is 2 % below 0.4 times the velocity by which an
         impulse overturns a slender uniform block, sqrt(8 g R (1 - cos a)/(3 cos^2 a)) with tan a = B/H and
-        2 R = sqrt(B^2 + H^2). Both limits must be exceeded, on a rigid floor; it is no sufficient condition.
+        2 R = sqrt(B^2 + H^2). Both limits must be exceeded, on a rigid floor; it is not a sufficient condition.
         """
         return None if self.centre is not None else float(self.width / np.sqrt(self.height))
 
@@ -136,13 +136,7 @@ def parse_size(text: str) -> BlockSize:
 
 
 def as_sizes(sizes: Any, blocks: int) -> tuple[BlockSize | None, ...]:
-    """Return one size per block: one for all, or a list with None where a size is not known.
-
-    Raises
-    ------
-    InvalidOption
-        Something else, or another number of sizes than of blocks.
-    """
+    """Return one size per block: one for all, or a list with None where a size is not known."""
     if sizes is None or isinstance(sizes, BlockSize):
         return (sizes,) * blocks
     requirement = f"a BlockSize, or a list of {blocks}, one per block or None"
@@ -153,15 +147,8 @@ def as_sizes(sizes: Any, blocks: int) -> tuple[BlockSize | None, ...]:
 
 
 def demand_in_g(acceleration: FloatArray, vertical: FloatArray | None) -> float:
-    """Return the largest abs(a)/(g + a_v) of a history, which friction and uplift have their limits on.
-
-    Parameters
-    ----------
-    acceleration : ndarray, shape (samples,)
-        Absolute horizontal acceleration of the floor (m/s2); NaN after a collapse.
-    vertical : ndarray, shape (samples,), optional
-        Vertical acceleration (m/s2, up positive); samples at which g + a_v is not positive have no contact and are
-        left out.
+    """Return the largest abs(a)/(g + a_v) of a history (m/s2, up positive, NaN after a collapse), by which friction and
+    uplift are limited. Samples at which g + a_v is not positive have no contact and are left out.
     """
     weight = STANDARD_GRAVITY + (np.zeros(1) if vertical is None else vertical)
     ratio = np.where(weight > 0.0, np.abs(acceleration) / np.where(weight > 0.0, weight, 1.0), 0.0)

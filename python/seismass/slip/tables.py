@@ -26,9 +26,8 @@ from seismass.slip.squat import BlockSize
 def block_table(
     scene: Scene, motions: NamedMotions, runs: SlipRuns, confidence: float, resamples: int, seed: int
 ) -> pl.DataFrame:
-    """Return one row per block: its slip over the motions, that on the ground, and floor accelerations.
-
-    See `SlipDemand.blocks`.
+    """Return one row per block: its slip over the motions, that on the ground, and floor accelerations; see
+    `SlipDemand.blocks`.
     """
     slip = runs.or_infinite(runs.peak)
     residual = runs.or_infinite(np.abs(runs.residual))
@@ -193,9 +192,8 @@ def _known(values: NDArray[np.bool_], known: NDArray[np.bool_]) -> pl.Series:
 
 
 def squat_table(scene: Scene, runs: pl.DataFrame, sizes: tuple[BlockSize | None, ...]) -> pl.DataFrame:
-    """Return one row per block with a size: whether it slides or rocks, and under how many motions it would lift off.
-
-    See `SlipDemand.squat`.
+    """Return one row per block with a size: whether it slides or rocks, and under how many motions it would lift off;
+    see `SlipDemand.squat`.
     """
     rows = []
     for number, (block, place, size) in enumerate(zip(scene.goods, places_of(scene), sizes, strict=True), start=1):

@@ -57,7 +57,7 @@ def response_spectrum(
     InvalidOption
         A period, ratio, kind or number of threads out of its range.
     InvalidMotion
-        No motion, or something that is none.
+        No motion, or something else.
 
     Notes
     -----

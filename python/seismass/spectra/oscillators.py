@@ -21,22 +21,8 @@ _LONGEST_FLOW: Final = 60.0
 
 
 class Oscillators:
-    """Oscillators and motions, of which any pairs can be run with any factor of the motion.
-
-    Motions are continued at zero for two periods of the slowest oscillator and the time in which the weakest one can
-    still flow, so that peaks of the free vibration count. A factor s of the motion is a strength of 1/s: the
-    displacement of an oscillator s times weaker is that of this one over s.
-
-    Parameters
-    ----------
-    buildings : sequence of Building
-        One-storey buildings.
-    motions : sequence of GroundMotion
-        The motions.
-    largest : float
-        Largest factor that is going to be used, for the time of flow.
-    threads : int, optional
-        Number of threads; default all cores.
+    """Oscillators run with factors of motions, continued at zero until free vibration and flow end. A factor s is a
+    strength of 1/s: displacement of an oscillator s times weaker is that of this one over s.
     """
 
     def __init__(
@@ -53,14 +39,8 @@ class Oscillators:
             self._motions.append(given.with_duration((len(given.acceleration) - 1) * given.dt + rest))
 
     def peaks(self, building: IndexArray, motion: IndexArray, factor: FloatArray) -> FloatArray:
-        """Return the peak displacement (m) of each run.
-
-        Parameters
-        ----------
-        building, motion : ndarray of int, shape (runs,)
-            Indices from 0.
-        factor : ndarray, shape (runs,)
-            Factor of the motion.
+        """Return the peak displacement (m) of each run, by indices of building and motion (from 0) and the factor of
+        the motion.
         """
         runs = np.stack([building, motion], axis=1).astype(np.int64)
         scale = np.ascontiguousarray(factor, dtype=np.float64)

@@ -31,24 +31,8 @@ numbers of these shapes they are second-hand.
 
 
 def target_remarks(target: TargetSpectrum) -> tuple[str, ...]:
-    """Return what is unlikely about a target spectrum.
-
-    Parameters
-    ----------
-    target : TargetSpectrum
-        The spectrum.
-
-    Returns
-    -------
-    tuple of str
-        Sentences on an ordinate that is too large, on S_DS and S_D1 that are exchanged, and on parameters of a code
-        outside their ranges.
-
-    Examples
-    --------
-    >>> import seismass as sm
-    >>> target_remarks(sm.TargetSpectrum.asce7(sds_g=107.0, sd1_g=61.0))
-    ('S_DS of the target spectrum is 107 g, above 4 g: spectral accelerations are in g, not m/s2 or per cent',)
+    """Return what is unlikely about a target spectrum: an ordinate that is too large, S_DS and S_D1 exchanged, and
+    parameters of a code outside their ranges.
     """
     parameters = target.parameters
     if "sds_g" in parameters:

@@ -11,19 +11,8 @@ from seismass.spectra.target import TargetSpectrum
 
 
 def target_of_parameters(parameters: dict[str, Any]) -> TargetSpectrum:
-    """Return the target spectrum whose `TargetSpectrum.parameters` these are.
-
-    Raises
-    ------
-    InvalidOption
-        The spectrum is the mean of motions, of which the parameters hold no samples, or of no kind that is known.
-
-    Examples
-    --------
-    >>> import seismass as sm
-    >>> target = sm.TargetSpectrum.eurocode8(1, "C", agr_g=0.3).tilted(0.1)
-    >>> target_of_parameters(target.parameters) == target
-    True
+    """Return the target spectrum whose `TargetSpectrum.parameters` these are; refused is the mean of motions, whose
+    samples they do not hold.
     """
     given = dict(parameters)
     tilt = given.pop("tilt", 0.0)

@@ -45,13 +45,7 @@ def csv_shape(path: str | os.PathLike[str]) -> CsvTable:
 
 
 def read_table(path: str | os.PathLike[str], *, zero: bool = False) -> tuple[FloatArray, FloatArray]:
-    """Return the periods (s) and Sa (g) of a CSV; with `zero` the first period may be 0.
-
-    Raises
-    ------
-    RecordFormatError
-        As for `TargetSpectrum.from_csv`.
-    """
+    """Return the periods (s) and Sa (g) of a CSV; with `zero` the first period may be 0."""
     source = as_path(path, OWNER, RecordFormatError)
     try:
         text = read_utf8(source)

@@ -218,7 +218,7 @@ class TargetSpectrum:
     def from_csv(cls, path: str | os.PathLike[str]) -> TargetSpectrum:
         """Return the spectrum of a CSV: period (s) and Sa (g), interpolated log-log, refused outside its range.
 
-        A first row that is not numbers names the columns: one `period` or `T`, one `Sa`, each with any unit behind it;
+        A first row that is not numbers names the columns: one `period` or `T`, one `Sa`, each with any unit after it;
         further columns are ignored. Without it the first two columns count. Blank lines and those with # are skipped.
 
         Raises

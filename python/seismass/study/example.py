@@ -22,18 +22,8 @@ SLIDES: Final = 0.01
 
 @dataclass(frozen=True, eq=False)
 class Example:
-    """A building of a study under one of its motions.
-
-    Attributes
-    ----------
-    labels : dict
-        Key columns of the building.
-    scene : Scene
-        It with its sliding goods.
-    record : Record
-        The motion, scaled.
-    name : str
-        What the study calls the motion.
+    """A building of a study with its sliding goods under one of its motions: key columns, scaled record, and the name
+    of the motion in the study.
     """
 
     labels: dict[str, Any]
@@ -43,18 +33,8 @@ class Example:
 
 
 def study_example(suite: Suite, parameters: StudyParameters, result: StudyResult) -> Example | None:
-    """Return the building and the motion, or None where no run of the study has a result.
-
-    The building has the largest underestimation in a first storey among the yielding buildings on whose first floor
-    goods slide by `SLIDES` on average, or of all where there is none. The motion is the one under which its
-    underestimation is closest to that of the means.
-
-    Parameters
-    ----------
-    suite, parameters
-        What `run_study` was given.
-    result : StudyResult
-        What it gave back.
+    """Return the building of largest first-storey underestimation whose first-floor goods slide by `SLIDES` on average
+    (or of all), and the motion closest to that of the means; None where no run has a result.
     """
     first = result.summary.filter(storey=1).drop_nulls("underestimation_percent")
     slides = first.filter((pl.col("mean_peak_slip") >= SLIDES) & (pl.col("R") > 1.0))

@@ -30,28 +30,8 @@ _PLACE: Final = [
 
 
 def findings(summary: pl.DataFrame, fractions: pl.DataFrame, code: str = "code") -> list[dict[str, Any]]:
-    """Return one entry per occupancy and friction coefficient, in the order of the summary.
-
-    Parameters
-    ----------
-    summary, fractions : polars.DataFrame
-        `StudyResult.summary` and `StudyResult.fractions`; storeys without a mean, because a run failed or collapsed,
-        are left out and counted.
-    code : str
-        Name of the code.
-
-    Returns
-    -------
-    list of dict
-        occupancy, mu, code, lambda_design, lambda_analysis; `storeys_compared` and `storeys_without_result`, and
-        `collapses` by model; `code_gives_more`, the number of storeys where the code model drifts more, and
-        `code_gives_more_top`, how many of them are top storeys; `largest` and `smallest` underestimation (%), each with
-        its place, how much of it is mass and how much sliding (%), its scatter over the motions, and what remains
-        without the motion that changes it most; `growth` with alpha and with R: of all pairs of storeys with results
-        that differ by one step of it alone, how many there are and in how many the underestimation grows, for all
-        storeys and for first storeys; `first_storey`, for each R and alpha the mean over the buildings of the first
-        storey's underestimation, of what mass and what sliding does (%), and of eta and the two estimates; null where a
-        building has none.
+    """Return a dict per occupancy and friction in the order of the summary: counts and the extremes of underestimation
+    (%), how it grows with alpha and R, first storeys by R and alpha. Storeys without a mean are left out.
     """
     entries = []
     keys = ["building", "eta", "estimate", "conservative", "effective"]
@@ -94,7 +74,7 @@ def findings(summary: pl.DataFrame, fractions: pl.DataFrame, code: str = "code")
 
 
 def _finite(row: dict[str, Any]) -> dict[str, Any]:
-    """The row with null for what is no finite number, which JSON does not have."""
+    """The row with null for what is not finite, which JSON does not have."""
     return {name: None if isinstance(value, float) and not np.isfinite(value) else value for name, value in row.items()}
 
 
@@ -105,7 +85,7 @@ def _mean_of_all(name: str) -> pl.Expr:
 
 
 def _growth(rows: pl.DataFrame, varied: str, fixed: str) -> dict[str, int]:
-    # Rows without a result stay in their places: what lies on both sides of one is no single step.
+    # Rows without a result stay in their places: rows on both sides of one are not a single step apart.
     value = pl.col("underestimation_percent")
     known = pl.when(value.is_finite()).then(value)
     steps = rows.sort(varied).with_columns(known.diff().over([*_STOREY, fixed]).alias("step"))

@@ -45,11 +45,8 @@ def fractions_table(
     effective: dict[Scene, Fraction] | None,
     corner: float,
 ) -> pl.DataFrame:
-    """One row per building: C1, eta, both estimates with what they take, and lambda_eff where it was computed.
-
-    C1 is the mean over the motions of the peak base shear of the fully attached model over the weight of building and
-    goods; null, with all that follows from it, where a run of that model collapsed or failed. `corner` is T_c of the
-    scaled motions (s).
+    """One row per building: C1, eta, both estimates, and lambda_eff where computed. C1 is the mean peak base shear of
+    the fully attached model over the full weight; null where a run of it collapsed or failed.
     """
     runs = run_of.reshape(len(buildings), len(MODELS), -1)[:, MODELS.index("attached")]
     completed = (table["status"] == "completed").to_numpy()[runs].all(axis=1)
@@ -106,10 +103,8 @@ def effective_fractions(
     progress: Callable[[int, int], object] | None = None,
     kept: KeptResults = NOTHING_KEPT,
 ) -> dict[Scene, Fraction]:
-    """Return the effective fraction of each distinct building with its goods.
-
-    The attached models have the damping that the study's have: the real building's matrix, or with
-    `damping_base="own"` the ratio in the modes of each. Records are scaled; those of one event are resampled together.
+    """Return the effective fraction of each distinct building with its goods. Damping is that of the study: the real
+    building's matrix, or with `damping_base="own"` the ratio in the modes of each model.
     """
     scenes = list(dict.fromkeys(building.scenes["real"] for building in buildings))
     damping: Literal["same", "ratio"] = "ratio" if parameters.damping_base == "own" else "same"

@@ -189,13 +189,7 @@ class StudyParameters:
 
 
 def code_fractions(code: str) -> dict[str, CodeFraction]:
-    """Return what a code counts for each occupancy of the paper, those that it says nothing of left out.
-
-    Raises
-    ------
-    InvalidOption
-        The code is not in the table.
-    """
+    """Return what a code counts for each occupancy of the paper, those that it says nothing of left out."""
     found = {"storage": code_fraction(code, "storage")}
     with suppress(InvalidOption):
         found["commercial"] = code_fraction(code, "ordinary")

@@ -219,11 +219,8 @@ def _changes(chosen: StudyParameters, target: TargetSpectrum, suite: Suite) -> I
 def _motion_changes(
     chosen: StudyParameters, target: TargetSpectrum, suite: Suite, threads: int | None
 ) -> Iterator[_Change]:
-    """Changes of how motions are brought to the target: factors of modal pushover, and matched motions.
-
-    The oscillator of modal pushover has the period for which the study scales and the springs of its storeys, one
-    setting for each R above 1. Matched motions are scaled like those of the study, so that their mean is not below the
-    target.
+    """Changes of how motions are brought to the target: factors of modal pushover (period and springs of the study, a
+    setting per R above 1), and matched motions, scaled so that their mean is not below the target.
     """
     shortest, longest = (chosen.scaling_period * multiple for multiple in MATCHED_RANGE)
 

@@ -65,18 +65,8 @@ def key_columns(buildings: list[StudyBuilding], repeats: NDArray[np.int64] | int
 def responses_table(
     buildings: list[StudyBuilding], names: list[str], table: pl.DataFrame, run_of: NDArray[np.int64]
 ) -> pl.DataFrame:
-    """One row per building, model, motion and storey.
-
-    Parameters
-    ----------
-    buildings : list of StudyBuilding
-        The buildings.
-    names : list of str
-        What the motions are called.
-    table : polars.DataFrame
-        Rows of `simulate_many`, one per distinct run.
-    run_of : ndarray of int, shape (analyses,)
-        Row of `table` of each analysis: building by building, model by model, motion by motion.
+    """One row per building, model, motion and storey; `run_of` is the row of `table` (one per distinct run) of each
+    analysis, building by building, model by model, motion by motion.
     """
     motion = np.tile(np.arange(len(names)), len(buildings) * len(MODELS))
     model = np.tile(np.repeat(np.arange(len(MODELS)), len(names)), len(buildings))
@@ -123,10 +113,8 @@ def drifts_of(responses: pl.DataFrame, motions: int) -> Drifts:
 def summary_table(
     buildings: list[StudyBuilding], responses: pl.DataFrame, names: list[str], parameters: StudyParameters
 ) -> pl.DataFrame:
-    """One row per building and storey: means, scatter, and what one record carries.
-
-    Where a run failed, statistics of its model are null; where one collapsed, means are null too, while medians and
-    percentiles count its drift as infinite.
+    """One row per building and storey: means, scatter, and what one record carries. A failed run makes statistics of
+    its model null; a collapse makes means null and counts as infinite drift in percentiles.
     """
     drifts = drifts_of(responses, len(names))
     storeys = np.array([building.labels["storeys"] for building in buildings])

@@ -207,7 +207,7 @@ def validate(
     Raises
     ------
     InvalidMotion, InvalidOption
-        The suite is none, or cannot be scaled.
+        `suite` is not a Suite, or cannot be scaled.
     RecordFormatError
         A recording beside one of the suite cannot be read.
 

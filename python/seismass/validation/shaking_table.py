@@ -1,7 +1,7 @@
 """The paper's shaking table (Fig. 4): a platform at 1:15 with a sliding block, under the compressed Erzincan record.
 
 The paper gives the mass ratios of the block and that the platform stayed elastic, but neither its period and damping
-nor the friction. They are varied here, and what does not depend on them is told from what does.
+nor the friction. They are varied here, to separate what depends on them from what does not.
 """
 
 from __future__ import annotations
@@ -169,22 +169,8 @@ def _time(motion: Motion) -> FloatArray:
 
 
 def robust_numbers(runs: pl.DataFrame) -> dict[str, Any]:
-    """Return what the runs have in common and what decides between them.
-
-    Parameters
-    ----------
-    runs : polars.DataFrame
-        `Platform.runs`.
-
-    Returns
-    -------
-    dict
-        `runs` and `slides`, how many there are and in how many the block slides; of those in which it slides,
-        `below_attached`, how many have less drift than with the block attached, and `over_attached`, the 5, 50 and 95 %
-        fractiles of the ratio; `heavier`, the fractiles of the drift with the heavier block over that with the lighter
-        where both slide, and `heavier_attached`, the same with both blocks attached;
-        `by_period`, `by_mu`, `by_damping` and `by_amplitude`, the geometric mean over all else of the largest peak
-        drift over the least along that range.
+    """Return what the runs of `Platform.runs` have in common and what decides between them: shares that slide,
+    fractiles of drift over that with attached block, and mean ranges by period, mu, damping and amplitude.
     """
     sliding = runs.filter(pl.col("peak_slip") > 0.0)
     ratio = sliding["peak_drift"] / sliding["attached_drift"]

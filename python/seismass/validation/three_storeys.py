@@ -265,11 +265,8 @@ def setting_label(ratio: float, substeps: int) -> str:
 
 @cache
 def kept() -> pl.DataFrame:
-    """Return the results of OpenSees that are kept, one row per component, second slope and setting.
-
-    Columns: component, samples (digest of the record), peak_g, second_slope, stiffness_ratio, substeps, every (sample
-    intervals between kept instants), dt (s), version, openseespy, platform, drift and slip (m, instants times storeys),
-    peak_drift and peak_slip over all steps (m).
+    """Return the kept results of OpenSees, one row per component, second slope and setting; `every` is sample intervals
+    between kept instants, drift and slip (m) are instants times storeys, peaks those of all steps.
     """
     return pl.read_parquet(KEPT)
 

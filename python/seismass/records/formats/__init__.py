@@ -38,9 +38,8 @@ __all__ = [
 
 
 def recognise(head: str) -> Format | tuple[str, str] | None:
-    """Return the format of a text by its first lines, or name and advice of one that is not read, or None.
-
-    None is text of columns, if it is a record at all.
+    """Return the format of a text by its first lines, name and advice of a format that is not read, or None: text of
+    columns, if it is a record at all.
     """
     known = known_text(head)
     if known is not None:

@@ -55,25 +55,8 @@ def looks_like_at2(text: str) -> bool:
 
 
 def parse_at2(text: str, source: Path, *, dt: float | None = None, unit: str | None = None) -> Record:
-    """Read the text of an .AT2 file.
-
-    Parameters
-    ----------
-    text : str
-        The whole file.
-    source : Path
-        Where it came from: gives the name, and is named in errors.
-    dt : float, optional
-        The exact step (s), where the header has rounded it; must agree with the header to its last digit.
-    unit : str, optional
-        Must agree with the header where that states one; g where neither does. Needed where the header states one that
-        is not known.
-
-    Raises
-    ------
-    RecordFormatError
-        No counts in the header, other counts than points, a damaged number, a step or a unit that is not known, or a
-        contradiction with `dt` or `unit`.
+    """Read the text of an .AT2 file. `dt` (s) is the exact step and must agree with the header to its last digit;
+    `unit` must agree with the header, and is g where neither states one.
     """
     file = source.name
     lines = text.splitlines()
@@ -149,8 +132,7 @@ def _without_trailer(lines: list[str], points: int, remarks: list[str]) -> list[
 
 def _rotation(titles: list[str], remarks: list[str]) -> tuple[str, str, str] | None:
     """Return event, station and component of a record that its header says to be rotated, with remarks; else None.
-
-    The titles of such a file are those of the two components that it was made of, of which none is its direction.
+    Titles of such a file name both recorded components, neither of which is its direction.
     """
     header = "\n".join(titles)
     scale = _SCALED.search(header)
@@ -168,9 +150,8 @@ def _rotation(titles: list[str], remarks: list[str]) -> tuple[str, str, str] | N
 
 
 def _uneven_line(lines: list[str], start: int) -> int | None:
-    """Return the first line that has other than the most usual number of values, but for the last two; 1 is the first.
-
-    Fields that touch are told apart by their points. The last line may be short, and zeros may follow it.
+    """Return the first line (from 1), but for the last two, whose number of values is not the most usual. Fields that
+    touch are told apart by their points; the last line may be short, and zeros may follow.
     """
     counts = [max(line.count("."), len(line.split())) for line in lines[start:]]
     while counts and not counts[-1]:
@@ -246,10 +227,8 @@ def _network(header: str) -> str:
 
 
 def _titles(titles: list[str]) -> tuple[str, str, str]:
-    """Return event, station and component of "event, date, station, component" or of what there is of it.
-
-    A component is a direction or a short name; prose between commas is a title and nothing else. "TST002, E, (CWB)"
-    has the operator behind a comma.
+    """Return event, station and component of "event, date, station, component", or of the part that is there. A
+    component is a direction or a short name, else a title; an operator may follow, "TST002, E, (CWB)".
     """
     title = titles[1] if len(titles) > 1 else ""
     parts = [part.strip() for part in title.split(",")]

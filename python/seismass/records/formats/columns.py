@@ -50,13 +50,7 @@ class _Column:
 def parse_columns(
     text: str, source: Path, *, dt: float | None = None, unit: str | None = None, skip: int | None = None
 ) -> Record:
-    """Read the text of a file of one motion; see `parse_channels`.
-
-    Raises
-    ------
-    RecordFormatError
-        As for `parse_channels`, or the file has several columns of accelerations.
-    """
+    """Read the text of a file with one column of accelerations; see `parse_channels`."""
     channels = parse_channels(text, source, Arguments(dt, unit, skip))
     if len(channels) > 1:
         raise RecordFormatError(f"columns of {source.name} must be those of one motion; got {len(channels)}")
@@ -64,30 +58,8 @@ def parse_columns(
 
 
 def parse_channels(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:
-    """Read the accelerations of a text.
-
-    Parameters
-    ----------
-    text : str
-        The whole file: header lines (not numbers, or marked #, %, // or !), then rows of numbers: one column; times and
-        one or several columns, by their labels where there are any; or samples in three or more a line.
-        Numbers are separated by blanks, commas or semicolons; commas may be decimal points.
-    source : Path
-        Where it came from: gives the name, and is named in errors.
-    arguments : Arguments
-        Step (s), needed unless the file states it, and which must agree with a file that does. Unit, needed unless a
-        header states it, likewise. How many rows of numbers before the data are not data; by default 0, except that a
-        first row, or a first pair of rows, that gives the number of points (or a scale of 1) and the step is recognised
-        as such.
-
-    Raises
-    ------
-    RecordFormatError
-        No step or no unit, times that are not uniform, rows of different length, something that is not a number,
-        a file that is cut off, first numbers that look like no samples but could be, or columns of which nothing says
-        what they are.
-    NotRead
-        The labels or the header name a spectrum or another quantity.
+    """Read the accelerations of header lines (no numbers, or marked #, %, // or !) and rows of numbers: one column,
+    times and columns by their labels, or samples in three or more a line. Commas may be decimal points.
     """
     remarks: list[str] = []
     table = read_table(text, source.name, remarks)

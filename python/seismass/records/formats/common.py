@@ -42,17 +42,8 @@ class Channel:
 def channels_of(
     lines: list[str], component: Callable[[int, int], tuple[Channel, int]], *, between: str | None = None
 ) -> tuple[Channel, ...]:
-    """Return the components of a file, which stand one after the other, with blank lines between them.
-
-    Parameters
-    ----------
-    lines : list of str
-        The file.
-    component : callable
-        Takes the index of the first line of a component and its number, from 1; returns the component and the index of
-        the line after it.
-    between : str, optional
-        Beginning of other lines that stand between components.
+    """Return the components of a file, one after the other, with blank lines or lines that begin with `between` in
+    between. `component` takes the first line's index and the number (from 1), returns it and the next line.
     """
     channels: list[Channel] = []
     at = 0
@@ -76,13 +67,7 @@ class Format:
 
 
 def agreed_step(stated: float | None, dt: float | None, written: str, file: str) -> float:
-    """Return the step (s) of a header, which a given one must equal.
-
-    Raises
-    ------
-    RecordFormatError
-        They differ, or there is neither.
-    """
+    """Return the step (s) of a header, which a given one must equal."""
     if stated is None:
         if dt is None:
             raise RecordFormatError(f"dt of {file} must be given, its header states no step; got none")
@@ -93,13 +78,7 @@ def agreed_step(stated: float | None, dt: float | None, written: str, file: str)
 
 
 def agreed_unit(stated: str, unit: str | None, file: str) -> str:
-    """Return the unit of a header, which a given one must equal.
-
-    Raises
-    ------
-    RecordFormatError
-        They differ.
-    """
+    """Return the unit of a header, which a given one must equal."""
     if unit is not None and ACCELERATION_UNITS[unit] != ACCELERATION_UNITS[stated]:
         raise RecordFormatError(f"unit of {file} must be that of its header, {stated}; got {unit}")
     return stated

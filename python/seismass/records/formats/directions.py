@@ -18,10 +18,8 @@ _UP: Final = frozenset({"UP", "U", "V", "Z", "UD", "VER", "VERT", "VERTICAL", "D
 
 
 def azimuth_of(component: str) -> float | None:
-    """Return the direction of positive acceleration in degrees clockwise from north, or None.
-
-    "90", "090", "90 DEG", "360" (0), "E", "EAST", "N36E" and the SEED code "HNE" give one; NS and EW are taken as
-    positive to north and east. "UP", "H1", "LONGITUDINAL" and what is not understood give None.
+    """Return the direction of positive acceleration in degrees clockwise from north ("090", "90 DEG", "E", "N36E", the
+    SEED code "HNE"; NS is north, EW east), or None ("UP", "H1", "LONGITUDINAL").
     """
     text = component.strip().upper()
     text = text.partition("(")[0].strip() or text  # "N (CWB)": what stands in brackets is the operator
@@ -41,16 +39,8 @@ def azimuth_of(component: str) -> float | None:
 
 
 def direction_remark(component: str, number: float | None, vertical_codes: tuple[int, ...]) -> str | None:
-    """Return a remark where a header's text and its integer disagree on the direction of a component.
-
-    Parameters
-    ----------
-    component : str
-        As the text names it.
-    number : float, optional
-        The integer header's degrees or code; None where it is missing.
-    vertical_codes : tuple of int
-        What the format writes for vertical components.
+    """Return a remark where a header's text and its integer (degrees or a code; None: missing) disagree on the
+    direction of a component.
     """
     azimuth = azimuth_of(component)
     if number is None or (azimuth is None and not is_vertical(component)):

@@ -13,32 +13,15 @@ LONGEST_STEP: Final = 0.1
 """Between these (s) a number before the data may be a step."""
 
 OUTSTANDING: Final = 5.0
-"""A first number larger than the early samples by this factor is no sample unless the caller says so."""
+"""A first number larger than the early samples by this factor is not a sample unless the caller says so."""
 
 _FIRST_SAMPLES: Final = 3
 """Records begin at rest: so many samples say what size the first has."""
 
 
 def without_first_numbers(table: Table, dt: float | None, remarks: list[str]) -> tuple[Table, float | None]:
-    """Take off a first row or pair of rows "count or scale, step", or a first row that is the step; return the step.
-
-    They are taken for what they are where the second is of the size of a step and the first is the count of what
-    follows or a scale of 1: no record starts at exactly 1 and goes on so. With another scale that stands out from the
-    samples the file is refused, because nothing says whether they are to be multiplied by it. A step alone is known by
-    the one that is given.
-
-    Parameters
-    ----------
-    table : Table
-    dt : float, optional
-        The step that the caller gives or the header states (s).
-    remarks : list of str
-        Extended by what was taken off.
-
-    Raises
-    ------
-    RecordFormatError
-        First numbers that look like no samples but could be.
+    """Remove first rows "count or scale, step" or "step"; return the step (s). The count must be that of what follows,
+    or the scale 1; another scale that differs from the samples is refused, as it may be a factor.
     """
     rows = [table.row(index) for index in range(min(len(table.rows), EARLY))]
     if len(rows) > _FIRST_SAMPLES and len(rows[0]) == 1 and dt is not None and to_float(rows[0][0]) == dt:

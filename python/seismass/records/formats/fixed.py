@@ -43,13 +43,7 @@ class Block:
 
 
 def layout_of(edit: str, file: str) -> Layout:
-    """Return the layout of a Fortran format such as (8F10.3), (1E15.6) or 8(1pe10.4e1).
-
-    Raises
-    ------
-    RecordFormatError
-        It is none of I, F, E, D or G, or has no or too many columns.
-    """
+    """Return the layout of a Fortran format (I, F, E, D or G) such as (8F10.3), (1E15.6) or 8(1pe10.4e1)."""
     match = _EDIT.fullmatch(edit.strip())
     columns = int(match["columns"] or 1) if match else 0
     width = int(match["width"]) if match else 0
@@ -59,13 +53,7 @@ def layout_of(edit: str, file: str) -> Layout:
 
 
 def read_block(lines: Sequence[str], start: int, count: int, layout: Layout, file: str) -> Block:
-    """Read `count` numbers from line index `start` on.
-
-    Raises
-    ------
-    RecordFormatError
-        The lines end too early, a line has other than its numbers in their columns, or a field is no number.
-    """
+    """Read `count` numbers from line index `start` on; each line must have its numbers in their columns."""
     if not 0 < count <= LARGEST_COUNT:
         raise RecordFormatError(f"points of {file} must be between 1 and {LARGEST_COUNT}; got {count}")
     columns, width = layout.columns, layout.width

@@ -42,28 +42,8 @@ Pattern = re.Pattern[str]
 
 @dataclass(frozen=True)
 class Header:
-    """How the words of a format are found: each pattern has one group, but for the peak, which has value and time.
-
-    Parameters
-    ----------
-    known : Pattern
-        Matches at the start of a file.
-    step, rate : Pattern, optional
-        The step (s) or the rate (Hz).
-    points, length : Pattern, optional
-        The number of points, and the duration (s).
-    unit : Pattern or str
-        Where the unit is written, or what it is always.
-    columns : tuple of str
-        Components of the columns in order, "" for times, or none where samples stand line after line.
-    component, station, event : Pattern, optional
-    network : str or Pattern
-    peaks : Pattern, optional
-        Finds one peak for each component, in the order of the columns.
-    remark : Pattern, optional
-        A line that a user should know, where it is there.
-    first_cells : int
-        Cells at the start of each line that are not numbers, such as a date.
+    """How the words of a format are found: each pattern has one group, but `peaks`, one per component, with value and
+    time. `columns` names components ("" for times), or none where samples go on from line to line.
     """
 
     known: Pattern

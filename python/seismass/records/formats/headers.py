@@ -10,7 +10,7 @@ from seismass.records.formats.numbers import NUMBER, last_digit, to_float
 
 SHORTEST_STEP: Final = 1e-5
 LONGEST_STEP: Final = 1.0
-"""Steps (s) outside these are no sampling of a ground motion but a damaged header."""
+"""Range of the step (s) of a ground motion; a header outside it is damaged."""
 
 NO_COUNT: Final = "the file states no number of points: a missing end would not show"
 
@@ -43,13 +43,7 @@ _OTHER_QUANTITY = re.compile(r"(?<![a-z])(?<!wave[ -])(?:velocity|velocities|dis
 
 
 def stated_step(text: str, file: str) -> float | None:
-    """Return the step (s) that a header states, or None where it states none.
-
-    Raises
-    ------
-    RecordFormatError
-        It is stated in another unit than s or ms, or is no sampling of a ground motion.
-    """
+    """Return the step (s) that a header states in s or ms, or None where it states none."""
     match = _STEP.search(text)
     if match is None:
         rate = _RATE.search(text)
@@ -98,7 +92,7 @@ WHOLE: Final = 1e-6
 """A rate within this part of a whole number of samples a second is one."""
 
 COARSEST_ROUNDING: Final = 0.5e-4
-"""Half the fourth decimal (s): headers that round a step further say so little that a given one is no contradiction."""
+"""Half the fourth decimal (s): a step rounded further in a header does not contradict a given one."""
 
 
 def rounding_of(written: str) -> tuple[float, float]:
@@ -129,14 +123,8 @@ def rounding_remark(written: str) -> list[str]:
 
 
 def same_step(step: float, other: float, samples: int, header: str) -> bool:
-    """Whether two steps (s) are one: the last sample stays to a tenth of a step, or they differ by rounding.
-
-    Parameters
-    ----------
-    step, other : float
-    samples : int
-    header : str
-        The text that states the second, or nothing: a header rounds its step to the last digit that it writes.
+    """Whether two steps (s) are equal: the last sample stays to a tenth of a step, or they differ by rounding of the
+    last digit in `header`, the text that states the second.
     """
     if abs(other - step) * max(samples - 1, 1) <= 0.1 * step or abs(other - step) <= 1e-6 * step:
         return True

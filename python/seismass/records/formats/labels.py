@@ -1,4 +1,4 @@
-"""What the labels of columns say: times, accelerations, another quantity, or a spectrum, which is no motion."""
+"""What the labels of columns say: times, accelerations, another quantity, or a spectrum, which is not a motion."""
 
 from __future__ import annotations
 
@@ -72,9 +72,8 @@ _UNITS_OF_NO_MOTION: Final = re.compile(
 
 @dataclass(frozen=True)
 class Label:
-    """One label: its text, what it is of, its unit as written, and the direction that it names.
-
-    `kind` is "times", "index", "date", "acceleration", "velocity", "displacement", "no motion" or "".
+    """One label: its text, what it is of, its unit as written, and the direction that it names. `kind` is "times",
+    "index", "date", "acceleration", "velocity", "displacement", "no motion" or "".
     """
 
     text: str
@@ -139,14 +138,8 @@ def _direction(words: str) -> str:
 
 
 def labels_of(header: list[str], columns: int) -> list[Label] | None:
-    """Return the labels of so many columns, from the last line of a header that has as many; None where none has.
-
-    Parameters
-    ----------
-    header : list of str
-        Lines before the numbers that are not blank, in order.
-    columns : int
-        Columns of the numbers.
+    """Return the labels of so many columns, from the last of the non-blank header lines that has as many; None where
+    none has.
     """
     for line in reversed(header[-4:]):
         if len(line) > LINE_WIDTH or _PROSE.search(line):
@@ -164,10 +157,8 @@ def labels_of(header: list[str], columns: int) -> list[Label] | None:
 
 
 def _beside_each_other(labels: list[Label]) -> list[Label]:
-    """Return labels of one or two letters as what they are beside the others.
-
-    V and N beside compass directions are the vertical and the north, no velocity and no number. X without the unit that
-    others have, or X and Y alone, are axes of a plot. Units alone say their quantities.
+    """Return labels of one or two letters by what is beside them: V and N beside compass directions are vertical and
+    north; X without the others' unit, or X and Y alone, are axes of a plot.
     """
     texts = [one.text.strip().lower() for one in labels]
     if len(labels) > 1 and all(text in PER_SECOND or unit_by_name(text) for text in texts):
@@ -224,9 +215,8 @@ def _splits(line: str, columns: int) -> list[tuple[list[str], bool]]:
 
 
 def no_motion(labels: list[Label]) -> str | None:
-    """Return the labels where they are not those of a motion: a spectrum, a hazard curve, a list.
-
-    The line above one column may be any title; it counts only where it is a short label.
+    """Return the labels where they are not those of a motion: a spectrum, a hazard curve, a list. The line above one
+    column may be any title; it counts only where it is a short label.
     """
     named = [label for label in labels if label.kind == "no motion"]
     if not named or (len(labels) == 1 and len(_BRACKET.sub(" ", labels[0].text).split()) > SHORT_LABEL):

@@ -18,22 +18,8 @@ FEWEST_IN_LINE: Final = 5
 
 
 def columns_of(table: Table, values: NDArray[np.float64], counts: list[int], labelled: bool) -> int:
-    """Return how many columns rows have; 1 also where samples stand line after line.
-
-    Parameters
-    ----------
-    table : Table
-    values : ndarray, shape (sum of counts,)
-        All numbers, row after row.
-    counts : list of int
-        Numbers in each row.
-    labelled : bool
-        Whether a header labels as many columns as the last row has.
-
-    Raises
-    ------
-    RecordFormatError
-        Rows of different length, or columns of which nothing says what they are.
+    """Return how many columns the rows have; 1 also where samples go on from line to line. `labelled`: a header labels
+    as many columns as the last row has.
     """
     columns = counts[-1]
     wide = max(counts[:-1], default=columns)
@@ -69,9 +55,8 @@ def _rises(values: NDArray[np.float64]) -> bool:
 
 
 def is_row_major(values: NDArray[np.float64]) -> bool:
-    """Whether numbers go on from line to line: steps along lines are smaller than those from a line to the next.
-
-    Without a clear answer, five or more a line are taken as samples, and fewer are not.
+    """Whether numbers go on from line to line: steps along lines are smaller than those from a line to the next. If
+    that is not clear, five or more a line are samples, and fewer are not.
     """
     along = _rms(np.diff(values.ravel()))
     across = _rms(np.diff(values, axis=0))

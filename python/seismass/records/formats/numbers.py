@@ -47,10 +47,8 @@ def last_digits(tokens: Sequence[str]) -> NDArray[np.float64]:
 
 
 def split_touching(token: str) -> list[str] | None:
-    """Return the fields of fixed width that touch in `token` ("-.24E-03-.23E-03"), or None if it is not such a run.
-
-    Two fields that touch can be told apart where the second has a sign or the first an exponent, which Fortran
-    writes with a sign and two digits; any other run is ambiguous and refused.
+    """Return the fields of fixed width that touch in `token` ("-.24E-03-.23E-03"), or None. They are told apart by a
+    sign of the second or an exponent of the first (sign and two digits); all else is ambiguous.
     """
     fields: list[str] = []
     end = 0
@@ -64,19 +62,7 @@ def split_touching(token: str) -> list[str] | None:
 
 
 def parse_numbers(lines: Iterable[tuple[int, str]], file: str) -> tuple[list[str], NDArray[np.float64]]:
-    """Read all numbers of numbered lines.
-
-    Returns
-    -------
-    tokens : list of str
-        As written, one per number.
-    values : ndarray, shape (len(tokens),)
-
-    Raises
-    ------
-    RecordFormatError
-        Something that is not a number, with its line.
-    """
+    """Read all numbers of numbered lines: as written, and as values."""
     numbered = list(lines)
     tokens: list[str] = []
     for _, line in numbered:
@@ -111,10 +97,8 @@ def _split_fields(lines: Iterable[tuple[int, str]], file: str) -> list[str]:
 
 
 def is_cut_off(tokens: Sequence[str], *, short_zero: bool = True) -> bool:
-    """Whether the last number looks cut off: fewer decimals or exponent digits than any other number of the file.
-
-    The first half of "0.4751E-01" is a clean number and a false peak. Where an exponent is there, so are all decimals
-    before it, however few: "1e-05" is whole. A last zero may be written shorter where `short_zero` says so.
+    """Whether the last number has fewer decimals or exponent digits than all others: of "0.4751E-01" the first half is
+    a false peak. With an exponent decimals are complete; a last zero may be short if `short_zero`.
     """
     if len(tokens) <= FEWEST_TO_JUDGE_BY or (short_zero and to_float(tokens[-1]) == 0.0):
         return False

@@ -23,24 +23,8 @@ def uniform_step(
     *,
     rounding: bool = True,
 ) -> float:
-    """Return the step (s) of times that are uniform.
-
-    Parameters
-    ----------
-    times : ndarray, shape (times,)
-    written : sequence of str
-        The same as the file writes them.
-    file : str
-        Named in errors.
-    line_number : callable, optional
-        Gives the line of a time by its index, for errors.
-    rounding : bool
-        Whether half the last digit of a time is allowed beside `UNIFORMITY`, as where steps of 5 ms are printed in ms.
-
-    Raises
-    ------
-    RecordFormatError
-        Fewer than two times, times that do not increase, or that are not uniform.
+    """Return the step (s) of times that are uniform; `written` are the times as in the file. With `rounding` half the
+    last digit of a time is allowed beside `UNIFORMITY`, as for steps of 5 ms printed in ms.
     """
     if len(times) < 2:
         raise RecordFormatError(f"times of {file} must be at least two, to give a step; got {len(times)}")
@@ -49,7 +33,7 @@ def uniform_step(
     if not step > 0.0:
         raise RecordFormatError(f"times of {file} must increase; got {times[0]:g} s first, {times[-1]:g} s last")
     half_digit = 0.5 * last_digits([token.strip() for token in written])
-    half_digit[0] = half_digit.min()  # a first time of "0" is no rounder than the others
+    half_digit[0] = half_digit.min()  # a first time of "0" is as exact as the others
     off = np.abs(times - (times[0] + step * np.arange(len(times))))
     excess = off - UNIFORMITY * step - (2.0 * half_digit if rounding else 0.0)
     worst = int(np.argmax(excess))

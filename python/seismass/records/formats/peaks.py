@@ -32,28 +32,8 @@ class StatedPeak:
 def check_peak(
     samples: NDArray[np.float64], peak: StatedPeak, dt: float, resolution: float, file: str, remarks: list[str]
 ) -> None:
-    """Refuse samples whose largest is not the one that the header states; remark a time that is not the one stated.
-
-    Parameters
-    ----------
-    samples : ndarray, shape (samples,)
-        In the unit of the file.
-    peak : StatedPeak
-        A value that is no number, or 0, is not compared.
-    dt : float
-        Step (s).
-    resolution : float
-        Unit of the last digit of the samples.
-    file : str
-        Named in errors.
-    remarks : list of str
-        Extended where only the time differs, which some networks count from another start, or only the sign, since
-        some headers give the size alone.
-
-    Raises
-    ------
-    RecordFormatError
-        The peak disagrees, or is positive where the header has it negative.
+    """Refuse samples whose peak is not the one that the header states; 0 and NaN are not compared. Remark where only
+    its time differs (some networks count from another start), or the sign (some give the size).
     """
     written = peak.value.strip()
     if not is_number(written) or to_float(written) == 0.0:

@@ -121,7 +121,7 @@ def _numbers(lines: list[str], file: str) -> tuple[list[float | None], list[floa
 
 
 def _data(lines: list[str], whole: list[float | None], file: str) -> tuple[int, int]:
-    """Return the index of the first line of data, behind the comments, and the number of points."""
+    """Return the index of the first line of data, after the comments, and the number of points."""
     comments, points = int(whole[15] or 0), int(whole[16] or 0)
     first = _TEXT + _INTEGERS + _REALS
     if not 0 <= comments < len(lines) - first or any(not line.startswith("|") for line in lines[first:][:comments]):

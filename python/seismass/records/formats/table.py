@@ -75,21 +75,8 @@ def is_row_of_numbers(line: str) -> bool:
 
 
 def read_table(text: str, file: str, remarks: list[str]) -> Table:
-    """Return the table of a text.
-
-    Parameters
-    ----------
-    text : str
-        The whole file: header lines (not numbers, or marked #, %, // or !), then rows of numbers.
-    file : str
-        Named in errors.
-    remarks : list of str
-        Extended by what was interpreted: decimal commas, a line that says the end.
-
-    Raises
-    ------
-    RecordFormatError
-        No row of numbers, or something else among the first ones.
+    """Return the table of a text: header lines (no numbers, or marked #, %, // or !), then rows of numbers. `remarks`
+    gets what was interpreted: decimal commas, a line that marks the end.
     """
     lines = text.splitlines()
     if _has_bare_exponents(lines):
@@ -125,10 +112,8 @@ def read_table(text: str, file: str, remarks: list[str]) -> Table:
 
 
 def has_decimal_commas(rows: Sequence[str]) -> bool:
-    """Whether commas in rows are decimal points: no point anywhere, and numbers only where commas are taken so.
-
-    "0,00413" alone on a line may be a time of 0 and a sample of 413: it is one number where a decimal part begins
-    with a zero, or where what stands before the comma does not increase as times do.
+    """Whether commas in rows are decimal points: no point anywhere, and no number without them. "0,00413" alone may be
+    time and sample; it is one number where a decimal part begins with 0 or times would not increase.
     """
     if "," not in rows[0] or any("." in line for line in rows):
         return False
@@ -160,13 +145,7 @@ def _check_row(table: Table, index: int) -> None:
 
 
 def numbers_of(table: Table) -> tuple[list[str], NDArray[np.float64], list[int]]:
-    """Return all numbers as written and as values, and how many each row has.
-
-    Raises
-    ------
-    RecordFormatError
-        Something that is no number, or no finite one, with its line.
-    """
+    """Return all numbers as written and as values, and how many each row has."""
     rows = [split(line) for line in table.rows]
     tokens = [token for row in rows for token in row]
     values: NDArray[np.float64] | None = None

@@ -33,21 +33,8 @@ class Times:
 
 
 def step_of_times(times: Times, dt: float | None, remarks: list[str]) -> float | None:
-    """Return the step (s) of a column of times, or None where it only counts the samples and none is given.
-
-    Parameters
-    ----------
-    times : Times
-    dt : float, optional
-        What the caller gives or the header states (s).
-    remarks : list of str
-        Extended by what was interpreted.
-
-    Raises
-    ------
-    RecordFormatError
-        A unit of the label that is none of time, times that are not uniform and not those of `dt` rounded, or a step
-        that is none of a ground motion.
+    """Return the step (s) of a column of times, which must be uniform or those of `dt` rounded; None where it only
+    counts the samples and no `dt` is given. `remarks` gets what was interpreted.
     """
     unit = times.label.unit.strip().lower() if times.label and times.label.kind == "times" else ""
     if unit and unit not in PER_SECOND:

@@ -112,7 +112,7 @@ _STATION: Final = ("CLAVE", "NOMBRE")
 
 
 def _header(lines: list[str]) -> dict[str, str]:
-    """Return what stands behind each key, in upper case; of several lines the first."""
+    """Return the text after each key, in upper case; of several lines the first."""
     found: dict[str, str] = {}
     for line in lines:
         entry = _ENTRY.match(line[:LINE_WIDTH].strip())

@@ -1,4 +1,4 @@
-"""Synthetic motions: the site-based stochastic model for motions of one's own, and what makes the built-in suite.
+"""Synthetic motions: the site-based stochastic model for motions of your own, and what makes the built-in suite.
 
 No instrument recorded any of them. They stand in where no recordings are at hand; they are no substitute for them.
 `python -m seismass.records.synthetic DIRECTORY` writes the files of the built-in suite again.

@@ -39,10 +39,8 @@ def made(recipe: Recipe | SiteRecipe) -> Record:
 
 
 def at2_text(record: Record, generator: int = 1) -> str:
-    """Return the record as an .AT2 file in units of g, labelled as synthetic in its first line.
-
-    Version 1 of the generator has eight digits of each number, version 2 seven decimals: 1e-7 g is far above what
-    machines differ by, which eight digits of a small number are not.
+    """Return the record as .AT2 in g, labelled as synthetic in its first line. Version 1 has eight digits of a number,
+    version 2 seven decimals: 1e-7 g is far above differences between machines.
     """
     rows = record.acceleration / STANDARD_GRAVITY + 0.0  # no minus sign before a zero
     if generator > 1:

@@ -15,9 +15,8 @@ Array = NDArray[np.float64]
 
 
 def pulse(time: Array, centre: float, period: float, velocity: float) -> Array:
-    """Return the ground acceleration of a Mavroeidis-Papageorgiou pulse with gamma = 2 and a phase of 90 degrees.
-
-    That phase makes the pulse odd about its centre, so that its displacement ends where it began.
+    """Return the ground acceleration of a Mavroeidis-Papageorgiou pulse with gamma = 2 and a phase of 90 degrees: odd
+    about its centre, so that its displacement ends where it began.
     """
     gamma, phase = 2.0, 0.5 * math.pi
     circular = 2.0 * math.pi / period

@@ -167,27 +167,8 @@ _OWNER: Final = "synthetic motion"
 
 
 def filtered_noise(parameters: SyntheticParameters, noise: Array, dt: float, start: float = 0.0) -> Array:
-    """Return white noise through the filter that changes over time, divided by its own standard deviation.
-
-    Sample k is the sum over i < k of h(t_k - t_i; omega(t_i)) noise_i over the root of the sum of h^2. The impulse
-    response h = omega exp(-zeta omega t) sin(omega sqrt(1 - zeta^2) t) is that of the filter as it is when the pulse of
-    noise arrives. The process is Gaussian and has unit variance from the second sample on; the first is zero.
-
-    Parameters
-    ----------
-    parameters : SyntheticParameters
-        Their frequencies and damping are used.
-    noise : array, shape (..., samples)
-        Independent standard normal numbers, of one motion or of many.
-    dt : float
-        Time step (s).
-    start : float
-        Time of the first sample (s) on the clock of the parameters.
-
-    Returns
-    -------
-    array, shape (..., samples)
-        The process; q(t) times it is the ground acceleration.
+    """Return noise (..., samples) through the varying filter h = omega exp(-zeta omega t) sin(omega sqrt(1 - zeta^2)
+    t), as at each pulse's arrival, over its standard deviation: unit variance; the first sample is 0.
     """
     count = noise.shape[-1]
     since = sample_times(count, dt)
@@ -207,19 +188,8 @@ def filtered_noise(parameters: SyntheticParameters, noise: Array, dt: float, sta
 
 
 def high_passed(acceleration: Array, dt: float, corner: float) -> Array:
-    """Return the acceleration of a critically damped oscillator under this one, which takes off long periods.
-
-    The solution u'' of u'' + 2 w u' + w^2 u = x with w = 2 pi corner (2008, the post-processing): velocity u' and
-    displacement u return to zero once x has ended. Exact for x linear between samples.
-
-    Parameters
-    ----------
-    acceleration : array, shape (samples,)
-        x (m/s2).
-    dt : float
-        Time step (s).
-    corner : float
-        Frequency (Hz).
+    """Return the acceleration (m/s2) u'' of u'' + 2 w u' + w^2 u = x, w = 2 pi corner (Hz), exact for x linear between
+    samples: velocity and displacement return to zero (2008, post-processing).
     """
     w = 2.0 * math.pi * corner
     fade = math.exp(-w * dt)
@@ -265,7 +235,7 @@ def synthetic_motion(parameters: SyntheticParameters, seed: int, dt: float = 0.0
     Raises
     ------
     InvalidMotion
-        The seed is no whole number from 0 on, or the step is not positive or too long.
+        The seed is not a whole number from 0 on, or the step is not positive or too long.
     """
     if not isinstance(parameters, SyntheticParameters):
         raise refusal(InvalidMotion, "parameters", _OWNER, "a SyntheticParameters", brief(parameters))

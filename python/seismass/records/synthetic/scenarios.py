@@ -136,7 +136,7 @@ def generate_scenario(scenario: Scenario) -> Record:
 def noise_of(scenario: Scenario) -> Array:
     """Return the white noise of a motion, one standard normal number for each of its samples."""
     parameters, _, source = scenario.drawn
-    # The source goes on where the parameters left it, and stays there for the next who asks.
+    # The source continues after the draws of the parameters; its state is restored for the next call.
     state = source.getstate()
     noise = normals(source, math.ceil((QUIET + parameters.intensity_end + 1.0 / parameters.corner) / STEP) + 1)
     source.setstate(state)

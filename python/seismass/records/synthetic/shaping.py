@@ -29,7 +29,7 @@ wander over period; correlation length of the wander in ln T."""
 MATCHED_PERIODS: Final = np.geomspace(0.05, 5.0, 90)
 HIGH_PASS: Final = (0.08, 0.20)
 LOW_PASS: Final = (12.0, 25.0)
-"""Frequencies (Hz) between which the two ends of the content rise from nothing to full, and fall to nothing."""
+"""Frequencies (Hz) between which the content rises from zero at its low end and falls to zero at its high end."""
 
 
 def asce7_shape(period: Array) -> Array:

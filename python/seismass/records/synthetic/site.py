@@ -127,11 +127,8 @@ def generate_site(recipe: SiteRecipe) -> Record:
 
 
 def _target(source: random.Random) -> Array:
-    """Return a motion's own target at the matched periods: the shape times a lognormal wander.
-
-    The wander is normal numbers at knots of ln T under a Gaussian bell of the correlation length over sqrt 2, divided
-    by its standard deviation: Gaussian with the same correlation as that of the first seven, without the factors of an
-    ill-conditioned matrix, in which machines differ.
+    """Return a motion's own target at the matched periods: the shape times a lognormal wander, normal numbers at knots
+    of ln T under a Gaussian bell of the correlation length over sqrt 2, scaled to unit deviation.
     """
     log_period = np.log(MATCHED_PERIODS)
     margin = 3.0 * SHAPE_CORRELATION

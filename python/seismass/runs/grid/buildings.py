@@ -38,24 +38,8 @@ class Formed(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class BuildingColumns:
-    """What forms the building of a scene.
-
-    Attributes
-    ----------
-    given : tuple of Building
-        Buildings that the index of a scene chooses from.
-    periods : ndarray
-        First period of each (s), as given where they were made from it.
-    floors : tuple of int
-        Floor of each block, from 1.
-    columns : dict of str to Column
-        Those of `CHANGING`, `attached` and `sliding` that are given.
-    damping : {"same", "ratio"}
-        Damping where live load is attached.
-    attached_of : {"present", "design"}
-        Live load of which `attached` is a share.
-    design : StrengthDesign or None
-        What gives V_y by the column R.
+    """What forms the building of a scene: buildings given with first periods (s), the floor of each block (from 1), the
+    columns of `CHANGING`, `attached` and `sliding`; `design` gives V_y by the column R.
     """
 
     given: tuple[Building, ...]
@@ -67,16 +51,8 @@ class BuildingColumns:
     design: StrengthDesign | None
 
     def of(self, scenes: IndexArray, index: IndexArray, design_load: FloatArray) -> Formed:
-        """Return the buildings of scenes that have these of the given ones.
-
-        Parameters
-        ----------
-        scenes : ndarray of int, shape (scenes,)
-            Numbers of the scenes, from 0.
-        index : ndarray of int, shape (scenes,)
-            Index of the building that each was given.
-        design_load : ndarray, shape (scenes, blocks)
-            Mass of the design live load over that of its floor, present or not, attached or not.
+        """Return the buildings of scenes (numbers from 0) from the index of each given one. `design_load` is the mass
+        of the design live load over that of its floor, shape (scenes, blocks).
         """
         attached, sliding = self.shares_of(scenes)
         present = self.present_of(scenes, design_load)
@@ -155,9 +131,8 @@ class BuildingColumns:
         return changed_building(building, **changes) if changes else building
 
     def _loaded(self, building: Building, attached: FloatArray, still: FloatArray) -> tuple[Building, FloatArray]:
-        """A building with live load attached as mass and some whose weight does not slide, both over floor mass.
-
-        The mass of each block's floor over that without attached live load is given beside it.
+        """A building with live load attached as mass and some whose weight does not slide, both over floor mass, and
+        the mass of each block's floor over that without attached live load.
         """
         more = np.ones(len(self.floors))
         changes: dict[str, Any] = {}

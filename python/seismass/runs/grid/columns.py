@@ -104,9 +104,8 @@ def block_table(value: Any, name: str, blocks: int) -> FloatArray:
 
 
 def strength_table(value: Any) -> FloatArray:
-    """Return V_y over the weight as a table of values by storeys; a width of one stands for all storeys.
-
-    Rows may have different lengths, for buildings of different heights; they are filled with NaN.
+    """Return V_y over the weight as a table of values by storeys; a width of one stands for all storeys. Shorter rows,
+    of lower buildings, are filled with NaN.
     """
     name = "yield_shear_over_weight"
     rows = list(value) if isinstance(value, Sequence | np.ndarray) and np.ndim(_first(value)) == 1 else None

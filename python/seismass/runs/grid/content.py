@@ -24,9 +24,8 @@ _TABLES: Final = ("mass_ratio", "mu_s", "mu_k", "yield_shear_over_weight")
 
 
 def axes_table(axes: list[GridAxis]) -> pl.DataFrame:
-    """Return the values of all axes: columns `axis`, `number` (from 1 within the axis), and one per column of the grid.
-
-    Columns of other axes are null in a row. What blocks or storeys have is a list.
+    """Return the values of all axes: columns `axis`, `number` (from 1 within the axis), and one per column of the grid,
+    null for other axes. Values of blocks or storeys are lists.
     """
     frames = []
     for axis in axes:

@@ -52,13 +52,7 @@ DEFAULTS: Final[dict[str, Any]] = {
 
 
 def grid_options(given: dict[str, Any], owner: str) -> dict[str, Any]:
-    """Return all options, those that are not given by their defaults.
-
-    Raises
-    ------
-    TypeError
-        An option is none of those known.
-    """
+    """Return all options, with defaults for those that are not given; an unknown one is a TypeError."""
     for name in given:
         if name not in DEFAULTS:
             raise TypeError(f"{owner}() got an unexpected keyword argument {name!r}")

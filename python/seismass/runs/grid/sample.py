@@ -43,14 +43,8 @@ _SMALLEST: Final = 2.0**-53
 
 
 def points(samples: int, dimensions: int, method: Any, seed: Any) -> FloatArray:
-    """Return points of the unit cube, shape (samples, dimensions), the same for the same seed.
-
-    Sobol's points are the first of the next power of two of them: numbers of samples that are such powers are balanced.
-
-    Raises
-    ------
-    InvalidOption
-        The method is none of these, or the seed not a whole number.
+    """Return points of the unit cube, shape (samples, dimensions), the same for the same seed. Sobol's points are the
+    first of the next power of two, so that powers of two are balanced.
     """
     if not is_one_of(method, METHODS):
         raise refusal(InvalidOption, "method", "sample", f"one of {', '.join(METHODS)}", brief(method))
@@ -80,19 +74,8 @@ class _Drawn:
 def drawn_columns(
     axes: dict[str, Any], samples: Any, method: Any, seed: Any, motions: Any
 ) -> tuple[int, dict[str, Any]]:
-    """Return the number of samples and the values of each axis at them, as the arguments of a `Grid`.
-
-    Parameters
-    ----------
-    axes : dict
-        Constants, distributions and lists of values by the name of the argument.
-    samples, method, seed, motions
-        As for `Grid.sample`.
-
-    Raises
-    ------
-    InvalidOption, InvalidScene
-        An argument is not what it must be.
+    """Return the number of samples and the values of each axis at them, as the arguments of a `Grid`; `axes` has
+    constants, distributions and lists of values by the name of the argument.
     """
     number = as_count(samples, "samples", "sample", InvalidOption, least=1)
     if number > MOST_SAMPLES:
@@ -169,13 +152,7 @@ def _quantiles(distribution: Distribution, u: FloatArray, name: str) -> FloatArr
 def sampled_arguments(
     building: Any, axes: dict[str, Any], mu_k_over_mu_s: Any, *, samples: Any, method: Any, seed: Any, motions: Any
 ) -> dict[str, Any]:
-    """Return the arguments of a `Grid` of so many scenes, of what `Grid.sample` is given.
-
-    Raises
-    ------
-    InvalidOption, InvalidScene
-        An argument is not what it must be.
-    """
+    """Return the arguments of a `Grid` of so many scenes from those of `Grid.sample`."""
     for name in axes:
         if name not in SAMPLED:
             raise TypeError(f"Grid.sample() got an unexpected keyword argument {name!r}")

@@ -71,19 +71,8 @@ def element_html(
     speeds: Iterable[float] = SPEEDS,
     factors: Iterable[tuple[float, str]] | None = None,
 ) -> Markup:
-    """Return the element of what `element_content` gives.
-
-    Parameters
-    ----------
-    content : dict
-        What the element shows; without data (None) it waits for them, which its `show` takes.
-    autoplay : bool
-        Whether it plays when it is opened.
-    speeds : iterable of float
-        Choices of speed.
-    factors : iterable of (float, str), optional
-        Choices by which displacements are enlarged, with their words; 0 is the factor of the data. By default round
-        ones, and that of the content.
+    """Return the element of what `element_content` gives; without data (None) it waits for them, by its `show`. Of
+    `factors` that enlarge displacements 0 is that of the data; default round ones and the content's.
     """
     times = "\N{MULTIPLICATION SIGN}"
     choices = factors or [(factor, f"{factor:g} {times}") for factor in sorted({content["factor"], *FACTORS})]
@@ -105,7 +94,7 @@ def element_html(
 
 
 def description(animation: Animation) -> str:
-    """Return what happens, for who cannot see it."""
+    """Return what happens in words, for screen readers."""
     return " ".join(animation.shown.sentences)
 
 

@@ -62,9 +62,8 @@ def _name(run: Run) -> str:
 
 
 class Sizes(NamedTuple):
-    """Sizes that the drawing of a building shares: pixels, the scale in pixels a metre, and how long an event flashes.
-
-    `half` is the half width, `total` its height (m), `aloft` the room of racks on the roof, `thin` a column.
+    """Sizes that the drawing of a building shares: pixels, the scale in pixels a metre, and how long an event flashes;
+    `half` width, `total` height and `aloft`, the room of racks on the roof (m), `thin`, a column.
     """
 
     half: float
@@ -76,13 +75,7 @@ class Sizes(NamedTuple):
 
 
 class Picture(Frames):
-    """Draws an animation at any time.
-
-    Parameters
-    ----------
-    animation : Animation
-        What is drawn.
-    """
+    """Draws an animation at any time."""
 
     def __init__(self, animation: Animation) -> None:
         super().__init__()
@@ -110,14 +103,8 @@ class Picture(Frames):
         return (PAPER, INK, SOFT, LINE, *(role.text for role in ROLES), SLAB, PALE_YIELD, PALE_SLIDE, *CURVES)
 
     def frame(self, time: float, lasting: float = 0.0) -> Image.Image:
-        """Return the frame at a time.
-
-        Parameters
-        ----------
-        time : float
-            Time of the run (s).
-        lasting : float
-            How long until the next frame; an event shows in one frame at least.
+        """Return the frame at a time of the run (s), `lasting` (s) until the next; an event shows in one frame at
+        least.
         """
         image = self._still.copy()
         draw = ImageDraw.Draw(image)

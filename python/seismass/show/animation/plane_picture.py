@@ -34,13 +34,7 @@ GOODS: Final = 0.9
 
 
 class PlanePicture(Frames):
-    """Draws an animation in two directions at any time.
-
-    Parameters
-    ----------
-    animation : PlaneAnimation
-        What is drawn.
-    """
+    """Draws an animation in two directions at any time."""
 
     def __init__(self, animation: PlaneAnimation) -> None:
         super().__init__()

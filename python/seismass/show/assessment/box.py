@@ -58,7 +58,7 @@ def _single_motions(result: AssessmentTables) -> str:
 
 
 def _verdicts(result: AssessmentTables) -> Markup:
-    """How many checks are met; those without a value are told apart."""
+    """How many checks are met; those without a value are counted apart."""
     count = result.checks.height
     failed = result.checks.filter(met=False).height
     missing = result.checks["met"].null_count()

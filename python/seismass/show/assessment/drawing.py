@@ -1,4 +1,4 @@
-"""Drawing of one's own building: storeys by their heights, goods on floors, loads and friction beside them."""
+"""Drawing of your own building: storeys by their heights, goods on floors, loads and friction beside them."""
 
 from __future__ import annotations
 

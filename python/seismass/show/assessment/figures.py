@@ -32,16 +32,8 @@ DRAWN_MODELS: Final = (REAL, ADVISED, CODE, ATTACHED, BARE)
 
 
 class Size(NamedTuple):
-    """How wide a figure is, and how long the texts in it may be.
-
-    Attributes
-    ----------
-    width : float
-        Width (inches).
-    label, caption, name : int
-        Characters of a line of a label, of a line of the caption, and of the name of a storey.
-    columns : int
-        Columns of the legend.
+    """Width of a figure (inches), and characters of a line of a label and of the caption and of the name of a storey;
+    columns of the legend.
     """
 
     width: float

@@ -15,16 +15,8 @@ ALIKE = 1e-6
 
 
 class OwnCase(NamedTuple):
-    """What the live page opens.
-
-    Attributes
-    ----------
-    case : LiveCase or None
-        The building there; None where it cannot be shown at all.
-    reasons : tuple of str
-        Why it cannot be shown.
-    differences : tuple of str
-        What is different there, each a sentence without its stop.
+    """What the live page opens: the building (None where it cannot be shown, with `reasons`), and what is different
+    there, each a sentence without its stop.
     """
 
     case: LiveCase | None

@@ -49,21 +49,8 @@ METHOD: Final = (
 def building_page(
     result: AssessmentTables, drawings: Mapping[str, str], for_phones: Mapping[str, str] | None = None
 ) -> str:
-    """Return the page as HTML.
-
-    Parameters
-    ----------
-    result : AssessmentTables
-        The assessment, as its folder holds it.
-    drawings : mapping of str to str
-        SVG texts of its figures, by name.
-    for_phones : mapping of str to str, optional
-        The same for narrow screens.
-
-    Returns
-    -------
-    str
-        A page that needs nothing but itself; equal tables give equal pages.
+    """Return the page of an assessment as HTML, from SVG texts of its figures by name. It needs no other file; equal
+    tables give equal pages.
     """
     document = result.document
     pictures = Pictures(drawings, for_phones or {})

@@ -31,9 +31,8 @@ ANIMATION: Final = "animation.json"
 
 @dataclass(frozen=True)
 class Fraction:
-    """Effective fraction at one friction, as figures draw it; the names are those of `EffectiveMass`.
-
-    `interval` is its `suite_interval`.
+    """Effective fraction at one friction, as figures draw it; the names are those of `EffectiveMass`, `interval` is its
+    `suite_interval`.
     """
 
     value: float
@@ -53,20 +52,8 @@ class Fraction:
 
 @dataclass(frozen=True, eq=False)
 class AssessmentTables:
-    """Everything that the page of an assessment is made of.
-
-    Attributes
-    ----------
-    document : dict
-        What assessment.json holds.
-    storeys, governing, analysis, slip, runs, checks, spectra : polars.DataFrame
-        Tables of the assessment.
-    scaling : polars.DataFrame or None
-        Factors of the motions.
-    effective : dict of str to Fraction
-        Effective fractions by friction, with their curves.
-    animation : dict or None
-        What the animation of the building shows, where it was made.
+    """What the page of an assessment is made of: assessment.json and the tables, effective fractions by friction, and
+    the animation where it was made.
     """
 
     document: dict[str, Any]
@@ -122,9 +109,8 @@ class AssessmentTables:
 
 
 def assessment_tables(result: Assessment, *, animated: bool = False) -> AssessmentTables:
-    """Return what a folder of the assessment holds; the animation, which is solved for, only where it is asked for.
-
-    In two directions there is none in a page.
+    """Return what a folder of the assessment holds, with the animation, which needs a run, only where it is asked for;
+    in two directions a page has none.
     """
     shown = _animation(result) if animated and result.example.scene.other_direction is False else None
     return _made(json.loads(result.to_json()), result.tables, shown)
@@ -136,13 +122,7 @@ def _is_animated(scene: Scene) -> bool:
 
 
 def read_assessment_tables(folder: Path) -> AssessmentTables:
-    """Read the folder of an assessment.
-
-    Raises
-    ------
-    InvalidOption
-        The folder holds no assessment, one of another version, or not all of its tables.
-    """
+    """Read the folder of an assessment."""
     try:
         document = json.loads(read_file(folder / DOCUMENT))
     except (ValueError, RecursionError) as error:
@@ -207,7 +187,7 @@ def _made(
 
 
 def _fraction(values: dict[str, Any], curve: pl.DataFrame) -> Fraction:
-    """A fraction of its JSON, in which what is no finite number is null."""
+    """A fraction of its JSON, in which what is not finite is null."""
 
     def number(value: float | None) -> float:
         return math.nan if value is None else float(value)

@@ -32,19 +32,8 @@ TABLES: Final = ("storeys", "governing", "analysis", "slip", "runs", "checks", "
 
 
 def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
-    """Write text, tables (Parquet and CSV), assessment.json, figures (PNG and SVG) and the page to a folder.
-
-    Returns
-    -------
-    list of Path
-        The files, in the order written.
-
-    Raises
-    ------
-    InvalidOption
-        The folder is a file, or cannot be written to.
-    OSError
-        A file cannot be written; then none is changed.
+    """Write text, tables (Parquet and CSV), assessment.json, figures (PNG and SVG) and the page to a folder; return the
+    files in that order. On an error no file is changed.
     """
     out = as_path(folder, "assessment", InvalidOption)
     check_out(out, "assessment")
@@ -70,23 +59,8 @@ def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figu
 
 
 def write_assessment_page(folder: Path, target: Path, *, progress: Progress | None = None) -> None:
-    """Write the page of an assessment from the tables of its folder alone.
-
-    Parameters
-    ----------
-    folder : Path
-        The folder of the assessment.
-    target : Path
-        File of the page.
-    progress : callable, optional
-        Called with (figures drawn, figures in all).
-
-    Raises
-    ------
-    InvalidOption
-        As for `read_assessment_tables`.
-    OSError
-        The file cannot be written.
+    """Write the page of an assessment from the tables of its folder alone; `progress` is called with (figures drawn,
+    figures in all).
     """
     with as_written(folder):
         tables = read_assessment_tables(folder)

@@ -41,7 +41,7 @@ def value_html(value: Any) -> str:
     table = getattr(value, "table", None)
     shown = table if isinstance(table, pl.DataFrame) else table() if callable(table) else None
     facts, notes = _facts(value, with_lists=shown is None)
-    # What a class says of itself in a line says more than fields do, where it is no list of them.
+    # A one-line repr says more than the fields, where it is not a list of them.
     listed = is_dataclass(value) and (shown is not None or len(facts) > 1)
     said = "" if listed else line(repr(value)[:MOST_LETTERS])
     facts = facts if is_dataclass(value) else []

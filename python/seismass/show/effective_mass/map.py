@@ -38,9 +38,8 @@ def map_figure(result: EffectiveMassMap, name: str | None = None) -> Figure:
 
 
 def collapse_figure(result: EffectiveMassMap) -> Figure:
-    """Effective fraction against eta_h, every case in which goods slide, in classes of the exponent, and the codes.
-
-    A curve per class is the best estimate with the median exponent of its cases.
+    """Effective fraction against eta_h, every case in which goods slide, in classes of the exponent, and the codes. A
+    curve per class is the best estimate with the median exponent of its cases.
     """
     sliding = result.table.filter(pl.col("slides")).with_columns(eta_h=pl.col("eta") / pl.col("height_ratio").sqrt())
     eta = np.linspace(0.0, LONGEST_ETA, 400)
@@ -133,10 +132,8 @@ def rules_figure(result: EffectiveMassMap) -> Figure:
 
 
 def intensity_figure(result: EffectiveMassMap) -> Figure:
-    """Effective fraction against intensity for one building and load: a panel for each R, a line for each friction.
-
-    Bands are bootstrap intervals over the records.
-    The building is that in the middle of the list, and the load the one nearest to alpha = 1.
+    """Effective fraction against intensity, a panel for each R, a line with a bootstrap band over the records for each
+    friction: the middle building of the list, and the load nearest to alpha = 1.
     """
     numbers = result.table["building"].unique().sort().to_list()
     number = numbers[len(numbers) // 2]

@@ -23,7 +23,7 @@ from seismass.media.style import SERIES, STYLE, plain
 
 _MARKERS: Final = ("o", "s", "^", "D", "v", "P")
 NEARLY_ONE: Final = 0.97
-"""Probability behind which a curve has nothing more to show."""
+"""Probability at which the axis of a curve may end."""
 _FRACTILE_LOOKS: Final[dict[str, Any]] = {"p16": (0, (1.2, 1.2)), "p50": "-", "p84": (0, (5, 2))}
 _FRACTILE_NAMES: Final = {"p16": "16 %", "p50": "median", "p84": "84 %"}
 
@@ -37,10 +37,8 @@ def analysis_figure(result: FragilityAnalysis, name: str | None = None) -> Figur
 
 
 def fragility_figure(result: FragilityAnalysis) -> Figure:
-    """Return fragility curves of all models, one panel per limit.
-
-    Bands are bootstrap intervals over the motions. Points are the share of motions that exceed the limit, at each
-    stripe, or by the capacities of the motions.
+    """Return fragility curves of all models, one panel per limit, with bootstrap bands over the motions. Points are the
+    share of motions that exceed the limit, at each stripe or by their capacities.
     """
     count = len(result.limits)
     columns = min(count, 2)
@@ -130,10 +128,8 @@ def _curve(
 
 
 def observed(result: FragilityAnalysis, limit: LimitState, model: str) -> tuple[FloatArray, FloatArray]:
-    """Return intensities and the share of motions that exceed a limit there, without any fit.
-
-    For stripes they are the stripes, for a hunt the capacities: (i - 0.5) / n of the motions at the i-th. A cloud has
-    none.
+    """Return intensities and the share of motions that exceed a limit there, without any fit: at stripes, or for a hunt
+    (i - 0.5)/n at the i-th of n capacities. A cloud has none.
     """
     if result.method == "hunt_fill":
         capacities = result.capacities.filter(limit=limit.name, model=model)
@@ -152,10 +148,8 @@ def observed(result: FragilityAnalysis, limit: LimitState, model: str) -> tuple[
 
 
 def demand_figure(result: FragilityAnalysis, limit: LimitState) -> Figure:
-    """Return demand by intensity, one panel per model that has the quantity.
-
-    Where motions are scaled they are lines with their 16, 50 and 84 % fractiles of demand given intensity; else points.
-    A cross is the last point before a collapse.
+    """Return demand by intensity, a panel per model with the quantity: lines and 16, 50 and 84 % fractiles given
+    intensity where motions are scaled, else points. A cross is the last point before a collapse.
     """
     column, scale = limit.column, limit.shown_scale
     models = [model for model in result.models if result.traces(model, column)]

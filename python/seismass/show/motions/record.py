@@ -29,14 +29,8 @@ PANELS: Final = 4
 def record_figure(
     record: Record, *, figure: Figure | SubFigure | None = None, axes: Sequence[Axes] | None = None
 ) -> Figure:
-    """Return the figure of a record; `Record.plot` says what the arguments are.
-
-    Peaks are those in continuous time; circles mark the largest of the samples, which are what is drawn.
-
-    Raises
-    ------
-    InvalidOption
-        Other than four axes, or both a figure and axes.
+    """Return the figure of a record; arguments as in `Record.plot`. Peaks are those in continuous time; circles mark
+    the largest of the samples, which are what is drawn.
     """
     if axes is not None and figure is not None:
         raise refusal(InvalidOption, "axes", "plot", "left out where a figure is given", brief(axes))

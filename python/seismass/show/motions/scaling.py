@@ -30,15 +30,7 @@ def scaling_figure(
     records: Iterable[GroundMotion] | None = None,
     target: TargetSpectrum | None = None,
 ) -> Figure:
-    """Return spectra, and below them the mean over the target.
-
-    Parameters
-    ----------
-    scaling : ScalingResult
-        Result of any of the methods.
-    name, records, target : optional
-        As for `ScalingResult.plot`.
-    """
+    """Return spectra, and below them the mean over the target; arguments as in `ScalingResult.plot`."""
     named_figure(scaling, name)
     periods, spectra, wanted = _drawn(scaling, records, target)
     mean, middle = spectra.mean(axis=0), np.exp(np.log(spectra).mean(axis=0))

@@ -24,20 +24,8 @@ RULES: Final = {RULE: "estimate", SAFE_RULE: "conservative", "all, 1": None}
 
 @dataclass(frozen=True)
 class Rule:
-    """A rule for the share to attach beside the effective fractions of buildings.
-
-    Attributes
-    ----------
-    name : str
-        What it is called.
-    mean : float
-        Mean of its shares.
-    short : int
-        Buildings in which its share is less than the effective fraction by more than `SHORT`.
-    most : float
-        Largest difference by which it is less; zero where it never is.
-    buildings : int
-        Buildings that were compared.
+    """A rule for the share to attach beside the effective fractions of `buildings`: `short` counts those where its
+    share is less by more than `SHORT`, `most` is the largest difference by which it is less (0: never).
     """
 
     name: str

@@ -44,16 +44,8 @@ class StudyFrames(Protocol):
 
 
 def suite_caption(result: StudyFrames, mu: float | None = None, *, inches: float = 9.0) -> str:
-    """Return a few lines on the motions, on the parameters that decide the result, and on the target spectrum.
-
-    Parameters
-    ----------
-    result : StudyFrames
-        The study.
-    mu : float, optional
-        Friction coefficient of what is shown; all of the study by default.
-    inches : float, default 9
-        Width of the figure.
+    """Return a few lines, for a figure so many inches wide, on the motions, the parameters that decide the result (all
+    frictions unless `mu`), and the target spectrum.
     """
     suite, chosen = result.metadata["suite"], result.metadata["parameters"]
     frictions = chosen["mu"] if mu is None else [mu]

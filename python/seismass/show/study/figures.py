@@ -37,10 +37,8 @@ def study_figures(result: StudyFrames) -> dict[str, Figure]:
 
 
 def drawings(result: StudyFrames) -> dict[str, Callable[[], Figure]]:
-    """Return what draws each figure of a study, by its name.
-
-    `spectrum`; `underestimation`, `heat`, `slip` and `drift_R...` for each R, with several friction coefficients for
-    each of them with `_mu...` behind the name; `effective` where the effective fractions were computed.
+    """Return what draws each figure of a study, by its name: `spectrum`; for each R `underestimation`, `heat`, `slip`
+    and `drift_R...`, with `_mu...` behind where there are several; `effective` if computed.
     """
     frictions, factors = labels_of(result.summary["mu"]), labels_of(result.summary["R"])
     draw: dict[str, Callable[[], Figure]] = {"spectrum": partial(spectrum_figure, result)}

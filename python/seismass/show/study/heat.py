@@ -23,15 +23,7 @@ _STRONGEST: Final = 0.7
 
 
 def heat_figure(result: StudyFrames, mu: float) -> Figure:
-    """Return a map per occupancy: R and alpha downwards, buildings and their storeys across.
-
-    Parameters
-    ----------
-    result : StudyFrames
-        The study.
-    mu : float
-        Friction coefficient of what is shown.
-    """
+    """Return a map per occupancy at friction mu: R and alpha downwards, buildings and their storeys across."""
     summary = result.summary.filter(mu=mu)
     occupancies = summary.select("occupancy", "lambda_design", "lambda_analysis").unique(maintain_order=True).rows()
     factors, alphas = labels_of(summary["R"]), labels_of(summary["alpha"])

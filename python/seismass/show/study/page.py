@@ -33,21 +33,8 @@ _PAPER_FIGURES: Final = {
 
 
 def study_page(result: StudyTables, drawings: Mapping[str, str], for_phones: Mapping[str, str] | None = None) -> str:
-    """Return the page as HTML.
-
-    Parameters
-    ----------
-    result : StudyTables
-        The study, as its folder holds it.
-    drawings : mapping of str to str
-        SVG texts of `study_drawings`, by name.
-    for_phones : mapping of str to str, optional
-        Those that stand in their place on narrow screens.
-
-    Returns
-    -------
-    str
-        A page that needs nothing but itself; equal tables give equal pages.
+    """Return the page of a study as HTML, from SVG texts of `study_drawings` by name and those for narrow screens. It
+    needs no other file; equal tables give equal pages.
     """
     metadata = result.metadata
     page = Pictures(drawings, for_phones or {})

@@ -11,13 +11,7 @@ _VALUES = ("largest_percent", "least_R_percent", "most_R_percent", "mass_percent
 
 
 def sensitivity_text(table: pl.DataFrame) -> str:
-    """Return the table as lines, one block per occupancy and friction coefficient.
-
-    Parameters
-    ----------
-    table : polars.DataFrame
-        `Sensitivity.table`.
-    """
+    """Return `Sensitivity.table` as lines, one block per occupancy and friction coefficient."""
     blocks = []
     for title, rows in _groups(table):
         lines = [

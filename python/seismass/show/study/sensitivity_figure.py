@@ -15,13 +15,7 @@ _MARKERS: Final = ("o", "D", "^", "s")
 
 
 def sensitivity_figure(table: pl.DataFrame) -> Figure:
-    """Return a dot per choice and occupancy, beside lines of the study as it is.
-
-    Parameters
-    ----------
-    table : polars.DataFrame
-        `Sensitivity.table`.
-    """
+    """Return a dot per choice and occupancy of `Sensitivity.table`, beside lines of the study as it is."""
     several = table["mu"].n_unique() > 1
     groups = table.select("occupancy", "mu").unique(maintain_order=True).rows()
     settings = table.select("choice", "setting").unique(maintain_order=True).rows()

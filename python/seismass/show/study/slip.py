@@ -14,19 +14,8 @@ from seismass.show.study.underestimation import ALPHA_SPACING, looks_of
 
 
 def slip_demand(responses: pl.DataFrame) -> pl.DataFrame:
-    """Return the slip of each building with sliding goods: that of the floor on which goods slide farthest.
-
-    Parameters
-    ----------
-    responses : polars.DataFrame
-        `StudyResult.responses`.
-
-    Returns
-    -------
-    polars.DataFrame
-        One row per building with its key columns; `mean`, `p16`, `p84` and `largest` (m) over the motions of the
-        largest peak slip of any floor, `residual`, the mean of the slip that remains on that floor, and `slides`, the
-        number of motions under which goods slide. Null where a run failed.
+    """Return one row per building with sliding goods, of `StudyResult.responses`: statistics (m) over the motions of
+    the largest peak slip of any floor, and mean residual slip there; null where a run failed.
     """
     keys = ["building", "occupancy", "storeys", "period", "R", "alpha", "mu"]
     # Of equal slips, such as none at all, the lowest floor counts.

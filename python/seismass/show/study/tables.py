@@ -33,20 +33,8 @@ OPTIONAL_TABLES: Final = ("sensitivity", "claims", *_SECTION4, *_PLATFORM)
 
 @dataclass(frozen=True, eq=False)
 class StudyTables:
-    """Everything that the page of a study is made of.
-
-    Attributes
-    ----------
-    metadata : dict
-        What study.json holds.
-    responses, summary, fractions, designs, spectrum, scaling : polars.DataFrame
-        Tables of the study; see docs/study_schema.md.
-    sensitivity, claims : polars.DataFrame or None
-        Tables of `study_sensitivity` and `claims_table`, where they were made.
-    section4, platform : Section4, Platform or None
-        Validations, with what is drawn of them.
-    animation : dict or None
-        What the animation of the example shows.
+    """What the page of a study is made of: study.json and the tables of docs/study_schema.md, and sensitivity, claims,
+    validations and animation where they were made.
     """
 
     metadata: dict[str, Any]
@@ -81,15 +69,7 @@ def study_tables(
     validation: Validation | None = None,
     example: Example | None = None,
 ) -> StudyTables:
-    """Return what a folder of the study holds.
-
-    Parameters
-    ----------
-    result : StudyResult
-        The study.
-    sensitivity, validation, example : optional
-        What was made of it besides.
-    """
+    """Return what a folder of the study holds, with sensitivity, validation and example where they were made."""
     metadata = result.to_dict()
     if validation is not None:
         metadata["validation"] = {
@@ -116,13 +96,7 @@ def study_tables(
 
 
 def read_study_tables(folder: Path) -> StudyTables:
-    """Read the folder of a study.
-
-    Raises
-    ------
-    InvalidOption
-        The folder holds no study, one of another version, or not all of its tables.
-    """
+    """Read the folder of a study."""
     metadata = _document(folder / DOCUMENT)
     version = metadata.get("schema_version")
     if version != SCHEMA_VERSION:

@@ -31,10 +31,8 @@ RING: Final[Any] = {"marker": "o", "markersize": 9.0, "markerfacecolor": "none",
 
 
 def underestimation_figure(result: StudyFrames, mu: float, *, narrow: bool = False) -> Figure:
-    """Underestimation (%) against R by alpha for one mu: the worst storey, and the range over those of each building.
-
-    A ring shows in the worst storey what the fully attached model gives over the code model: where it lies on the
-    marker, all of the underestimation is due to mass and none to sliding.
+    """Underestimation (%) against R by alpha for one mu: the worst storey, and each building's range. A ring is the
+    fully attached over the code model there; on the marker, mass causes all of it, sliding none.
     """
     summary = result.summary.filter(mu=mu)
     occupancies = summary.select("occupancy", "lambda_design", "lambda_analysis").unique(maintain_order=True).rows()

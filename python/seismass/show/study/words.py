@@ -15,13 +15,7 @@ DAMPING_TEXTS: Final = {
 
 
 def assumptions(metadata: dict[str, Any]) -> list[str]:
-    """Return everything that a study assumes, sentence by sentence.
-
-    Parameters
-    ----------
-    metadata : dict
-        `StudyResult.metadata`.
-    """
+    """Return everything that a study assumes, sentence by sentence, from `StudyResult.metadata`."""
     chosen, suite, scaling = metadata["parameters"], metadata["suite"], metadata["scaling"]
     shortest, longest, _ = scaling["periods"]
     at_r1 = "yield at V_e" if chosen["yield_at_r1"] else "stay elastic"

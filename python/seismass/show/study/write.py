@@ -35,33 +35,8 @@ def write_study(
     png: bool = False,
     progress: Progress | None = None,
 ) -> list[Path]:
-    """Write tables (Parquet and CSV), documents (JSON), figures (SVG) and the page of a study to a folder.
-
-    Every Parquet file carries what the numbers depend on, and the unit of each column; tables.json says the same of the
-    CSV files. Figures and tables of an earlier study that are not written again are removed, by its files.json.
-
-    Parameters
-    ----------
-    result : StudyTables
-        What `study_tables` gives.
-    out : Path
-        The folder.
-    figures : bool
-        Write figures and page, too.
-    png : bool
-        Write figures as PNG, too.
-    progress : callable, optional
-        Called with (figures drawn, figures in all).
-
-    Returns
-    -------
-    list of Path
-        The files, in the order written.
-
-    Raises
-    ------
-    OSError
-        A file cannot be written; then none is changed.
+    """Write tables (Parquet with units and inputs, CSV), JSON documents, figures (SVG) and the page of a study to a
+    folder; return the files. Those of an earlier study in files.json are removed.
     """
     tables = result.tables
     documents = {"tables.json": _json(_tables_document(result.metadata, tables)), DOCUMENT: _json(result.metadata)}
@@ -89,24 +64,7 @@ def write_study(
 
 
 def write_study_page(folder: Path, target: Path, *, progress: Progress | None = None) -> None:
-    """Write the page of a study from the tables of its folder alone.
-
-    Parameters
-    ----------
-    folder : Path
-        The folder of the study.
-    target : Path
-        File of the page.
-    progress : callable, optional
-        As for `write_study`.
-
-    Raises
-    ------
-    InvalidOption
-        As for `read_study_tables`.
-    OSError
-        The file cannot be written.
-    """
+    """Write the page of a study from the tables of its folder alone; `progress` as in `write_study`."""
     from seismass.media.svg import figure_svgs
     from seismass.show.study.figures import phone_figures
     from seismass.show.study.page import study_page
@@ -141,9 +99,8 @@ def made_from(metadata: dict[str, Any]) -> dict[str, Any]:
 
 
 def table_metadata(metadata: dict[str, Any], name: str, table: pl.DataFrame) -> dict[str, str]:
-    """Return the key-value metadata of the Parquet file of a table, each value a JSON text.
-
-    Keys are `seismass.` with what `made_from` gives, `table`, and `units`: the unit of each column.
+    """Return the key-value metadata of the Parquet file of a table, each value a JSON text: `seismass.` with the keys
+    of `made_from`, `table`, and `units`, the unit of each column.
     """
     content = {**made_from(metadata), "table": name, "units": units_of(name, table.columns)}
     return {f"seismass.{key}": json.dumps(value) for key, value in content.items()}

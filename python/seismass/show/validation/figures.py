@@ -26,16 +26,8 @@ _STILL: Final = 0.02
 
 
 def section4_figure(result: Section4, component: str, second_slope: float) -> Figure:
-    """Return drift of the storeys and slip of the blocks by all programs, as in the paper's Fig. 5.
-
-    Parameters
-    ----------
-    result : Section4
-        Result of `section4`.
-    component : str
-        Component of the record.
-    second_slope : float
-        Second slope, one of those compared.
+    """Return drift of the storeys and slip of the blocks by all programs for a component and a second slope of those
+    compared, as in the paper's Fig. 5.
     """
     drawn = stiffest(result.of(component, second_slope))
     exact = drawn[0]
@@ -94,15 +86,7 @@ def sliding_figure(result: Section4) -> Figure:
 
 
 def platform_figure(result: Platform, component: str) -> Figure:
-    """Return drift histories as a band for both mass ratios, as in the paper's Fig. 4, and peak drift over the period.
-
-    Parameters
-    ----------
-    result : Platform
-        Result of `platform`.
-    component : str
-        Component of the record.
-    """
+    """Return bands of drift histories for both mass ratios, as in the paper's Fig. 4, and peak drift over period."""
     bands = [band for band in result.bands if band.component == component]
     period, mu, damping, amplitude = CENTRAL
     every = f"{MU} {FRICTIONS[0]:g} to {FRICTIONS[-1]:g}, damping {DAMPINGS[0]:g} to {DAMPINGS[-1]:g}"
