@@ -16,12 +16,15 @@ from seismass.commands.options import (
     add_records_options,
     check_files,
     positive_option,
-    read_motions,
-    read_pairs,
     read_site,
     refuse_given,
 )
-from seismass.commands.scene_or_building import add_site_options, is_building_file
+from seismass.commands.scene_or_building import (
+    add_scaling_options,
+    add_site_options,
+    is_building_file,
+    motions_of_file,
+)
 from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
@@ -41,8 +44,11 @@ def options(parser: argparse.ArgumentParser) -> None:
         "--fps", type=positive_option, metavar="N", help="frames per second of a GIF (12.5) or film (25)"
     )
     parser.add_argument("--speed", type=positive_option, default=1.0, metavar="X", help="speed of a GIF or film (1)")
-    motions = parser.add_argument_group("motions of a building file, scaled to its site; one of them is shown")
+    motions = parser.add_argument_group(
+        "motions of a building file, scaled to its site as `seismass building` does; one of them is shown"
+    )
     add_records_options(motions)
+    add_scaling_options(motions)
     add_site_options(parser)
 
 
@@ -54,9 +60,10 @@ def run(args: argparse.Namespace) -> int:
     if args.code_share is not None and (args.code is not None or args.use is not None):
         raise InvalidOption("--code-share of animate must be left out with --code or --use; got both")
     scene: Path = example_scene() if args.example else args.scene
+    of_building = is_building_file(scene)
     target = args.out or Path(scene.name).with_suffix(".html")
     check_files(target)
-    shown = _of_building(args, scene) if is_building_file(scene) else _of_scene(args, scene)
+    shown = _of_building(args, scene) if of_building else _of_scene(args, scene)
     for remark in shown.remarks:
         print(f"seismass: {remark}", file=sys.stderr)
     chosen = {"code": args.code, "use": args.use, "fraction": args.code_share}
@@ -69,7 +76,7 @@ def run(args: argparse.Namespace) -> int:
     else:
         animation = animate(shown.scene, shown.motion, title=shown.title, note=shown.note, **given)
     animation.write(target, frames_per_second=args.fps, speed=args.speed)
-    show("\n".join(animation.sentences))
+    show("\n".join([*([f"Motion: {shown.note}."] if of_building else []), *animation.sentences]))
     show(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
     return 0
 
@@ -88,7 +95,8 @@ class _Shown(NamedTuple):
 def _of_scene(args: argparse.Namespace, path: Path) -> _Shown:
     from seismass.runs.scene_file import read_scene
 
-    refuse_given(args, ("records", "suite", "target", "sds", "sd1", "tl"), "animate", "with a scene file")
+    of_buildings = ("records", "suite", "target", "sds", "sd1", "tl", "period", "factor")
+    refuse_given(args, of_buildings, "animate", "with a scene file")
     file = read_scene(path)
     note = ", ".join(part for part in (file.note, *(record.name for record in file.records[:1])) if part)
     motion: Any = file.motion if file.other_motion is None else (file.motion, file.other_motion)
@@ -100,16 +108,17 @@ def _of_building(args: argparse.Namespace, path: Path) -> _Shown:
     from seismass.assessment.building_file import read_building
     from seismass.assessment.shown_motion import shown_motion
 
-    building = read_building(path)
-    suite: Any = read_motions(args) if building.other is None else read_pairs(args)
-    found = shown_motion(building, suite, read_site(args, "animate"))
+    building, target = read_building(path), read_site(args, "animate")
+    scene = building.scene(target)
+    motions = motions_of_file(args, "animate", scene, building, target)
+    found = shown_motion(scene, motions.scaled, motions.factors)
     note = (
-        f"{found.motion.name} x {found.factor:.3g}, motion {found.number} of {len(suite)}, that with the median "
-        "drift of those under which goods slide"
+        f"{found.motion.name} x {found.factor:.3g} ({motions.scaling}), motion {found.number} of "
+        f"{len(motions.suite)}, that with the median drift of those under which goods slide"
     )
     share = building.code_share / building.present_share if building.present_share > 0.0 else 0.0
     options = {} if args.code is not None or args.use is not None else {"fraction": min(1.0, share)}
-    return _Shown(found.scene, found.motion, building.name, note, found.scene.remarks, options)
+    return _Shown(scene, found.motion, building.name, note, scene.remarks, options)
 
 
 COMMAND = Command(
