@@ -18,8 +18,12 @@ import pytest
 
 import seismass as sm
 import seismass.assessment
+import seismass.risk.targeted_share
 from seismass.cli import main
+from seismass.commands.exit_codes import FAILED
 from seismass.commands.parser import COMMANDS
+from seismass.fragility.exact_capacities import exact_capacities
+from seismass.fragility.run import setting_of
 
 READERS = {"read_building", "read_scene_or_building"}
 CASES = {
@@ -29,7 +33,6 @@ CASES = {
     "stated period": {"building": {"scaling_period_s": 0.8}},
     "two directions": {"other_direction": {"period_s": 0.65}},
 }
-RATES = "0.01,1\n0.1,0.1\n1,1e-3\n10,1e-5\n100,1e-7\n"
 
 
 @dataclass(frozen=True)
@@ -58,7 +61,7 @@ def case(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
     tables: dict[str, Any] = {
         "site": {"sds_g": 1.0, "sd1_g": 0.6},
         "building": {"period_s": 0.5, "height_m": 4, "area_m2": 500, "dead_load_kpa": 5, "design": True, "R": 3},
-        "goods": {"live_load_kpa": 6, "mu": 0.15, "mu_factors": [1.0, 1.0]},
+        "goods": {"live_load_kpa": 6, "mu": 0.05, "mu_factors": [1.0, 1.0]},
         "storeys": [{}, {"live_load_kpa": 0}],
     }
     for name, changes in CASES[request.param].items():
@@ -101,7 +104,7 @@ def in_words(case: Case) -> str:
     return f"ASCE 7-10 to {case.answer.target.label}, for T = {case.answer.scaling.period:.3g} s"
 
 
-def shared_by_building(case: Case, capsys: pytest.CaptureFixture[str]) -> None:
+def shared_by_building(case: Case, *_: Any) -> None:
     """ASCE 7-10 for T with the goods attached: the method by itself, in two directions over both ranges."""
     periods = [each.period(case.own.goods) for each in (case.own, case.own.other) if each is not None]
     periods = [0.8] if case.own.scaling_period else periods
@@ -112,7 +115,7 @@ def shared_by_building(case: Case, capsys: pytest.CaptureFixture[str]) -> None:
     np.testing.assert_allclose(case.answer.scaling.factors, found.factors, rtol=1e-12)
 
 
-def shared_by_slip(case: Case, capsys: pytest.CaptureFixture[str]) -> None:
+def shared_by_slip(case: Case, capsys: pytest.CaptureFixture[str], _: Any) -> None:
     out = case.folder / "slip"
     said = printed(capsys, "slip", case.file, "--records", case.records, "--out", out, "--no-figures")
     assert f"scaling     {in_words(case)}\n" in said
@@ -125,20 +128,20 @@ def shared_by_slip(case: Case, capsys: pytest.CaptureFixture[str]) -> None:
     assert bare["metadata"]["inputs_sha256"] == unscaled.metadata["inputs_sha256"]
 
 
-def shared_by_animate(case: Case, capsys: pytest.CaptureFixture[str]) -> None:
+def shared_by_animate(case: Case, capsys: pytest.CaptureFixture[str], _: Any) -> None:
     out = case.folder / ("shed.gif" if case.plane else "shed.html")
     words = ("animate", case.file, "--records", case.records, "--out", out, *(("--fps", "0.5") if case.plane else ()))
     shown = case.answer.example
-    motion = f"Motion: {shown.motion.name} x {{:.3g}} ({{}}), motion {shown.number} of 3, that with"
     said = printed(capsys, *words)
-    assert motion.format(shown.factor, in_words(case)) in said
+    assert f"Motion: {shown.motion.name} x {shown.factor:.3g}, motion {shown.number} of 3, that with the med" in said
+    assert f"Scaling: {in_words(case)}." in said
     slip = 1e3 * sm.simulate(shown.scene, shown.motion).peak_slip
     largest = f"largest slip {slip[:, 2].max() if case.plane else slip.max():.3g} mm"
     assert largest in said
-    assert re.search(r" x 2 \(motions x 2\), motion \d of 3", printed(capsys, *words, "--factor", "2"))
+    assert re.search(r" x 2, motion \d of 3.*\nScaling: motions x 2\.", printed(capsys, *words, "--factor", "2"))
 
 
-def shared_by_fragility(case: Case, capsys: pytest.CaptureFixture[str]) -> None:
+def shared_by_fragility(case: Case, capsys: pytest.CaptureFixture[str], _: Any) -> None:
     words = ["fragility", str(case.file), "--records", str(case.records), "--limit", "drift=0.05"]
     by_factor = ["--measure", "scale", "--method", "stripes", "--intensity", "0.5,1"]
     if case.plane:
@@ -151,7 +154,9 @@ def shared_by_fragility(case: Case, capsys: pytest.CaptureFixture[str]) -> None:
     assert f"scaling   {in_words(case)}; then by each intensity\n" in said
     runs = pl.read_csv(out / "runs.csv").filter(pl.col("intensity") == 1.0)
     for model in ("real", "code", "attached"):
-        ours = case.answer.runs.filter(model=model).group_by("motion", maintain_order=True).agg(pl.col("peak_drift").max())
+        ours = (
+            case.answer.runs.filter(model=model).group_by("motion", maintain_order=True).agg(pl.col("peak_drift").max())
+        )
         # The same runs, written with the digits of a double.
         assert runs.filter(model=model)["drift"].to_list() == ours["peak_drift"].to_list(), model
     # By another measure the scaling of motions is without effect.
@@ -166,47 +171,49 @@ def shared_by_fragility(case: Case, capsys: pytest.CaptureFixture[str]) -> None:
     np.testing.assert_allclose(ours, found.runs.filter(model="real")["drift"].to_numpy(), rtol=1e-9)
 
 
-def shared_by_risk(case: Case, capsys: pytest.CaptureFixture[str]) -> None:
+def shared_by_risk(case: Case, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """The site designs strengths; motions are as they are read, as a capacity in Sa does not depend on their scale."""
     hazard = case.folder / "hazard.csv"
-    hazard.write_text(f"Sa,rate\n{RATES}")
-    words = ["risk", str(case.file), "--records", str(case.records), "--hazard", str(hazard), "--share", "0,0.5,1"]
-    words += ["--other-limit", "0.03"]
+    hazard.write_text("Sa,rate\n0.01,1\n100,1e-7\n")
+    taken: list[Any] = []
+
+    def stop(*given: Any, **options: Any) -> None:
+        taken.extend([*given, options["code_share"]])
+        raise sm.errors.SimulationError("stopped")
+
+    monkeypatch.setattr(seismass.risk.targeted_share, "risk_targeted_share", stop)
+    assert main(["risk", str(case.file), "--records", str(case.records), "--hazard", str(hazard)]) == FAILED
+    scene, motions, _, limit, share = taken
+    capsys.readouterr()
+    assert scene == case.own.scene()
+    assert limit.value == case.own.drift_limit
+    assert share == case.own.code_share / case.own.present_share
     if case.plane:
-        assert main(words) == 2
-        assert "other_direction of scene must be left out" in capsys.readouterr().err
         return
-    out = case.folder / "risk"
-    assert "scaling              each motion to each intensity\n" in printed(capsys, *words, "--out", out, "--no-figures")
-    document, own = json.loads((out / "risk.json").read_text(encoding="utf-8")), case.own
-    found = sm.risk.risk_targeted_share(
-        own.scene(),
-        case.scaled,
-        sm.risk.HazardCurve.from_csv(hazard),
-        own.drift_limit,
-        shares=[0.0, 0.5, 1.0],
-        other_limits=[0.03],
-        code_share=own.code_share / own.present_share,
-    )
-    # Capacities in Sa are found to 1e-9, whatever the motions were scaled by before.
-    assert document["real"] == pytest.approx(found.real, rel=1e-6)
-    assert document["value"] == pytest.approx(found.value, abs=1e-6)
+    assert list(motions) == case.motions
+    capacities = [
+        exact_capacities(setting_of({"real": scene}, each, [limit], "sa_t1", None, "test"), limit)
+        for each in (motions, case.scaled)
+    ]
+    # Each is found to 1e-9 of itself.
+    np.testing.assert_allclose(*capacities, rtol=1e-8)
 
 
-def shared_by_scale(case: Case, capsys: pytest.CaptureFixture[str]) -> None:
-    suite = ("--method", "mps", "--building", case.file, "--json")
-    document = json.loads(printed(capsys, "scale", *suite))
+def shared_by_scale(case: Case, capsys: pytest.CaptureFixture[str], _: Any) -> None:
+    words = ("scale", "--method", "mps", "--building", case.file, "--records", case.records, "--json")
+    document = json.loads(printed(capsys, *words))
     assert document["period"] == pytest.approx(case.own.period(case.own.goods), rel=1e-12)
     assert document["target"] == case.answer.target.label
 
 
-def shared_by_target(case: Case, capsys: pytest.CaptureFixture[str]) -> None:
+def shared_by_target(case: Case, capsys: pytest.CaptureFixture[str], _: Any) -> None:
     period = case.answer.scaling.period
     row = printed(capsys, "target", "--building", case.file, "--period", repr(period)).splitlines()[1]
     ours = case.own.site_spectrum()(period) / sm.STANDARD_GRAVITY
     assert float(row.split(",")[1]) == pytest.approx(float(ours), rel=1e-12)
 
 
-SHARED: dict[str, Callable[[Case, pytest.CaptureFixture[str]], None]] = {
+SHARED: dict[str, Callable[[Case, pytest.CaptureFixture[str], pytest.MonkeyPatch], None]] = {
     "building": shared_by_building,
     "slip": shared_by_slip,
     "animate": shared_by_animate,
@@ -244,8 +251,10 @@ def test_every_command_that_takes_a_building_file_is_among_them() -> None:
 
 
 @pytest.mark.parametrize("name", SHARED)
-def test_numbers_are_those_of_building(name: str, case: Case, capsys: pytest.CaptureFixture[str]) -> None:
-    SHARED[name](case, capsys)
+def test_numbers_are_those_of_building(
+    name: str, case: Case, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    SHARED[name](case, capsys, monkeypatch)
 
 
 @pytest.mark.parametrize("name", ["slip", "animate", "fragility"])

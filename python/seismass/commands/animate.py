@@ -44,9 +44,7 @@ def options(parser: argparse.ArgumentParser) -> None:
         "--fps", type=positive_option, metavar="N", help="frames per second of a GIF (12.5) or film (25)"
     )
     parser.add_argument("--speed", type=positive_option, default=1.0, metavar="X", help="speed of a GIF or film (1)")
-    motions = parser.add_argument_group(
-        "motions of a building file, scaled to its site as `seismass building` does; one of them is shown"
-    )
+    motions = parser.add_argument_group("motions of a building file, scaled to its site; one of them is shown")
     add_records_options(motions)
     add_scaling_options(motions)
     add_site_options(parser)
@@ -60,10 +58,10 @@ def run(args: argparse.Namespace) -> int:
     if args.code_share is not None and (args.code is not None or args.use is not None):
         raise InvalidOption("--code-share of animate must be left out with --code or --use; got both")
     scene: Path = example_scene() if args.example else args.scene
-    of_building = is_building_file(scene)
+    shown_of = _of_building if is_building_file(scene) else _of_scene
     target = args.out or Path(scene.name).with_suffix(".html")
     check_files(target)
-    shown = _of_building(args, scene) if of_building else _of_scene(args, scene)
+    shown = shown_of(args, scene)
     for remark in shown.remarks:
         print(f"seismass: {remark}", file=sys.stderr)
     chosen = {"code": args.code, "use": args.use, "fraction": args.code_share}
@@ -76,13 +74,13 @@ def run(args: argparse.Namespace) -> int:
     else:
         animation = animate(shown.scene, shown.motion, title=shown.title, note=shown.note, **given)
     animation.write(target, frames_per_second=args.fps, speed=args.speed)
-    show("\n".join([*([f"Motion: {shown.note}."] if of_building else []), *animation.sentences]))
+    show("\n".join([*shown.about_motion, *animation.sentences]))
     show(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
     return 0
 
 
 class _Shown(NamedTuple):
-    """What of a file is animated; `options` are those of `animate` that the file states."""
+    """What of a file is animated; `options` are those of `animate` that the file states, `about_motion` is printed."""
 
     scene: Scene
     motion: Any
@@ -90,6 +88,7 @@ class _Shown(NamedTuple):
     note: str
     remarks: tuple[str, ...]
     options: dict[str, Any]
+    about_motion: tuple[str, ...] = ()
 
 
 def _of_scene(args: argparse.Namespace, path: Path) -> _Shown:
@@ -113,12 +112,13 @@ def _of_building(args: argparse.Namespace, path: Path) -> _Shown:
     motions = motions_of_file(args, "animate", scene, building, target)
     found = shown_motion(scene, motions.scaled, motions.factors)
     note = (
-        f"{found.motion.name} x {found.factor:.3g} ({motions.scaling}), motion {found.number} of "
-        f"{len(motions.suite)}, that with the median drift of those under which goods slide"
+        f"{found.motion.name} x {found.factor:.3g}, motion {found.number} of {len(motions.suite)}, that with the "
+        "median drift of those under which goods slide"
     )
     share = building.code_share / building.present_share if building.present_share > 0.0 else 0.0
     options = {} if args.code is not None or args.use is not None else {"fraction": min(1.0, share)}
-    return _Shown(scene, found.motion, building.name, note, scene.remarks, options)
+    said = (f"Motion: {note}.", f"Scaling: {motions.scaling}.")
+    return _Shown(scene, found.motion, building.name, f"{note}; {motions.scaling}", scene.remarks, options, said)
 
 
 COMMAND = Command(

@@ -61,7 +61,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     method.add_argument("--intensity", type=numbers_option(), metavar="LIST", help="intensities of stripes")
     method.add_argument("--highest", type=positive_option, metavar="X", help="largest intensity of a hunt")
     method.add_argument("--tolerance", type=positive_option, metavar="R", help="relative width of capacities (0.001)")
-    motions = parser.add_argument_group("motions, each scaled to every intensity; of a cloud as they are")
+    motions = parser.add_argument_group("motions, each scaled to every intensity, of a cloud as they are")
     add_records_options(motions)
     add_scaling_options(parser.add_argument_group("scaling with --measure scale"))
     add_site_options(parser)

@@ -52,8 +52,8 @@ def options(parser: argparse.ArgumentParser) -> None:
         "--building",
         type=Path,
         metavar="FILE",
-        help="building file that gives T and modes (asce7-16) or pushover (mps), with its goods attached, and the target "
-        "with its [site]",
+        help="building file that gives T and modes (asce7-16) or pushover (mps) with its goods attached, and the "
+        "target with its [site]",
     )
     method.add_argument(
         "--lowest-period", type=positive_option, metavar="S", help="period of 90 %% of the mass, s (asce7-16)"

@@ -59,7 +59,7 @@ def add_scaling_options(group: argparse._ActionsContainer) -> None:
     """Add --period and --factor, which `motions_of_file` reads."""
     period = "motions are scaled from 0.2 T to 1.5 T (of a building file its period with the goods attached; else 1 s)"
     add_period_option(group, None, period)
-    factor = "take motions times F in place of scaling them to a site or target; 1: as they are"
+    factor = "motions times F (1: as they are), in place of scaling them as `seismass building` does"
     group.add_argument("--factor", type=positive_option, metavar="F", help=factor)
 
 
@@ -94,9 +94,10 @@ def motions_of_file(
     building: OwnBuilding | None,
     target: TargetSpectrum | None,
 ) -> FileMotions:
-    """Return the motions of a command: of a building file scaled to its site as `assess` does, unless --factor is given.
+    """Return the motions of a command, those of a building file scaled to its site as `assess` does.
 
-    Those of a scene file are scaled to `target` where one is given. Scenes in two directions take pairs.
+    Those of a scene file are scaled to `target` where one is given, and --factor stands in place of any scaling.
+    Scenes in two directions take pairs.
 
     Raises
     ------

@@ -42,10 +42,7 @@ def options(parser: argparse.ArgumentParser) -> None:
         choices=("scale", "pga", "sa_t1", "sa_avg"),
         help="intensity measure of --fragility (sa_t1; pga without a building)",
     )
-    motions = parser.add_argument_group(
-        "motions: of a building file scaled to its site as `seismass building` does, of a scene file as they are unless "
-        "a target is given"
-    )
+    motions = parser.add_argument_group("motions: of a building file scaled to its site, of a scene file as they are")
     add_records_options(motions)
     add_target_options(motions, stand_in=False)
     add_scaling_options(motions)
