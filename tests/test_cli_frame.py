@@ -119,6 +119,36 @@ def test_one_option_has_one_kind_of_value_in_all_commands(option: str) -> None:
     assert len({(action.dest, action.type, type(action), action.nargs) for action in found}) == 1
 
 
+@pytest.mark.parametrize("name", COMMANDS)
+def test_an_empty_path_and_a_folder_for_a_file_are_errors(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """An empty text is no path: it would be the current folder, as where a variable of the shell is not set."""
+    monkeypatch.chdir(tmp_path)
+    parser = argparse.ArgumentParser()
+    command_of(name).options(parser)
+    paths = [action for action in parser._actions if action.type is Path]
+    before: list[str] = []
+    for action in paths:
+        words = [*action.option_strings[:1], ""] if action.option_strings else [*before, ""]
+        with pytest.raises(SystemExit) as stopped:
+            cli.main([name, *words])
+        assert stopped.value.code == BAD_INPUT
+        error = capsys.readouterr().err.splitlines()[-1]
+        assert re.fullmatch(rf"seismass {name}: error: argument .*: must be a path; got ''", error)
+        before += [] if action.option_strings else ["."]
+    if before:
+        needed = [
+            word
+            for action in paths
+            if action.required and action.option_strings
+            for word in (action.option_strings[0], ".")
+        ]
+        assert cli.main([name, *before, *needed]) == BAD_INPUT
+        assert re.fullmatch(r"seismass: error: .*\n", capsys.readouterr().err)
+    assert not list(tmp_path.iterdir())
+
+
 def test_names_that_have_gone_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     for words in (["ida", "scene.toml"], ["spectrum", "a.AT2", "--periods", "1"], ["scale", "--csv", "a.csv"]):
         with pytest.raises(SystemExit) as stopped:

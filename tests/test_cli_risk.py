@@ -60,6 +60,7 @@ def test_prints_what_the_function_finds(
         code_share=0.5,
     )
     assert found.text in printed.out
+    assert "scaling              each motion to each intensity\n" in printed.out
     assert "Sa(0.5 s)" in printed.out
     written = json.loads((tmp_path / "out" / "risk.json").read_text(encoding="utf-8"))
     assert written["value"] == found.value

@@ -23,10 +23,11 @@ from seismass.assessment.period import period_sentences
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.assessment.shares import SHARES, advised_share, design_share, design_shares, fractions_by_friction
 from seismass.assessment.shown_motion import Shown, motion_of_runs
+from seismass.assessment.site_scaling import scaled_to_site
 from seismass.assessment.spectra import spectra_table
 from seismass.assessment.tables import collapses_of, slip_table, storey_table
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import as_number, brief, refusal
+from seismass.base.values import brief, refusal
 from seismass.effective_mass.beyond import SHARES_BEYOND, goes_beyond
 from seismass.effective_mass.tables import scene_bytes
 from seismass.model.codes import CodeFraction
@@ -35,7 +36,6 @@ from seismass.model.motion import motion_names
 from seismass.model.scene import Scene
 from seismass.records import Pair, Pairs, Suite, builtin_pairs, builtin_suite
 from seismass.runs.simulate import instruction_set
-from seismass.scaling import ScalingResult, scale_asce7_10
 from seismass.spectra import TargetSpectrum
 
 FIXED_MODELS: Final = 4
@@ -119,7 +119,7 @@ def assess(
     in_plane = chosen.other is not None
     suite = _suite((builtin_pairs() if in_plane else builtin_suite("forty")) if motions is None else motions, in_plane)
     spectrum = chosen.site_spectrum(target) if scale or chosen.design is not None else None
-    scaling = _scaling(chosen, suite, spectrum, scaling_period, threads) if scale else None
+    scaling = scaled_to_site(chosen, suite, spectrum, scaling_period, threads=threads) if scale else None
     factors = np.ones(len(suite)) if scaling is None else scaling.factors
     scaled = [motion.scaled(float(factor)) for motion, factor in zip(suite, factors, strict=True)]
     loaded = bool((chosen.goods > 0.0).any())
@@ -227,24 +227,6 @@ def _suite(motions: Any, in_plane: bool) -> Any:
 
 def _is_synthetic(motion: Any) -> bool:
     return bool(getattr(motion.first if isinstance(motion, Pair) else motion, "synthetic", False))
-
-
-def _scaling(
-    building: OwnBuilding, suite: Any, target: TargetSpectrum | None, period: float | None, threads: int | None
-) -> ScalingResult:
-    """Factors for the period; in two directions from 0.2 of the shorter period to 1.5 of the longer one."""
-    chosen = building.scaling_period if period is None else period
-    shorter = longer = chosen
-    if chosen is None:
-        both = [each.period(building.goods) for each in (building, building.other) if each is not None]
-        shorter, longer = min(both), max(both)
-    elif period is not None:
-        shorter = longer = as_number(period, "scaling_period", "assessment", InvalidOption)
-    assert target is not None
-    assert shorter is not None
-    assert longer is not None
-    within = (0.2 * (shorter / longer), 1.5)
-    return scale_asce7_10(suite, target, longer, period_range=within, between=False, threads=threads)
 
 
 class _Stages:

@@ -8,13 +8,9 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from seismass.assessment.own_building import OwnBuilding
 from seismass.base.values import FloatArray
 from seismass.effective_mass.runs import named_motions, solve
 from seismass.model.scene import Scene
-from seismass.records import Pairs, Suite
-from seismass.scaling import scale_asce7_10
-from seismass.spectra import TargetSpectrum
 
 
 class Shown(NamedTuple):
@@ -57,16 +53,11 @@ def _median(drift: FloatArray, among: NDArray[np.int64]) -> int:
     return int(ordered[(len(ordered) - 1) // 2])
 
 
-def shown_motion(building: OwnBuilding, suite: Suite | Pairs, target: TargetSpectrum | None = None) -> Shown:
-    """Return the building with its goods and the motion of median largest drift among those under which goods slide, or
-    among all where none slide. Motions are scaled as in `assess`.
+def shown_motion(scene: Scene, scaled: list[Any], factors: FloatArray) -> Shown:
+    """Return a motion for the scene of a building: the median by largest drift of those under which goods slide.
+
+    Where none slide it is the median of all. `factors` are those by which the motions are scaled already.
     """
-    spectrum = building.site_spectrum(target)
-    period = building.scaling_period or building.period(building.goods)
-    factors = scale_asce7_10(suite, spectrum, period, between=False).factors
-    listed: list[Any] = list(suite)
-    scaled = [record.scaled(float(factor)) for record, factor in zip(listed, factors, strict=True)]
-    scene = building.scene(spectrum)
     peaks = solve([scene], named_motions(scaled, "animation", scene))
     among = np.flatnonzero(peaks.slides[0]) if peaks.slides.any() else np.arange(len(scaled))
     place = _median(peaks.largest[0], among)

@@ -16,12 +16,15 @@ from seismass.commands.options import (
     add_records_options,
     check_files,
     positive_option,
-    read_motions,
-    read_pairs,
     read_site,
     refuse_given,
 )
-from seismass.commands.scene_or_building import add_site_options, is_building_file
+from seismass.commands.scene_or_building import (
+    add_scaling_options,
+    add_site_options,
+    is_building_file,
+    motions_of_file,
+)
 from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
@@ -43,6 +46,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--speed", type=positive_option, default=1.0, metavar="X", help="speed of a GIF or film (1)")
     motions = parser.add_argument_group("motions of a building file, scaled to its site; one of them is shown")
     add_records_options(motions)
+    add_scaling_options(motions)
     add_site_options(parser)
 
 
@@ -54,9 +58,10 @@ def run(args: argparse.Namespace) -> int:
     if args.code_share is not None and (args.code is not None or args.use is not None):
         raise InvalidOption("--code-share of animate must be left out with --code or --use; got both")
     scene: Path = example_scene() if args.example else args.scene
+    shown_of = _of_building if is_building_file(scene) else _of_scene
     target = args.out or Path(scene.name).with_suffix(".html")
     check_files(target)
-    shown = _of_building(args, scene) if is_building_file(scene) else _of_scene(args, scene)
+    shown = shown_of(args, scene)
     for remark in shown.remarks:
         print(f"seismass: {remark}", file=sys.stderr)
     chosen = {"code": args.code, "use": args.use, "fraction": args.code_share}
@@ -69,13 +74,13 @@ def run(args: argparse.Namespace) -> int:
     else:
         animation = animate(shown.scene, shown.motion, title=shown.title, note=shown.note, **given)
     animation.write(target, frames_per_second=args.fps, speed=args.speed)
-    show("\n".join(animation.sentences))
+    show("\n".join([*shown.about_motion, *animation.sentences]))
     show(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
     return 0
 
 
 class _Shown(NamedTuple):
-    """What of a file is animated; `options` are those of `animate` that the file states."""
+    """What of a file is animated; `options` are those of `animate` that the file states, `about_motion` is printed."""
 
     scene: Scene
     motion: Any
@@ -83,12 +88,14 @@ class _Shown(NamedTuple):
     note: str
     remarks: tuple[str, ...]
     options: dict[str, Any]
+    about_motion: tuple[str, ...] = ()
 
 
 def _of_scene(args: argparse.Namespace, path: Path) -> _Shown:
     from seismass.runs.scene_file import read_scene
 
-    refuse_given(args, ("records", "suite", "target", "sds", "sd1", "tl"), "animate", "with a scene file")
+    of_buildings = ("records", "suite", "target", "sds", "sd1", "tl", "period", "factor")
+    refuse_given(args, of_buildings, "animate", "with a scene file")
     file = read_scene(path)
     note = ", ".join(part for part in (file.note, *(record.name for record in file.records[:1])) if part)
     motion: Any = file.motion if file.other_motion is None else (file.motion, file.other_motion)
@@ -100,16 +107,18 @@ def _of_building(args: argparse.Namespace, path: Path) -> _Shown:
     from seismass.assessment.building_file import read_building
     from seismass.assessment.shown_motion import shown_motion
 
-    building = read_building(path)
-    suite: Any = read_motions(args) if building.other is None else read_pairs(args)
-    found = shown_motion(building, suite, read_site(args, "animate"))
+    building, target = read_building(path), read_site(args, "animate")
+    scene = building.scene(target)
+    motions = motions_of_file(args, "animate", scene, building, target)
+    found = shown_motion(scene, motions.scaled, motions.factors)
     note = (
-        f"{found.motion.name} x {found.factor:.3g}, motion {found.number} of {len(suite)}, that with the median "
-        "drift of those under which goods slide"
+        f"{found.motion.name} x {found.factor:.3g}, motion {found.number} of {len(motions.suite)}, that with the "
+        "median drift of those under which goods slide"
     )
     share = building.code_share / building.present_share if building.present_share > 0.0 else 0.0
     options = {} if args.code is not None or args.use is not None else {"fraction": min(1.0, share)}
-    return _Shown(found.scene, found.motion, building.name, note, found.scene.remarks, options)
+    said = (f"Motion: {note}.", f"Scaling: {motions.scaling}.")
+    return _Shown(scene, found.motion, building.name, f"{note}; {motions.scaling}", scene.remarks, options, said)
 
 
 COMMAND = Command(

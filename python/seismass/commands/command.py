@@ -6,6 +6,7 @@ import argparse
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from seismass.commands.exit_codes import ANY_COMMAND
@@ -38,6 +39,7 @@ class Command:
         parser = subparsers.add_parser(
             name, help=help, description=self.description, epilog=self.epilog, formatter_class=HelpText
         )
+        parser.register("type", Path, _path)
         self.options(parser)
         parser.set_defaults(run=self.timed)
 
@@ -45,6 +47,13 @@ class Command:
         """Run with the clock started, which `seconds` reads."""
         args.started = time.perf_counter()
         return self.run(args)
+
+
+def _path(text: str) -> Path:
+    """Read an argument of type Path; Path("") would be the current folder."""
+    if not text:
+        raise argparse.ArgumentTypeError("must be a path; got ''")
+    return Path(text)
 
 
 def seconds(args: argparse.Namespace) -> str:

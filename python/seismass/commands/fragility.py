@@ -22,9 +22,12 @@ from seismass.commands.options import (
 from seismass.commands.progress import progress
 from seismass.commands.scene_or_building import (
     DEFAULT_LIMIT,
+    FileMotions,
     add_file_argument,
+    add_scaling_options,
     add_site_options,
     doubts_of_input,
+    motions_of_file,
     read_scene_or_building,
     with_doubts,
 )
@@ -32,6 +35,7 @@ from seismass.commands.scene_or_building import (
 if TYPE_CHECKING:
     from seismass.assessment.own_building import OwnBuilding
     from seismass.model.scene import Scene
+    from seismass.spectra import TargetSpectrum
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -46,7 +50,8 @@ def options(parser: argparse.ArgumentParser) -> None:
     )
     add_measure_options(
         asked,
-        "intensity measure (sa_t1: pseudo-acceleration at T1, in g)",
+        "intensity measure (sa_t1: pseudo-acceleration at T1, in g); scale: factor of the motions, which of a building "
+        "file are scaled to its site as `seismass building` does",
         "T1 of the measure, s (that of the building without goods)",
     )
     add_code_share_option(asked, "share of the goods in the code's model (0.25, or the file's code)")
@@ -56,7 +61,9 @@ def options(parser: argparse.ArgumentParser) -> None:
     method.add_argument("--intensity", type=numbers_option(), metavar="LIST", help="intensities of stripes")
     method.add_argument("--highest", type=positive_option, metavar="X", help="largest intensity of a hunt")
     method.add_argument("--tolerance", type=positive_option, metavar="R", help="relative width of capacities (0.001)")
-    add_records_options(parser.add_argument_group("motions, as they are"))
+    motions = parser.add_argument_group("motions, each scaled to every intensity, of a cloud as they are")
+    add_records_options(motions)
+    add_scaling_options(parser.add_argument_group("scaling with --measure scale"))
     add_site_options(parser)
     add_answer_options(parser, seed=True)
 
@@ -77,18 +84,18 @@ def run(args: argparse.Namespace) -> int:
     models, rule, drift_limit = models_of(*read, args.code_share)
     limits = [parse_limit(text) for text in args.limit or [drift_limit]]
     doubts = doubts_of_input(*read, target, ((limit.quantity, limit.value) for limit in limits))
-    suite = read_motions(args)
+    motions = _motions(args, *read, target)
     common: dict[str, Any] = {"measure": args.measure, "period": args.measure_period, "at": args.at or ()}
     common |= {"seed": args.seed, "threads": args.jobs}
     with progress() as tell:
         if args.method == "cloud":
-            result = cloud_analysis(models, suite, limits, **common, progress=tell)
+            result = cloud_analysis(models, motions.scaled, limits, **common, progress=tell)
         else:
             given = {"highest": args.highest, "tolerance": args.tolerance}
             hunt = {name: value for name, value in given.items() if value is not None}
             result = incremental_dynamic_analysis(
                 models,
-                suite,
+                motions.scaled,
                 limits,
                 method=args.method,
                 intensities=args.intensity,
@@ -97,9 +104,24 @@ def run(args: argparse.Namespace) -> int:
                 progress=tell,
             )
     result, doubtful = with_doubts(result, doubts)
-    head = f"{doubtful}suite     {suite.name}\ncode      {rule}\n"
-    give_answer(args, result, suite, head=head, indent=10, answer=r"  at \S+: code")
+    head = f"{doubtful}suite     {motions.suite.name}\nscaling   {motions.scaling}\ncode      {rule}\n"
+    give_answer(args, result, motions.suite, head=head, indent=10, answer=r"  at \S+: code")
     return 0
+
+
+def _motions(
+    args: argparse.Namespace, scene: Scene, building: OwnBuilding | None, target: TargetSpectrum | None
+) -> FileMotions:
+    """The motions: a measure of intensity replaces their scaling, but for the factor itself."""
+    import numpy as np
+
+    if args.measure == "scale":
+        found = motions_of_file(args, "fragility", scene, building, target)
+        return found._replace(scaling=f"{found.scaling}; then by each intensity")
+    refuse_given(args, ("period", "factor"), "fragility", f"where --measure is {args.measure}")
+    suite = read_motions(args)
+    said = "motions as they are" if args.method == "cloud" else "each motion to each intensity"
+    return FileMotions(suite, np.ones(len(suite)), said)
 
 
 def models_of(

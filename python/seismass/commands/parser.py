@@ -26,7 +26,7 @@ COMMANDS: Final = {
     "map": ("effective_map", "the effective fraction of live load for many buildings: chart and rules"),
     "campaign": ("campaign", "a study of any size: axes or samples times motions, into a folder that resumes"),
     "run": ("run", "solve one scene file"),
-    "animate": ("animate", "animate one scene file"),
+    "animate": ("animate", "animate a scene file or a building file"),
     "study": ("study", "the parametric study: drift with sliding live load against a code's rule"),
     "validate": ("validate", "the paper's validations and its claims, with our numbers"),
     "report": ("report", "the page of a study or of a building again, from its tables"),

@@ -63,7 +63,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     method.add_argument(
         "--design-rate", type=positive_option, metavar="R", help="annual rate of the design intensity (1/475)"
     )
-    add_records_options(parser.add_argument_group("motions, as they are"))
+    add_records_options(parser.add_argument_group("motions, each scaled to the intensities of the hazard"))
     add_site_options(parser)
     add_answer_options(parser, seed=True)
 
@@ -108,7 +108,7 @@ def run(args: argparse.Namespace) -> int:
             **chosen,
         )
     result, doubtful = with_doubts(result, doubts)
-    head = f"{doubtful}suite                {suite.name}\n"
+    head = f"{doubtful}suite                {suite.name}\nscaling              each motion to each intensity\n"
     give_answer(args, result, suite, head=head, indent=21, answer="risk-targeted share")
     return 0
 

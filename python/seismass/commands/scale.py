@@ -52,7 +52,8 @@ def options(parser: argparse.ArgumentParser) -> None:
         "--building",
         type=Path,
         metavar="FILE",
-        help="building file that gives T and modes (asce7-16) or pushover (mps), and the target with its [site]",
+        help="building file that gives T and modes (asce7-16) or pushover (mps) with its goods attached, and the "
+        "target with its [site]",
     )
     method.add_argument(
         "--lowest-period", type=positive_option, metavar="S", help="period of 90 %% of the mass, s (asce7-16)"
@@ -85,6 +86,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the factors; return the exit code."""
+    from seismass.assessment.models import with_mass
     from seismass.model.plausibility import motion_remarks
     from seismass.scaling import select_records
     from seismass.spectra.remarks import target_remarks
@@ -94,7 +96,7 @@ def run(args: argparse.Namespace) -> int:
     target = _target(args, own)
     suite, scaled = _motions(args)
     chosen = None
-    building = None if own is None else own.structure(target)
+    building = None if own is None else with_mass(own.scene(target), own.goods).building
     period = args.period if building is None else float(building.periods[0])
     if args.select is not None:
         limits = {name: getattr(args, name) for name in ("max_per_event", "max_per_station") if getattr(args, name)}

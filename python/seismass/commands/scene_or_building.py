@@ -1,4 +1,4 @@
-"""The file of a scene or of a building, which `fragility`, `risk` and `slip` take, and the site of the latter."""
+"""The file of a scene or of a building, which several commands take, its site, and motions scaled to that site."""
 
 from __future__ import annotations
 
@@ -6,14 +6,23 @@ import argparse
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, Protocol, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol, TypeVar, cast
 
 from seismass.base.input_kinds import BUILDING_FILE, kind_of
-from seismass.commands.options import add_target_options
+from seismass.commands.options import (
+    add_period_option,
+    add_target_options,
+    positive_option,
+    read_motions,
+    read_pairs,
+    refuse_given,
+)
 
 if TYPE_CHECKING:
     from seismass.assessment.own_building import OwnBuilding
+    from seismass.base.values import FloatArray
     from seismass.model.scene import Scene
+    from seismass.records import Pairs, Suite
     from seismass.spectra import TargetSpectrum
 
 DEFAULT_LIMIT: Final = "drift_ratio=0.02"
@@ -42,8 +51,76 @@ def add_file_argument(parser: argparse.ArgumentParser) -> None:
 
 def add_site_options(parser: argparse.ArgumentParser) -> None:
     """Add --target, --sds, --sd1 and --tl, which `read_site` reads, for strengths that a building file designs."""
-    group = parser.add_argument_group("site of a building file that designs strengths, in place of its own")
+    group = parser.add_argument_group("site of a building file, in place of its own")
     add_target_options(group, stand_in=False)
+
+
+def add_scaling_options(group: argparse._ActionsContainer) -> None:
+    """Add --period and --factor, which `motions_of_file` reads."""
+    period = "motions are scaled from 0.2 T to 1.5 T (of a building file its period with the goods attached; else 1 s)"
+    add_period_option(group, None, period)
+    factor = "motions times F (1: as they are), in place of scaling them as `seismass building` does"
+    group.add_argument("--factor", type=positive_option, metavar="F", help=factor)
+
+
+class FileMotions(NamedTuple):
+    """Motions with which a scene or a building is run.
+
+    Attributes
+    ----------
+    suite : Suite or Pairs
+        As they were read.
+    factors : sequence of float
+        By which they are multiplied.
+    scaling : str
+        How, in words.
+    """
+
+    suite: Suite | Pairs
+    factors: FloatArray
+    scaling: str
+
+    @property
+    def scaled(self) -> list[Any]:
+        """The motions times their factors."""
+        listed: list[Any] = list(self.suite)
+        return [motion.scaled(float(factor)) for motion, factor in zip(listed, self.factors, strict=True)]
+
+
+def motions_of_file(
+    args: argparse.Namespace,
+    command: str,
+    scene: Scene,
+    building: OwnBuilding | None,
+    target: TargetSpectrum | None,
+) -> FileMotions:
+    """Return the motions of a command, those of a building file scaled to its site as `assess` does.
+
+    Those of a scene file are scaled to `target` where one is given, and --factor stands in place of any scaling.
+    Scenes in two directions take pairs.
+
+    Raises
+    ------
+    InvalidOption
+        --factor is given beside a target, --period where nothing is scaled, or the building has no site.
+    """
+    import numpy as np
+
+    from seismass.assessment.site_scaling import scaled_to_site
+    from seismass.scaling import scale_asce7_10
+
+    suite = read_motions(args) if scene.other_direction is False else read_pairs(args)
+    if target is not None:
+        refuse_given(args, ("factor",), command, "where a target is given")
+    if args.factor is not None or (building is None and target is None):
+        refuse_given(args, ("period",), command, "where motions are not scaled to a target")
+        said = "motions as they are" if args.factor in (None, 1.0) else f"motions x {args.factor:g}"
+        return FileMotions(suite, np.full(len(suite), args.factor or 1.0), said)
+    if building is None:
+        found = scale_asce7_10(suite, cast("TargetSpectrum", target), args.period or 1.0, between=False)
+    else:
+        found = scaled_to_site(building, suite, target, args.period)
+    return FileMotions(suite, found.factors, f"ASCE 7-10 to {found.target_label}, for T = {found.period:.3g} s")
 
 
 def doubts_of_input(

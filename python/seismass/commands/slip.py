@@ -10,27 +10,22 @@ from seismass.commands.answer_output import give_answer
 from seismass.commands.command import Command
 from seismass.commands.options import (
     add_answer_options,
-    add_period_option,
     add_records_options,
     add_target_options,
-    positive_option,
-    read_motions,
-    read_pairs,
-    read_target,
-    refuse_given,
+    read_site,
 )
 from seismass.commands.progress import progress
 from seismass.commands.scene_or_building import (
     add_file_argument,
+    add_scaling_options,
     doubts_of_input,
+    motions_of_file,
     read_scene_or_building,
     with_doubts,
 )
 
 if TYPE_CHECKING:
-    from seismass.records import Pairs, Suite
     from seismass.slip import Clearance
-    from seismass.spectra import TargetSpectrum
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -47,12 +42,10 @@ def options(parser: argparse.ArgumentParser) -> None:
         choices=("scale", "pga", "sa_t1", "sa_avg"),
         help="intensity measure of --fragility (sa_t1; pga without a building)",
     )
-    motions = parser.add_argument_group("motions, as they are unless a target or a factor is given")
+    motions = parser.add_argument_group("motions: of a building file scaled to its site, of a scene file as they are")
     add_records_options(motions)
-    add_target_options(motions)
-    period = "with a target: scaled from 0.2 T to 1.5 T (1 s; of a building file its period with the goods attached)"
-    add_period_option(motions, None, period)
-    motions.add_argument("--factor", type=positive_option, metavar="F", help="factor of all motions (1)")
+    add_target_options(motions, stand_in=False)
+    add_scaling_options(motions)
     add_answer_options(parser, seed=True)
 
 
@@ -63,14 +56,14 @@ def run(args: argparse.Namespace) -> int:
 
     if args.out is not None:
         check_out(args.out, "slip demand")
-    target = read_target(args) if _targeted(args) else None
+    target = read_site(args, "slip")
     scene, building = read_scene_or_building(args.file, target)
     blocks = len(scene.goods)
     sizes = _per_block("size", args.size, blocks, parse_size)
     plane = scene.other_direction is not False
     clearances = _per_block("clearance", args.clearance, blocks, partial(parse_clearance, plane=plane))
-    period = 1.0 if building is None else building.scaling_period or building.period(building.goods)
-    suite, scaling, motions = _motions(args, target, period, plane=plane)
+    given = motions_of_file(args, "slip", scene, building, target)
+    motions = given.scaled
     with progress() as tell:
         result = slip_demand(
             scene,
@@ -83,11 +76,12 @@ def run(args: argparse.Namespace) -> int:
             threads=args.jobs,
             progress=tell,
         )
-    given = [side for each in clearances or [] if each is not None for side in each.distances]
-    limits = [("clearance", side) for side in given if side is not None]
+    sides = [side for each in clearances or [] if each is not None for side in each.distances]
+    limits = [("clearance", side) for side in sides if side is not None]
     components = [component for pair in motions for component in (pair.first, pair.second)] if plane else motions
     result, doubtful = with_doubts(result, doubts_of_input(scene, building, target, limits, components))
-    give_answer(args, result, suite, head=f"{doubtful}suite       {suite.name}\nscaling     {scaling}\n\n", indent=12)
+    head = f"{doubtful}suite       {given.suite.name}\nscaling     {given.scaling}\n\n"
+    give_answer(args, result, given.suite, head=head, indent=12)
     return 0
 
 
@@ -135,32 +129,6 @@ def _per_block(name: str, given: list[str], blocks: int, parse: Any) -> list[Any
     return [found.get(number, found.get(0)) for number in range(1, blocks + 1)]
 
 
-def _targeted(args: argparse.Namespace) -> bool:
-    """Whether an option describes a target."""
-    return not args.target is args.sds is args.sd1 is args.tl is None
-
-
-def _motions(
-    args: argparse.Namespace, target: TargetSpectrum | None, default: float, *, plane: bool
-) -> tuple[Suite | Pairs, str, list[Any]]:
-    """Return the suite as it is, how it is scaled, and the motions; without --period it is scaled to a target at T =
-    `default` (s). Scenes in two directions (`plane`) take pairs.
-    """
-    from seismass.scaling import scale_asce7_10
-
-    suite: Any = read_pairs(args) if plane else read_motions(args)
-    if target is None:
-        refuse_given(args, ("period",), "slip", "where no target is given")
-        factor = args.factor or 1.0
-        said = "motions as they are" if args.factor is None else f"motions x {factor:g}"
-        return suite, said, list(suite) if args.factor is None else [record.scaled(factor) for record in suite]
-    refuse_given(args, ("factor",), "slip", "where a target is given")
-    period = args.period or default
-    factors = scale_asce7_10(suite, target, period=period, between=False).factors
-    scaled = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
-    return suite, f"ASCE 7-10 to {target.label}, for T = {period:.3g} s", scaled
-
-
 COMMAND = Command(
     description=(
         "Slip of the goods of a scene file or a building file over a suite of motions, beside the same "
@@ -169,6 +137,8 @@ COMMAND = Command(
     examples="""
 slip scene.toml --records recordings/
 slip scene.toml --clearance 0.3 --size 1.0x1.2
+slip warehouse.toml
+slip warehouse.toml --factor 1
 slip warehouse.toml --sds 1.0 --sd1 0.6 --period 0.6 --clearance 1=0.2 --clearance 2=0.5,0.1
 slip scene.toml --clearance 0.3 --fragility --measure pga --out slip
 """,
