@@ -6,6 +6,7 @@ use crate::general::state::GeneralState;
 use crate::lanes::Plain;
 use crate::polynomial::orders::{INVERSE, terms};
 use crate::polynomial::power::{MAX_DEGREE, Polynomial};
+use crate::tolerances::SERIES_ROUNDING;
 
 /// Combines rows with sums, entry by entry and one row after the other. Four sums at a time stay in registers.
 #[inline(always)]
@@ -192,6 +193,26 @@ impl Series {
         }
     }
 
+    /// Ends the series where its last two terms of all accelerations are below rounding of the largest term: what is left out
+    /// is less, as the phase is far below the order.
+    pub(super) fn end_by_terms(&mut self) {
+        let (order, width) = (self.order, self.width);
+        let of_order = |k: usize| {
+            let of_nodes = self.acceleration[k * width..(k + 1) * width].iter().copied();
+            let of_blocks = self.blocks.iter().map(|block| (k + 1) as f64 / self.h * block.velocity[k + 1]);
+            of_nodes.chain(of_blocks).fold(0.0, |most: f64, term| most.max(term.abs()))
+        };
+        let largest = (0..=order).map(of_order).fold(0.0, f64::max);
+        let end = [order - 1, order]
+            .map(|k| libm::pow(SERIES_ROUNDING * largest / of_order(k), 1.0 / k as f64))
+            .into_iter()
+            .fold(1.0, f64::min);
+        if end < 1.0 {
+            self.shorten(end, order);
+            self.bound_changes();
+        }
+    }
+
     /// The force that holds a stuck slab, as a polynomial with this factor and constant, and the size of its terms.
     pub(super) fn holding_polynomial(&self, factor: f64, constant: f64) -> (Polynomial, f64) {
         let mut polynomial = Polynomial::new(self.holding[..=self.order].iter().map(|c| factor * c));
@@ -219,6 +240,7 @@ impl Series {
             for rows in [&mut self.acceleration, &mut self.rate, &mut self.drift] {
                 rows[k * self.width..(k + 1) * self.width].iter_mut().for_each(|term| *term *= power);
             }
+            self.holding[k] *= power;
             for block in &mut self.blocks {
                 block.velocity[k] *= power;
                 block.slip[k] *= power;
@@ -335,4 +357,47 @@ fn base_term(state: &GeneralState, base: &Base, drift: &[f64], (width, tau, h): 
         _ => 0.0,
     };
     base.restoring * (contact * drift[k * width] + before) + state.base_friction() * base.carried * friction
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::general::system::System;
+    use crate::scene::{Block, Damping, GeneralBuilding, GeneralScene, GravityEffect, Motion, SlidingBase, Storey};
+    use crate::state::interval::interval;
+
+    /// A series that is ended by its terms is that of the step that is left, of everything in it: nodes, a block that slides, and
+    /// the force that holds a slab. 2.85 radians of one storey, which moves at full size.
+    #[test]
+    fn an_ended_series_is_that_of_a_shorter_step() {
+        let storeys = vec![Storey::elastic(9e7)];
+        let damping = Damping::Modal { ratio: 0.02 };
+        let building = GeneralBuilding::new(vec![1000.0], storeys, None, &damping, GravityEffect::None).unwrap();
+        let goods = vec![Block { velocity: Some(0.8), ..Block::new(1, 300.0, 0.2) }.into()];
+        let base = SlidingBase::new(500.0, 50.0);
+        let scene = GeneralScene::on_base(Some(Arc::new(building)), goods, Vec::new(), Some(base)).unwrap();
+        let scene = scene.with_initial(vec![2e-4], vec![0.05]).unwrap();
+        let motion = Motion::new(vec![1.0, 2.0], 0.01, None).unwrap();
+        let system = System::new(&scene, &motion).unwrap();
+        let mut state = GeneralState::new(&scene, &system, false);
+        state.interval = interval(&motion, None, 0);
+        state.follow();
+        let (mut ended, mut formed) = (Series::default(), Series::default());
+        ended.form(&state, 0.0, 0.01);
+        ended.end_by_terms();
+        assert!(ended.h > 0.004 && ended.h < 0.008, "{} s", ended.h);
+        formed.form(&state, 0.0, ended.h);
+        let everything = |series: &Series| -> Vec<f64> {
+            let (velocity, slip) = series.block_changes(0, 1.0);
+            let of_nodes = [Quantity::Drift, Quantity::Rate, Quantity::Acceleration].map(|q| series.values(q, 1.0)[1]);
+            let holding = series.holding_polynomial(1.0, 0.0).0.at::<Plain>(1.0);
+            of_nodes.into_iter().chain([velocity, slip, series.friction_of(0).at::<Plain>(1.0), holding]).collect()
+        };
+        for (found, expected) in everything(&ended).into_iter().zip(everything(&formed)) {
+            // Some rounding of terms that are twice as large as their sums.
+            assert!((found - expected).abs() < 32.0 * f64::EPSILON * expected.abs(), "{found} for {expected}");
+        }
+    }
 }
