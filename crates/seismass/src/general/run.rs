@@ -17,7 +17,7 @@ use crate::response::{EventKind, Statistics};
 use crate::run::limits::{EVENTS_PER_INTERVAL, EVENTS_PER_MACHINE};
 use crate::scene::{GeneralScene, Motion, Options};
 use crate::state::interval::interval;
-use crate::tolerances::{REFUSED_PHASE, SERIES_PHASE};
+use crate::tolerances::{GENERAL_PHASE, REFUSED_PHASE, SERIES_PHASE};
 
 /// Solves a scene of the general engine under one motion.
 ///
@@ -125,8 +125,12 @@ impl Run<'_> {
         while tau < h {
             let remaining = h - tau;
             let phase = self.phase_of(remaining)?;
-            let pieces = if phase > SERIES_PHASE { (phase / SERIES_PHASE).ceil() } else { 1.0 };
+            let pieces = (phase / GENERAL_PHASE).ceil().max(1.0);
             self.series.form(&self.state, tau, remaining / pieces);
+            if phase > SERIES_PHASE * pieces {
+                self.series.end_by_terms();
+            }
+            let step = self.series.h;
             self.statistics.series_steps += 1;
             let (first, isolated) = Search::first(&self.state, &self.series);
             self.statistics.guards_isolated += isolated;
@@ -136,11 +140,7 @@ impl Run<'_> {
                 self.record(sample, 0.0);
                 is_recorded = true;
             }
-            tau = match first {
-                Some(_) => (tau + place * remaining / pieces).min(h),
-                None if pieces == 1.0 => h,
-                None => tau + remaining / pieces,
-            };
+            tau = if first.is_none() && step == remaining { h } else { (tau + place * step).min(h) };
             self.advance(place, tau)?;
             let Some((_, guard)) = first else {
                 if stop.load(Ordering::Relaxed) {

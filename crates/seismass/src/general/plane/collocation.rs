@@ -29,6 +29,10 @@ const ROUNDING: f64 = 1000.0 * f64::EPSILON;
 /// last of them, which rounding reaches.
 const MIDDLE: f64 = 4e-9;
 const LAST: f64 = 1e-13;
+/// After so many iterations the last terms of directions are those of the solution, but for small corrections; where they are
+/// above this, ten thousand times what they must be below, further iterations are for nothing.
+const SETTLED: usize = 3;
+const TOO_ROUGH: f64 = 1e-9;
 
 /// How far relative velocities may be from the directions they begin with, as a part of the largest velocity so far: some
 /// rounding of the fastest block, and less than what has come to rest.
@@ -94,11 +98,15 @@ impl PlaneSeries {
         let mut directions: Vec<AtPoints<Vector2>> =
             self.slides.iter().map(|slide| [slide.direction[0]; POINTS]).collect();
         let mut before = f64::INFINITY;
-        for _ in 0..ITERATIONS {
-            self.form_through(state, tau, h, &directions);
+        for iteration in 0..ITERATIONS {
+            let [_, last] = self.form_through(state, tau, h, &directions);
+            if iteration >= SETTLED && last > TOO_ROUGH {
+                return false;
+            }
             let Some(largest) = self.correct(state, tau, h, &mut directions) else { return false };
             if largest <= KNOWN || largest <= ROUNDING && largest > 0.5 * before {
-                return self.form_through(state, tau, h, &directions) && self.begin_as(state);
+                let [middle, last] = self.form_through(state, tau, h, &directions);
+                return middle <= MIDDLE && last <= LAST && self.begin_as(state);
             }
             if largest > 4.0 * before {
                 return false;
@@ -108,14 +116,15 @@ impl PlaneSeries {
         false
     }
 
-    /// Forms the series with directions through these. False: their terms have not fallen below rounding.
-    fn form_through(&mut self, state: &PlaneState, tau: f64, h: f64, directions: &[AtPoints<Vector2>]) -> bool {
+    /// Forms the series with directions through these; returns the largest terms in the middle of directions, and at the end.
+    fn form_through(&mut self, state: &PlaneState, tau: f64, h: f64, directions: &[AtPoints<Vector2>]) -> [f64; 2] {
         self.begin(state);
-        let mut is_smooth = true;
+        let (mut middle, mut last): (f64, f64) = (0.0, 0.0);
         for (slide, directions) in self.slides.iter_mut().zip(directions) {
             let terms = AT.through(directions);
             let largest = |range: std::ops::Range<usize>| range.fold(0.0, |sum: f64, m| sum.max(length(terms[m])));
-            is_smooth &= largest(POINTS / 2..POINTS / 2 + 2) <= MIDDLE && largest(POINTS - 2..POINTS) <= LAST;
+            middle = middle.max(largest(POINTS / 2..POINTS / 2 + 2));
+            last = last.max(largest(POINTS - 2..POINTS));
             for (term, powers) in terms.into_iter().zip(&AT.powers) {
                 for (direction, power) in slide.direction.iter_mut().zip(powers) {
                     *direction = plus(*direction, times(*power, term));
@@ -136,7 +145,7 @@ impl PlaneSeries {
             let terms: Vec<Vector2> = (0..=ORDER).map(|k| self.term(i, k)).collect();
             self.slides[i].take_length(&terms);
         }
-        is_smooth
+        [middle, last]
     }
 
     /// Whether the directions begin as the relative velocities do, but for what does not show in them.

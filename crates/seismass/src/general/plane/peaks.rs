@@ -112,7 +112,7 @@ impl PlaneObserver {
             let (low, high) = series.axes[a].range(Quantity::Drift, p);
             segments[a].force(low).abs().max(segments[a].force(high).abs())
         };
-        let of_shear = libm::hypot(largest(0), largest(1)) > self.vector.shear[p].value;
+        let of_shear = length([largest(0), largest(1)]) > self.vector.shear[p].value;
         if !of_drift && !of_shear {
             return 0;
         }
@@ -167,7 +167,7 @@ impl PlaneObserver {
         }
         let shear = [0, 1].map(|a| crate::general::peaks::base_shear_series(&state.axes[a], &series.axes[a]));
         let size = |p: &Polynomial| p.coefficients().iter().map(|c| c.abs()).sum::<f64>();
-        if libm::hypot(size(&shear[0]), size(&shear[1])) <= self.vector.base_shear.value {
+        if length([size(&shear[0]), size(&shear[1])]) <= self.vector.base_shear.value {
             return 0;
         }
         let rates = shear.each_ref().map(Polynomial::derivative);

@@ -1,6 +1,7 @@
 //! Products of the polynomials of a step. What they leave out, above the highest degree, is below rounding: both factors
 //! are series whose last terms are.
 
+use crate::general::plane::vector::length;
 use crate::general::series::{Quantity, Series};
 use crate::polynomial::power::{MAX_DEGREE, Polynomial};
 
@@ -34,5 +35,5 @@ pub(super) fn reach(axes: &[Series; 2], quantity: Quantity, node: usize, offset:
         let (low, high) = axes[a].range(quantity, node);
         (low + offset[a]).abs().max((high + offset[a]).abs())
     };
-    libm::hypot(of_axis(0), of_axis(1))
+    length([of_axis(0), of_axis(1)])
 }

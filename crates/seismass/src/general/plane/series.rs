@@ -19,6 +19,9 @@ const SHORTER: f64 = 1e-3;
 /// What the turn of a velocity on the way to its stop may be, as a part of the largest velocity so far.
 const STRAIGHT: f64 = 0.25 * f64::EPSILON;
 
+/// Most units of time in a step: their powers up to the highest degree are far within the range of numbers.
+const MOST_UNITS: f64 = 1e3;
+
 /// The lowest order at which an asymptotic series is ended.
 const LEAST_ORDER: usize = 6;
 
@@ -81,7 +84,7 @@ impl PlaneSeries {
         if !self.straight.is_empty() {
             self.form_slides(state, tau, longest);
         }
-        let (mut end, mut order) = self.end(frequency * self.h());
+        let (mut end, mut order) = self.end(frequency, longest);
         if let Some(longer) = self.stiff.longer(&self.slides, self.h(), end, longest) {
             // Ends well before any stop: a straight way to one is as any other.
             let straight = std::mem::take(&mut self.straight);
@@ -95,8 +98,13 @@ impl PlaneSeries {
             }
         }
         self.order = order;
+        // Rounding may leave their product just below.
+        let is_longest = end == longest / self.h();
         for series in &mut self.axes {
             series.shorten(end, order);
+            if is_longest {
+                series.h = longest;
+            }
             series.bound_changes();
         }
         self.slides.iter_mut().for_each(|slide| slide.shorten(end));
@@ -129,7 +137,6 @@ impl PlaneSeries {
             h = h.min(length(state.velocity(slide.block)) / slowing);
         }
         loop {
-            self.begin(state);
             self.form_terms(state, tau, h);
             if let Some(slide) = self.slides.iter().find(|slide| slide.length[0] <= 0.0) {
                 return Some(slide.block);
@@ -139,6 +146,7 @@ impl PlaneSeries {
                 return None;
             }
             h *= SHORTER;
+            self.begin(state);
         }
     }
 
@@ -297,13 +305,14 @@ impl PlaneSeries {
     }
 
     /// The place where the series is to end, and the order after which: the last terms of all directions are below rounding
-    /// there, and no relative velocity comes to zero.
-    fn end(&self, phase: f64) -> (f64, usize) {
+    /// there, and no relative velocity comes to zero. In units of time, which may be many until `longest`.
+    fn end(&self, frequency: f64, longest: f64) -> (f64, usize) {
+        let (phase, most) = (frequency * self.h(), (longest / self.h()).min(MOST_UNITS));
         let is_asymptotic = self.slides.iter().any(|slide| slide.beginning == Beginning::Smooth);
         let orders = if is_asymptotic { LEAST_ORDER..=ORDER } else { ORDER..=ORDER };
         let (mut best, mut best_order) = (0.0, ORDER);
         for order in orders {
-            let mut end = self.slides.iter().fold(1.0, |end: f64, s| end.min(s.reach(order, SERIES_ROUNDING)));
+            let mut end = self.slides.iter().fold(most, |end: f64, s| end.min(s.reach(order, SERIES_ROUNDING)));
             while terms::<Plain>(phase * end) > order {
                 end *= 0.8;
             }

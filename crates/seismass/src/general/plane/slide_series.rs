@@ -7,6 +7,10 @@ use crate::polynomial::power::{MAX_DEGREE, Polynomial};
 /// Highest order of accelerations where a block slides.
 pub(super) const ORDER: usize = MAX_DEGREE - 2;
 
+/// Part of itself by which a velocity may fall in a step: a stop is some ten steps away, and the twentieth that is left is
+/// known to twenty times rounding.
+const MOST_FALL: f64 = 0.95;
+
 /// How the relative velocity begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Beginning {
@@ -77,16 +81,23 @@ impl SlideSeries {
             self.length[k] = dot(self.direction[0], r);
             return;
         }
-        let mut squares = 2.0 * dot(self.relative[0], r);
-        for i in 1..k {
-            squares += dot(self.relative[i], self.relative[k - i]) - self.length[i] * self.length[k - i];
+        let mut squares = dot(self.relative[0], r);
+        let product = |i: usize, j: usize| dot(self.relative[i], self.relative[j]) - self.length[i] * self.length[j];
+        let mut squares = dot(self.relative[0], r) + (1..k.div_ceil(2)).map(|i| product(i, k - i)).sum::<f64>();
+        if k % 2 == 0 {
+            squares += 0.5 * product(k / 2, k / 2);
         }
-        self.length[k] = 0.5 * squares / self.length[0];
-        let mut rest = r;
-        for i in 1..=k {
-            rest = minus(rest, times(self.length[i], self.direction[k - i]));
+        self.length[k] = squares / self.length[0];
+        // Two sums, so that a term need not wait for the one before it.
+        let part = |i: usize| times(self.length[i], self.direction[k - i]);
+        let (mut one, mut other) = (r, [0.0; 2]);
+        for i in (1..k).step_by(2) {
+            (one, other) = (minus(one, part(i)), minus(other, part(i + 1)));
         }
-        self.direction[k] = times(1.0 / self.length[0], rest);
+        if k % 2 == 1 {
+            one = minus(one, part(k));
+        }
+        self.direction[k] = times(1.0 / self.length[0], plus(one, other));
     }
 
     /// Divides a velocity without friction that begins at zero by the power of its first term above a size, up to an order of
@@ -196,13 +207,17 @@ impl SlideSeries {
         (s > 0.0 && s < 1.0 && (speed.at::<Plain>(s) - velocity).abs() < 0.5 * velocity).then_some(s)
     }
 
-    /// The longest part of the series in which the negative terms of the length are at most 3/4 of its first: along a
-    /// straight line a longer step would jump over a stop. On the straight line to a stop it is the whole way.
+    /// The longest part of the series in which the negative terms of the length are hardly more than [`MOST_FALL`] of its
+    /// first: along a straight line a longer step would jump over a stop. On the straight line to a stop it is the whole way.
     pub(super) fn before_stop(&self, order: usize, mut end: f64) -> f64 {
         if let Some(place) = self.straight_to.and_then(|velocity| self.falls_to(velocity, order)) {
             return end.min(place);
         }
         let first = self.length[0];
+        if self.length[1] < 0.0 {
+            end = end.min(-MOST_FALL * first / self.length[1]);
+        }
+        // From beyond it, Newton's method comes down to the place.
         loop {
             let (mut sum, mut rate, mut power) = (0.0, 0.0, 1.0);
             for (k, term) in self.length[..order].iter().enumerate().skip(1) {
@@ -210,8 +225,8 @@ impl SlideSeries {
                 power *= end;
                 sum += power * term.min(0.0);
             }
-            let excess = -sum - 0.75 * first;
-            if excess <= 0.02 * first {
+            let excess = -sum - MOST_FALL * first;
+            if excess <= 0.01 * first {
                 return end;
             }
             end += excess / rate;

@@ -2,8 +2,9 @@
 
 use crate::general::plane::slide_series::{Beginning, SlideSeries};
 
-/// Steps of an explicit series that an implicit one must replace to be tried.
-const PAYS: f64 = 8.0;
+/// Steps of an explicit series that an implicit one must replace to be tried: its iterations, each with a series of its own and
+/// a linear system, cost about as much.
+const PAYS: f64 = 16.0;
 
 /// How long implicit steps have been.
 #[derive(Default)]

@@ -1,7 +1,12 @@
 //! Vectors in the plane.
 
+use std::ops::Range;
+
 /// A vector with its parts in x and y.
 pub(super) type Vector2 = [f64; 2];
+
+/// Sums of squares in this range have all their digits: a part that underflows is less than rounding of the other.
+const SAFE_SQUARES: Range<f64> = 1e-250..1e250;
 
 #[inline]
 pub(super) fn dot(a: Vector2, b: Vector2) -> f64 {
@@ -10,7 +15,8 @@ pub(super) fn dot(a: Vector2, b: Vector2) -> f64 {
 
 #[inline]
 pub(super) fn length(a: Vector2) -> f64 {
-    libm::hypot(a[0], a[1])
+    let squares = dot(a, a);
+    if SAFE_SQUARES.contains(&squares) { squares.sqrt() } else { libm::hypot(a[0], a[1]) }
 }
 
 #[inline]
