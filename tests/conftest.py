@@ -1,5 +1,7 @@
 """Fixtures of all tests."""
 
+from __future__ import annotations
+
 import copy
 import os
 from pathlib import Path
@@ -80,6 +82,12 @@ _FILE: dict[str, Any] = {
 def unequal_file() -> dict[str, Any]:
     """Tables of a building file of three storeys and four kinds of goods, two of them on floor 1; a copy per test."""
     return copy.deepcopy(_FILE)
+
+
+@pytest.fixture(scope="session")
+def unequal_building() -> sm.assessment.OwnBuilding:
+    """The building of that file."""
+    return sm.read_building(_FILE)
 
 
 @pytest.fixture(scope="session")

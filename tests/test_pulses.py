@@ -228,6 +228,13 @@ def test_early_is_a_record_below_its_share_at_the_time_of_the_pulse() -> None:
         both = shahi_baker2014(made, sm.Record(1e-3 * np.gradient(bell, dt), dt)).chosen
         assert single.early is bool(single.energy_before < 0.20)
         assert both.early is bool(both.energy_before < 0.17)
+        # The last sample at which the pulse has at most 5 %, and what the record has there.
+        pulse, whole = (
+            np.cumsum(np.square(values)) / np.sum(np.square(values)) for values in (both.pulse, both.velocity)
+        )
+        last = round(both.arrival / dt)
+        assert pulse[last] <= 0.05 < pulse[last + 1]
+        assert both.energy_before == pytest.approx(whole[last], rel=1e-12)
         begins = round(single.arrival / dt)
         squares = np.cumsum(np.square(single.velocity))
         assert single.energy_before == pytest.approx(squares[begins] / squares[-1], rel=1e-12)

@@ -385,28 +385,6 @@ def test_remarks_say_what_a_reader_did(tmp_path: Path) -> None:
         assert remarks[name] == ""
 
 
-@pytest.mark.parametrize(
-    ("direction", "component", "azimuth", "deep"),
-    [
-        ("1", "NS1", 0.0, True),
-        ("2", "EW1", 90.0, True),
-        ("3", "UD1", None, True),
-        ("4", "NS2", 0.0, False),
-        ("5", "EW2", 90.0, False),
-        ("6", "UD2", None, False),
-    ],
-)
-def test_directions_of_kik_net(
-    tmp_path: Path, direction: str, component: str, azimuth: float | None, deep: bool
-) -> None:
-    """NIED: 1 to 3 are N-S, E-W and U-D of the borehole, 4 to 6 of the surface."""
-    found = read_record(put(tmp_path, f"made.{component}", MADE["knet"](direction=direction)))
-    assert (found.component, found.azimuth, found.network) == (component, azimuth, "KiK-net")
-    assert found.place == ("borehole" if deep else "")
-    told = [remark for remark in found.remarks if "borehole" in remark]
-    assert told == ([f"component {component} is that of the borehole sensor, not of the surface"] if deep else [])
-
-
 @pytest.mark.parametrize("name", sorted(FILES))
 def test_no_prefix_of_a_file_is_accepted_in_silence(tmp_path: Path, name: str) -> None:
     """A cut file is refused, gives the whole record, or has a remark; rows of times or components have no count."""

@@ -1,4 +1,4 @@
-"""The scene, motions and building file of conftest.py hold no two quantities of a kind that are easily taken for each other."""
+"""No two quantities of a kind in the scene, motions and building file of conftest.py can be taken for each other."""
 
 from __future__ import annotations
 
