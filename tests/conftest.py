@@ -1,10 +1,17 @@
 """Fixtures of all tests."""
 
+from __future__ import annotations
+
+import copy
 import os
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import settings
+
+import seismass as sm
 
 SLOW = Path(__file__).with_name("slow.txt")
 """Files and tests that `make test` leaves to `make test-all`, one a line: what the id of a test begins with."""
@@ -12,6 +19,114 @@ SLOW = Path(__file__).with_name("slow.txt")
 # A shared machine may be slow; a failure prints what reproduces it.
 settings.register_profile("seismass", deadline=None, print_blob=True)
 settings.load_profile("seismass")
+
+# A building file in which no two numbers of a kind are equal or in the ratio of small whole numbers, so that a test of
+# it sees one taken in place of another: tests/test_unequal.py.
+_FILE: dict[str, Any] = {
+    "name": "three unequal storeys",
+    "site": {"sds_g": 1.13, "sd1_g": 0.71, "tl_s": 6.7},
+    "building": {"damping": 0.037, "drift_limit": 0.017, "theta_limit": 0.23},
+    "goods": {"mu_factors": [0.71, 1.37]},
+    "storeys": [
+        {
+            "name": "hall",
+            "height_m": 4.3,
+            "area_m2": 530.0,
+            "dead_load_kpa": 5.3,
+            "gravity_load_kn": 3070.0,
+            "stiffness_kn_per_m": 1.93e5,
+            "yield_shear_kn": 1870.0,
+            "overstrength": 1.87,
+            "second_slope": 0.067,
+            "third_slope": 0.013,
+            "live_load_kpa": 6.1,
+            "goods": [
+                {"name": "pallets", "share": 0.59, "occupied": 0.88, "mu_s": 0.298, "mu_k": 0.214},
+                {"name": "drums", "share": 0.41, "occupied": 0.55, "mu_s": 0.253, "mu_k": 0.154},
+            ],
+        },
+        {
+            "name": "loft",
+            "height_m": 3.7,
+            "area_m2": 470.0,
+            "dead_load_kpa": 4.7,
+            "gravity_load_kn": 2390.0,
+            "stiffness_kn_per_m": 1.57e5,
+            "yield_shear_kn": 1510.0,
+            "overstrength": 2.11,
+            "second_slope": 0.053,
+            "third_slope": 0.0103,
+            "live_load_kpa": 4.3,
+            "occupied": 0.71,
+            "mu_s": 0.349,
+            "mu_k": 0.184,
+        },
+        {
+            "name": "roof",
+            "height_m": 3.1,
+            "area_m2": 410.0,
+            "dead_load_kpa": 3.7,
+            "gravity_load_kn": 1640.0,
+            "stiffness_kn_per_m": 1.13e5,
+            "yield_shear_kn": 830.0,
+            "overstrength": 1.61,
+            "second_slope": 0.043,
+            "third_slope": 0.0083,
+            "live_load_kpa": 1.9,
+            "occupied": 0.43,
+            "mu_s": 0.291,
+            "mu_k": 0.24,
+        },
+    ],
+}
+
+
+@pytest.fixture
+def unequal_file() -> dict[str, Any]:
+    """Tables of a building file of three storeys and four kinds of goods, two of them on floor 1; a copy per test."""
+    return copy.deepcopy(_FILE)
+
+
+@pytest.fixture(scope="session")
+def unequal_building() -> sm.assessment.OwnBuilding:
+    """The building of that file."""
+    return sm.read_building(_FILE)
+
+
+@pytest.fixture(scope="session")
+def unequal_scene() -> sm.Scene:
+    """Three storeys and four blocks, two of them on floor 1, with P-Delta; no two quantities of a kind alike."""
+    building = sm.Building(
+        [44.1e3, 35.7e3, 22.4e3],
+        [29.3e6, 23.1e6, 16.1e6],
+        yield_shear=[283e3, 227e3, 139e3],
+        overstrength=[1.87, 2.11, 1.61],
+        second_slope=[0.067, 0.053, 0.043],
+        third_slope=[0.013, 0.0103, 0.0083],
+        damping=0.037,
+        heights=[4.3, 3.7, 3.1],
+        gravity_load=[461e3, 367e3, 251e3],
+    )
+    blocks = [
+        sm.Block(1, mass=18.9e3, mu_s=0.298, mu_k=0.214),
+        sm.Block(1, mass=11.5e3, mu_s=0.253, mu_k=0.154),
+        sm.Block(2, mass=13.7e3, mu_s=0.349, mu_k=0.184),
+        sm.Block(3, mass=7.8e3, mu_s=0.291, mu_k=0.24),
+    ]
+    return sm.Scene(building, blocks, name="three unequal storeys")
+
+
+@pytest.fixture(scope="session")
+def unequal_motions() -> tuple[sm.Record, ...]:
+    """Three bursts of waves with time steps, lengths, periods and peaks of their own; the goods slide under each."""
+    bursts = []
+    for number, (dt, seconds, period, peak) in enumerate(
+        [(0.005, 5.3, 0.53, 5.9), (0.007, 6.3, 1.13, 4.7), (0.011, 8.3, 0.67, 7.3)], start=1
+    ):
+        time = dt * np.arange(round(seconds / dt))
+        wave = peak * np.sin(2.0 * np.pi * time / period) * np.sin(np.pi * time / seconds) ** 2
+        bursts.append(sm.Record(wave, dt, name=f"burst {number}"))
+    return tuple(bursts)
 
 
 @pytest.fixture(scope="session")

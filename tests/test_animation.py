@@ -22,7 +22,7 @@ from seismass.runs.response import EVENT_KINDS
 from seismass.runs.scene_file import example_scene
 from seismass.show.animation.picture import Picture
 
-BUILDING = sm.Building.uniform(3, 0.6, yield_shear_over_weight=[0.24, 0.20, 0.12], heights=3.5)
+BUILDING = sm.Building.uniform(3, 0.6, yield_shear_over_weight=[0.24, 0.20, 0.12], heights=[3.7, 3.1, 2.9])
 SCENE = sm.Scene(BUILDING, sm.blocks_on_floors([1.0, 0.5, 0.0], mu=0.2), name="storage <1>")
 RECORD = sm.builtin_record("synthetic-1").scaled(1.5)
 PULSE = sm.Motion(9.0 * np.sin(np.linspace(0.0, 4.0 * np.pi, 101)), 0.02)

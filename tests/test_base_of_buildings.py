@@ -41,6 +41,23 @@ def test_a_model_keeps_the_base_of_the_real_weight() -> None:
     assert model.base.slab_mass(model.building) == pytest.approx(3e5, rel=1e-14)
 
 
+def test_a_model_of_unequal_goods_and_storeys_keeps_the_base(unequal_scene: sm.Scene) -> None:
+    """Slab 53.3 t, floors 102.2 t, goods 51.9 t above; 6.7 t of goods and a slab of 53.3 t below."""
+    below = sm.Block(0, mass=6.7e3, mu_s=0.23, mu_k=0.19)
+    base = sm.SlidingBase(mu_s=0.11, mu_k=0.073, radius=2.3, mass=53.3e3)
+    real = unequal_scene.replace(base=base, blocks=[*unequal_scene.blocks, below])
+    for share in (0.0, 0.37, 1.0):
+        model = sm.attached_scene(real, share)
+        assert model.base is not None
+        assert model.building is not None
+        more = (53.3 + 6.7 + 102.2 + 51.9) / (53.3 + 102.2 + share * 51.9)
+        found = (model.base.mu_s, model.base.mu_k, model.base.radius, model.base.slab_mass(model.building))
+        assert found == pytest.approx((0.11 * more, 0.073 * more, 2.3 / more, 53.3e3), rel=1e-13)
+        np.testing.assert_allclose(
+            model.building.mass, 1e3 * (np.array([44.1, 35.7, 22.4]) + share * np.array([30.4, 13.7, 7.8])), rtol=1e-14
+        )
+
+
 def test_goods_that_stick_are_attached() -> None:
     """With a base that slides and goods that do not the model with all of them is the real building, to rounding."""
     sticking = scene(sm.SlidingBase(0.06, mass=3e5), mu=5.0)

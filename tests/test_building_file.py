@@ -60,6 +60,57 @@ def test_units_are_those_of_the_keys() -> None:
     np.testing.assert_allclose(scene.geometric_stiffness * 4.0, [5.0e6 + 2.1e6, 2.5e6], rtol=1e-12)
 
 
+def test_unequal_storeys_and_goods(unequal_file: dict[str, Any]) -> None:
+    """Each storey and kind has its own numbers: kPa over m2 are kN, of which g m/s2 is a t."""
+    building = sm.read_building(unequal_file)
+    loads = np.array([6.1 * 530.0, 4.3 * 470.0, 1.9 * 410.0])
+    present = np.array([0.59 * 0.88 + 0.41 * 0.55, 0.71, 0.43])
+    for name, expected in {
+        "mass": 1e3 * np.array([5.3 * 530.0, 4.7 * 470.0, 3.7 * 410.0]) / G,
+        "live_load": 1e3 * loads / G,
+        "goods": 1e3 * present * loads / G,
+        "code_mass": 0.25 * 1e3 * loads / G,
+        "gravity_load": [3.07e6, 2.39e6, 1.64e6],
+        "stiffness": [1.93e8, 1.57e8, 1.13e8],
+        "yield_shear": [1.87e6, 1.51e6, 0.83e6],
+        "overstrength": [1.87, 2.11, 1.61],
+        "second_slope": [0.067, 0.053, 0.043],
+        "third_slope": [0.013, 0.0103, 0.0083],
+        "heights": [4.3, 3.7, 3.1],
+        "area": [530.0, 470.0, 410.0],
+    }.items():
+        np.testing.assert_allclose(getattr(building, name), expected, rtol=1e-14, err_msg=name)
+    assert building.storey_names == ("hall", "loft", "roof")
+    assert building.present_share == pytest.approx((present @ loads) / loads.sum(), rel=1e-14)
+    assert (building.code_share, building.damping, building.mu_factors) == (0.25, 0.037, (0.71, 1.37))
+    assert (building.drift_limit, building.theta_limit) == (0.017, 0.23)
+    scene = building.scene(mu_factor=1.37)
+    kinds = [(0.298, 0.214), (0.253, 0.154), (0.349, 0.184), (0.291, 0.24)]
+    assert [(block.floor, block.mu_s, block.mu_k) for block in scene.blocks] == [
+        (floor, 1.37 * mu_s, 1.37 * mu_k) for floor, (mu_s, mu_k) in zip([1, 1, 2, 3], kinds, strict=True)
+    ]
+    shares = np.array([0.59 * 0.88, 0.41 * 0.55, 0.71, 0.43])
+    np.testing.assert_allclose(scene.block_mass, 1e3 * shares * loads[[0, 0, 1, 2]] / G, rtol=1e-14)
+    # P of a storey: the gravity loads and the goods present above it.
+    own = np.array([3.07e6, 2.39e6, 1.64e6]) + 1e3 * present * loads
+    load = np.array([own.sum(), own[1:].sum(), own[2]])
+    np.testing.assert_allclose(scene.geometric_stiffness, load / [4.3, 3.7, 3.1], rtol=1e-13)
+    # A design counts its fraction of the design live load, not of what is present.
+    for storey in unequal_file["storeys"]:
+        del storey["yield_shear_kn"]
+    unequal_file["building"] |= {"design": True, "R": 3.7, "design_fraction": 0.37}
+    designed = sm.read_building(unequal_file)
+    np.testing.assert_allclose(designed.design_mass, 0.37 * 1e3 * loads / G, rtol=1e-14)
+    assert designed.design_fraction == 0.37
+    analysis = sm.design.response_spectrum_analysis(
+        building.mass + 0.37 * 1e3 * loads / G,
+        building.stiffness,
+        sm.TargetSpectrum.asce7(1.13, 0.71, 6.7),
+        damping=0.037,
+    )
+    np.testing.assert_allclose(designed.structure().yield_shear, analysis.storey_shear / 3.7, rtol=1e-12)
+
+
 def test_the_same_building_in_other_units_is_the_same_scene() -> None:
     weight = 2 * 2.5e6
     other = given(

@@ -19,7 +19,7 @@ import seismass as sm
 from seismass.campaign.places import part_path
 from seismass.campaign.progress import duration_text
 
-BUILDING = sm.Building.uniform(2, 0.3, heights=3.0, yield_shear_over_weight=[0.2, 0.12])
+BUILDING = sm.Building.uniform(2, 0.3, heights=[3.4, 2.7], yield_shear_over_weight=[0.2, 0.12])
 MOTIONS = [
     sm.Motion([2.0, -2.0, 2.0, 0.0], dt=0.1),
     sm.Motion([0.0, 3.0, -4.0, 1.0, 2.0], dt=0.1, vertical=[0.0, 1.0, -1.0, 0.5, 0.0]),

@@ -258,7 +258,7 @@ def test_the_command_runs_goes_on_and_looks(tmp_path: Path, capsys: pytest.Captu
 
 
 def test_the_command_starts_workers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    pytest.importorskip("distributed", reason="needs seismass[cluster]")
+    pytest.importorskip("distributed", reason="distributed is not installed: no workers are started")
     file = tmp_path / "c.toml"
     file.write_text(TEXT)
     assert run(file, "--out", tmp_path / "a", "--workers", 2) == 0
@@ -300,8 +300,8 @@ def test_wrong_use_is_one_line_and_code_2(
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT", "1s")
     if "--scheduler" in arguments:
-        distributed = pytest.importorskip("distributed", reason="needs seismass[cluster]")
-        dask = pytest.importorskip("dask")
+        distributed = pytest.importorskip("distributed", reason="distributed is not installed: no workers are started")
+        dask = pytest.importorskip("dask", reason="dask is not installed: no workers are started")
         assert distributed
         dask.config.refresh()
     Path("c.toml").write_text(TEXT)

@@ -23,7 +23,7 @@ MOTIONS = [sm.Motion([2.0, -2.0, 2.0, 0.0], dt=0.1), sm.Motion([0.0, 3.0, -4.0, 
 
 def campaign(**options: Any) -> sm.campaign.Campaign:
     """36 runs in 8 parts."""
-    building = sm.Building.uniform(2, 0.3, heights=3.0, yield_shear_over_weight=[0.2, 0.12])
+    building = sm.Building.uniform(2, 0.3, heights=[3.4, 2.7], yield_shear_over_weight=[0.2, 0.12])
     grid = sm.Grid.product(building, mass_ratio=[0.5, 1.0], mu=[0.1, 0.2, 0.3], scale=[0.5, 1.0, 2.0])
     return sm.campaign.Campaign(grid, MOTIONS, **{"part_runs": 5, **options})
 

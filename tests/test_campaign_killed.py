@@ -79,7 +79,7 @@ def test_a_client_killed_at_random_times_ends_in_the_same_bytes(undisturbed: Pat
 
 @pytest.mark.skipif(sys.platform != "linux", reason="kills a process")
 def test_a_killed_worker_loses_no_part(undisturbed: Path, tmp_path: Path) -> None:
-    distributed = pytest.importorskip("distributed", reason="needs seismass[cluster]")
+    distributed = pytest.importorskip("distributed", reason="distributed is not installed: no workers are started")
     place = tmp_path / "a"
     with (
         distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0") as cluster,

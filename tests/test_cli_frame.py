@@ -297,7 +297,7 @@ def test_lines_are_folded_below_their_label() -> None:
     assert fit_text(line, 80) == line
 
 
-@pytest.mark.skipif(os.name != "posix", reason="needs a pseudo-terminal")
+@pytest.mark.skipif(os.name != "posix", reason="no pseudo-terminals on this system")
 @pytest.mark.parametrize("wish", [{}, {"NO_COLOR": "1"}, {"TERM": "dumb"}])
 def test_answer_on_a_terminal_and_in_a_file(wish: dict[str, str]) -> None:
     """Bold on a terminal (https://no-color.org: any effect is left out where NO_COLOR is set); plain elsewhere."""

@@ -67,6 +67,9 @@ def test_response_coefficient_by_hand() -> None:
     assert c_s(1.0, 0.6, 4.0, 4.0, t_l=2.0, minimum=False) == pytest.approx(0.6 * 2.0 / 16.0 / 4.0)
     assert c_s(0.1, 0.05, 3.0, 8.0) == 0.01
     assert c_s(1.0, 0.6, 3.0, 8.0, s_1=0.7) == pytest.approx(max(0.6 / 3.0 / 8.0, 0.044, 0.5 * 0.7 / 8.0))
+    # 12.8-6 holds where S_1 is equal to or greater than 0.6 g: 0.5 x 0.6/8 = 0.0375 is above 0.044 x 0.7 = 0.0308.
+    assert c_s(0.7, 0.6, 4.0, 8.0, s_1=0.6) == pytest.approx(0.5 * 0.6 / 8.0, rel=1e-14)
+    assert c_s(0.7, 0.6, 4.0, 8.0, s_1=0.5999) == pytest.approx(0.044 * 0.7, rel=1e-14)
     with pytest.raises(sm.errors.InvalidOption, match="period of lateral forces must be a positive number; got 0"):
         c_s(1.0, 0.6, 0.0, 8.0)
 
@@ -187,6 +190,11 @@ def test_stability_and_drift_of_storeys_by_hand() -> None:
     assert ratios[:2] == pytest.approx([0.008, 0.016 / 0.88], rel=1e-14)
     assert ratios[2] is None
     assert table["drift_ok"].to_list() == [True, False, False]
+    # At its limit a storey is still within it: theta of 0.10 is negligible, of theta_max not unstable, the limit kept.
+    at = design.storey_checks([1.0, 1.0], [1.0, 1.0], 4.0, c_d=2.0, limit=0.5, load=[0.4, 1.0])
+    assert at["theta"].to_list() == [0.1, 0.25]
+    assert at["p_delta"].to_list() == ["negligible", "to be considered"]
+    assert at["drift_ok"].to_list() == [True, False]
     without = design.storey_checks(shear, drift, heights, c_d=4.0, limit=0.02)
     assert without["theta"].null_count() == 3
     assert without["drift_ok"].to_list() == [True, True, True]  # 0.04/4 and 0.08/4

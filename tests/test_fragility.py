@@ -9,6 +9,7 @@ from scipy.stats import binom, norm
 
 import seismass as sm
 from seismass.fragility import fit_capacities, fit_cloud, fit_counts
+from seismass.fragility.probability import probabilities
 
 # The example that is distributed with Baker (2015), Earthquake Spectra 31:579-599: 40 motions at each intensity.
 LEVELS = np.array([0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1.0])
@@ -301,6 +302,16 @@ def test_a_cloud_of_equal_demands_has_no_curve() -> None:
 def test_capacities_that_are_equal_but_for_rounding_are_a_step() -> None:
     fit = fit_capacities([0.3, 0.1 + 0.2, 0.3])
     assert (fit.kind, fit.dispersion) == ("step", 0.0)
+
+
+def test_a_step_is_reached_at_its_own_intensity() -> None:
+    """A motion exceeds its limit from its capacity on, as annual rates have it: the share of capacities at most x."""
+    capacity, at = 0.37, np.array([0.0, 0.36, 0.37, 0.38])
+    lognormal, logistic = [capacity, 0.0, np.inf, 0.0], [np.inf, 0.0, capacity, 0.0]
+    assert probabilities(np.array([lognormal, logistic]), at).tolist() == [[0.0, 0.0, 1.0, 1.0]] * 2
+    # P_l + P_c (1 - P_l) of a lognormal part at its median and a step of collapse there.
+    both = np.array([[capacity, 0.4, capacity, 0.0], [capacity, 0.4, np.inf, 0.0]])
+    assert probabilities(both, np.array([capacity])).ravel().tolist() == [1.0, 0.5]
 
 
 def test_levels_without_scatter_have_no_interval() -> None:

@@ -20,8 +20,10 @@ from polars.testing import assert_frame_equal
 import seismass as sm
 from seismass.runs.batch import MAX_RUNS
 
-BUILDING = sm.Building.uniform(2, 0.3, mass=1000.0, yield_shear_over_weight=[0.2, 0.12], heights=3.0)
-LOADED = sm.Building.uniform(3, 0.6, mass=1000.0, yield_shear_over_weight=0.15, heights=3.0, gravity_load=9806.65)
+BUILDING = sm.Building.uniform(2, 0.3, mass=1000.0, yield_shear_over_weight=[0.2, 0.12], heights=[3.4, 2.7])
+LOADED = sm.Building.uniform(
+    3, 0.6, mass=1000.0, yield_shear_over_weight=0.15, heights=[3.7, 3.1, 2.9], gravity_load=9806.65
+)
 QUIET = sm.Motion([0.0, 0.0], 0.01)
 
 PER_RUN = (

@@ -17,8 +17,8 @@ from seismass.spectra.stored import target_of_parameters
 from seismass.study import StudyParameters
 from seismass.study.buildings import study_buildings
 
-BUILDING = sm.Building.uniform(2, 0.3, mass=1000.0, yield_shear_over_weight=[0.2, 0.12], heights=3.0)
-HEAVY = sm.Building.uniform(2, 0.3, mass=1000.0, yield_shear_over_weight=0.2, heights=3.0, gravity_load=9806.65)
+BUILDING = sm.Building.uniform(2, 0.3, mass=1000.0, yield_shear_over_weight=[0.2, 0.12], heights=[3.4, 2.7])
+HEAVY = sm.Building.uniform(2, 0.3, mass=1000.0, yield_shear_over_weight=0.2, heights=[3.4, 2.7], gravity_load=9806.65)
 TARGET = sm.TargetSpectrum.asce7(1.0, 0.6)
 MOTION = sm.Motion([2.0, -2.0, 2.0, 0.0], dt=0.1)
 

@@ -82,6 +82,26 @@ def test_published_failure_rate() -> None:
     assert found.value == pytest.approx(quadrature(Lognormal(0.5, 0.4), hazard), rel=1e-9)
 
 
+@pytest.mark.parametrize("beta", [0.0, 0.37])
+def test_parts_beyond_both_ends_make_the_whole(beta: float) -> None:
+    """The closed form of one power law, of which the curve has a short piece: each part beyond is above a tenth."""
+    hazard = HazardCurve([0.3, 0.7], [0.011, 0.011 * (0.7 / 0.3) ** -1.7])
+    medians = [0.23, 0.43, 0.97] if beta == 0.0 else [0.31, 0.47]
+    whole = [0.011 * (median / 0.3) ** -1.7 * np.exp(0.5 * (1.7 * beta) ** 2) for median in medians]
+    parts = lognormal_rates(medians, np.full(len(medians), beta), hazard)
+    np.testing.assert_allclose(parts.total(True), whole, rtol=1e-13)
+    np.testing.assert_array_equal(parts.total(False), parts.within)
+    for median, rate in zip(medians, whole, strict=True):
+        found = annual_rate(Lognormal(median, beta), hazard, extrapolate=True)
+        assert found.value == pytest.approx(rate, rel=1e-13) == found.within + found.below + found.above
+    for part in (parts.within, parts.below, parts.above):
+        assert (part / whole).max() > 0.1
+    if beta == 0.0:
+        of_motions = capacity_rates(medians, hazard)
+        assert of_motions.total(True) == pytest.approx(np.mean(whole), rel=1e-13)
+        assert of_motions.below > 0.1 * np.mean(whole)
+
+
 def test_extreme_numbers_neither_overflow_nor_cancel() -> None:
     steep = HazardCurve([0.1, 0.2, 0.4], [1e-2, 1e-8, 1e-20])
     found = annual_rate(Lognormal(0.2, 2.0), steep)

@@ -91,6 +91,29 @@ def test_values_per_block_and_per_storey_are_those_of_the_row() -> None:
     assert table["peak_slip"].to_list() == [slips[0][1], slips[0][0], None, slips[1][1]]
 
 
+def test_unequal_storeys_and_goods_are_those_of_single_runs(
+    unequal_scene: sm.Scene, unequal_motions: tuple[sm.Record, ...]
+) -> None:
+    """A storey has its own height, and of two blocks on floor 1 the slip of the one that goes further."""
+    batch = sm.simulate_many(unequal_scene, unequal_motions)
+    table = sm.long_table(batch, [unequal_scene])
+    heights, first_blocks = np.array([4.3, 3.7, 3.1]), []
+    for number, motion in enumerate(unequal_motions, start=1):
+        run, rows = sm.simulate(unequal_scene, motion), table.filter(motion=number)
+        assert rows["storey"].to_list() == [1, 2, 3]
+        np.testing.assert_allclose(rows["peak_drift_ratio"], run.peak_drift / heights, rtol=1e-15)
+        for name in ("peak_drift", "peak_drift_time", "residual_drift", "peak_storey_shear", "peak_floor_acceleration"):
+            np.testing.assert_array_equal(rows[name], getattr(run, name), err_msg=name)
+        assert rows["peak_base_shear"].unique().to_list() == [run.peak_storey_shear[0]]
+        chosen = [int(np.argmax(run.peak_slip[:2])), 2, 3]
+        first_blocks.append(chosen[0])
+        for name in PER_BLOCK:
+            np.testing.assert_array_equal(rows[name], getattr(run, name)[chosen], err_msg=name)
+        assert rows["block"].to_list() == [place + 1 for place in chosen]
+        lists = batch.row(number - 1, named=True)
+        np.testing.assert_allclose(lists["peak_drift_ratio"], run.peak_drift / heights, rtol=1e-15)
+
+
 def test_scenes_that_are_objects_of_all_kinds() -> None:
     scenes = [
         sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)]),

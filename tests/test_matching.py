@@ -67,6 +67,18 @@ def test_wavelet_leaves_no_velocity_and_no_displacement(dt: float, crest: float,
         assert placed.shortened.all()
 
 
+@pytest.mark.parametrize("crest", [-1.0, 0.02, 0.3, 1.7, 10.0, 19.6, 21.0])
+def test_wavelet_of_a_record_turned_round_is_the_wavelet_turned_round(crest: float) -> None:
+    """Both ends of a record are alike to windows that are symmetric; 1e-9 is rounding over (w dt)^2 of 1e-4."""
+    dt, samples, periods = 0.01, 2001, np.array([0.1, 0.5, 1.5, 4.0])
+    plain = np.zeros(4, dtype=np.bool_)
+    histories = np.zeros((2, 4, samples))
+    for history, at in zip(histories, (crest, 20.0 - crest), strict=True):
+        placed = place(np.full(4, at), periods, 0.05, dt, samples, plain)
+        history[:, placed.first : placed.last] = placed.samples
+    np.testing.assert_allclose(histories[0], histories[1][:, ::-1], rtol=0.0, atol=1e-9)
+
+
 def test_wavelet_is_the_second_derivative_of_its_displacement() -> None:
     """At its crest: -d'' of cos(w t) (1 - x^2)^6 / w^2 is 1 + 12 / (w h)^2."""
     dt, period = 0.001, 1.0

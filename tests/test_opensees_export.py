@@ -75,6 +75,38 @@ def test_folder_has_what_the_program_needs(tmp_path: Path) -> None:
     compile(files[0].read_text(), "model.py", "exec")
 
 
+def test_content_of_unequal_goods_and_storeys(unequal_scene: sm.Scene) -> None:
+    """Each block with its own numbers; P/h of storey 1 carries all floors and goods, that of storey 3 its own."""
+    content = model_content(unequal_scene)
+    assert content["mass"] == [44.1e3, 35.7e3, 22.4e3]
+    assert content["blocks"] == [
+        {"floor": 1, "mass": 18.9e3, "mu_s": 0.298, "mu_k": 0.214},
+        {"floor": 1, "mass": 11.5e3, "mu_s": 0.253, "mu_k": 0.154},
+        {"floor": 2, "mass": 13.7e3, "mu_s": 0.349, "mu_k": 0.184},
+        {"floor": 3, "mass": 7.8e3, "mu_s": 0.291, "mu_k": 0.24},
+    ]
+    own = np.array([461e3, 367e3, 251e3]) + sm.STANDARD_GRAVITY * np.array([30.4e3, 13.7e3, 7.8e3])
+    load = np.array([own.sum(), own[1:].sum(), own[2]])
+    np.testing.assert_allclose(content["p_over_h"], load / [4.3, 3.7, 3.1], rtol=1e-13)
+    for storey, (stiffness, strength, omega, second, third) in enumerate(
+        [
+            (29.3e6, 283e3, 1.87, 0.067, 0.013),
+            (23.1e6, 227e3, 2.11, 0.053, 0.0103),
+            (16.1e6, 139e3, 1.61, 0.043, 0.0083),
+        ]
+    ):
+        # Forces of the trilinear backbone in each of its three parts.
+        first = strength / stiffness
+        last = first + (omega - 1.0) * strength / (second * stiffness)
+        at = [0.5 * first, 0.5 * (first + last), 2.0 * last]
+        forces = [
+            0.5 * strength,
+            0.5 * (1.0 + omega) * strength,
+            omega * strength + third * stiffness * last,
+        ]
+        assert in_parallel(content["springs"][storey], at) == pytest.approx(forces, rel=1e-12)
+
+
 @pytest.mark.parametrize(
     ("changes", "what"),
     [

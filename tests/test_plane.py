@@ -147,7 +147,7 @@ def test_pairs_of_scene_files(tmp_path: Path) -> None:
         sm.read_scene(path)
 
 
-@pytest.mark.skipif("SEISMASS_SHARED" not in os.environ, reason="SEISMASS_SHARED is not set")
+@pytest.mark.skipif("SEISMASS_SHARED" not in os.environ, reason="SEISMASS_SHARED is not set: no reference scenes")
 @pytest.mark.parametrize("name", ["25_plane", "33_plane_rack", "36_plane_stop"])
 def test_reference_scenes_from_files(name: str) -> None:
     folder = Path(os.environ["SEISMASS_SHARED"], "reference", "general")

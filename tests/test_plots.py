@@ -29,8 +29,18 @@ G = sm.STANDARD_GRAVITY
 
 
 def scene() -> sm.Scene:
-    building = sm.Building.uniform(3, 0.6, mass=2e4, yield_shear_over_weight=[0.24, 0.20, 0.12], heights=3.5)
-    return sm.Scene(building, sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.1), name="three storeys")
+    building = sm.Building.uniform(
+        3,
+        0.6,
+        mass=2e4,
+        yield_shear_over_weight=[0.24, 0.20, 0.12],
+        overstrength=[2.1, 1.7, 1.9],
+        second_slope=[0.05, 0.07, 0.037],
+        third_slope=[0.0, 0.013, 0.007],
+        heights=[3.9, 3.5, 2.9],
+    )
+    blocks = [sm.Block(1, mass_ratio=1.0, mu_s=0.13, mu_k=0.1), sm.Block(2, mass_ratio=0.7, mu_s=0.12, mu_k=0.083)]
+    return sm.Scene(building, blocks, name="three storeys")
 
 
 @pytest.fixture(scope="module")
@@ -232,10 +242,13 @@ def test_loops_are_those_of_the_run_within_their_backbone(response: sm.Response)
         way, force = drawn["backbone"].get_xdata(), 1e3 * drawn["backbone"].get_ydata()
         assert way[-1] == -way[0] == 1e3 * response.peak_drift[number]
         np.testing.assert_array_equal(force, -force[::-1])
-        # Trilinear (Building): k to V_y, second slope to Omega V_y, then the third, which is 0 here.
-        k, v_y = building.stiffness[number], building.yield_shear[number]
-        second = v_y + 0.05 * k * (1e-3 * np.abs(way) - v_y / k)
-        expected = np.minimum(np.minimum(k * 1e-3 * np.abs(way), second), 2.0 * v_y)
+        # Trilinear (Building): k to V_y, second slope to Omega V_y, then the third.
+        k, v_y, drift = building.stiffness[number], building.yield_shear[number], 1e-3 * np.abs(way)
+        omega, r2, r3 = [(2.1, 0.05, 0.0), (1.7, 0.07, 0.013), (1.9, 0.037, 0.007)][number]
+        second = v_y + r2 * k * (drift - v_y / k)
+        last = v_y / k * (1.0 + (omega - 1.0) / r2)
+        third = omega * v_y + r3 * k * (drift - last)
+        expected = np.where(drift > last, third, np.minimum(k * drift, second))
         np.testing.assert_allclose(np.abs(force), expected, rtol=1e-9)
 
 

@@ -16,7 +16,7 @@ import seismass as sm
 def runs() -> tuple[pl.DataFrame, pl.DataFrame]:
     """Rows of a batch and of its long table: one building, four intensities, seven motions, some collapsed."""
     building = sm.Building.uniform(
-        3, 0.6, mass=2e4, yield_shear_over_weight=[0.24, 0.20, 0.12], heights=3.5, gravity_load=2e5
+        3, 0.6, mass=2e4, yield_shear_over_weight=[0.24, 0.20, 0.12], heights=[3.9, 3.5, 2.9], gravity_load=2e5
     )
     grid = sm.Grid.product(building, roof="bare", mass_ratio=[1.0], mu=[0.2], scale=[0.5, 1.0, 2.0, 3.0])
     table = sm.simulate_many(grid, sm.builtin_suite("seven"))
@@ -120,6 +120,24 @@ def test_drift_profiles_have_runs_and_fractiles(runs: tuple[pl.DataFrame, pl.Dat
         sm.errors.InvalidOption, match=r"table of drift profiles must be runs of buildings with equally many"
     ):
         sm.plots.drift_profiles(one.with_columns(peak_drift=pl.col("peak_drift").list.head(pl.col("motion"))))
+
+
+def test_profiles_count_a_collapse_as_larger_than_all(runs: tuple[pl.DataFrame, pl.DataFrame]) -> None:
+    """Of seven runs the median is the fourth; 84 % lies between the sixth and the seventh, of which one fell."""
+    table, long = runs
+    for rows in (table.filter(scene=4), long.filter(scene=4)):
+        axes = sm.plots.drift_profiles(rows).axes[0]
+        listed = table.filter(scene=4)
+        fell = (listed["status"] == "collapsed").to_numpy()
+        assert 0 < fell.sum() < 4
+        values = 1e3 * np.array(listed["peak_drift"].to_list())
+        ordered = np.sort(np.where(fell[:, None], np.inf, values), axis=0)
+        np.testing.assert_array_equal(of(axes, "median")[0][:, 0], ordered[3])
+        assert np.isinf(of(axes, "84 %")[0][:, 0]).all()
+        np.testing.assert_allclose(of(axes, "16 %")[0][:, 0], 0.04 * ordered[0] + 0.96 * ordered[1], rtol=1e-12)
+        # Each run is drawn to where it came.
+        for run, drawn in zip(values, of(axes, "run"), strict=True):
+            np.testing.assert_array_equal(drawn[:, 0], run)
 
 
 def test_figures_of_batches_refuse_what_they_cannot_draw(runs: tuple[pl.DataFrame, pl.DataFrame]) -> None:

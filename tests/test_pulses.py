@@ -212,6 +212,36 @@ def test_a_late_pulse_is_refused(period: float) -> None:
     assert any("arrives late" in reason for reason in both.chosen.reasons)
 
 
+def test_early_is_a_record_below_its_share_at_the_time_of_the_pulse() -> None:
+    """At steps so long that both reach their shares within one: at that time the record is not below 20 %.
+
+    Shahi and Baker (2014): 17 %. Baker (2007): "below 20 %" of its own at the time of 10 % of the pulse.
+    """
+    samples, dt, at_once = np.arange(60), 0.15, 0
+    for seed in range(12):
+        rng = np.random.default_rng(seed)
+        x = (samples * dt - 3.0) / 1.1
+        bell = np.where(np.abs(x) < 1.0, 0.5 * (1.0 + np.cos(np.pi * x)) * np.cos(2.0 * np.pi * x), 0.0)
+        velocity = 0.6 * bell + rng.uniform(0.05, 0.3) * rng.standard_normal(60) * np.exp(-0.02 * samples)
+        made = sm.Record(np.gradient(velocity, dt), dt)
+        single = baker2007(made).chosen
+        both = shahi_baker2014(made, sm.Record(1e-3 * np.gradient(bell, dt), dt)).chosen
+        assert single.early is bool(single.energy_before < 0.20)
+        assert both.early is bool(both.energy_before < 0.17)
+        # The last sample at which the pulse has at most 5 %, and what the record has there.
+        pulse, whole = (
+            np.cumsum(np.square(values)) / np.sum(np.square(values)) for values in (both.pulse, both.velocity)
+        )
+        last = round(both.arrival / dt)
+        assert pulse[last] <= 0.05 < pulse[last + 1]
+        assert both.energy_before == pytest.approx(whole[last], rel=1e-12)
+        begins = round(single.arrival / dt)
+        squares = np.cumsum(np.square(single.velocity))
+        assert single.energy_before == pytest.approx(squares[begins] / squares[-1], rel=1e-12)
+        at_once += not single.early and squares[begins - 1] < 0.2 * squares[-1]
+    assert at_once > 0
+
+
 def test_a_small_pulse_is_none() -> None:
     """Baker: peak velocity above 30 cm/s. The indicator, of ratios alone, does not see the size."""
     large = baker2007(record(0.301 * bell_pulse(2.5, 8.0)))

@@ -48,7 +48,7 @@ def put(folder: Path, name: str, content: bytes) -> Path:
 
 
 def read(path: Path, factor: object = FACTOR) -> tuple[Record, ...]:
-    pytest.importorskip("obspy")
+    pytest.importorskip("obspy", reason="obspy is not installed: no counts are read")
     return read_counts(path, factor=factor)  # type: ignore[arg-type]
 
 

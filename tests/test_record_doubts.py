@@ -279,6 +279,28 @@ def test_where_a_sensor_stands(tmp_path: Path) -> None:
     assert read_suite(tmp_path / "list.csv")[0].place == "Roof"
 
 
+@pytest.mark.parametrize(
+    ("direction", "component", "azimuth", "deep"),
+    [
+        ("1", "NS1", 0.0, True),
+        ("2", "EW1", 90.0, True),
+        ("3", "UD1", None, True),
+        ("4", "NS2", 0.0, False),
+        ("5", "EW2", 90.0, False),
+        ("6", "UD2", None, False),
+    ],
+)
+def test_directions_of_kik_net(
+    tmp_path: Path, direction: str, component: str, azimuth: float | None, deep: bool
+) -> None:
+    """NIED: 1 to 3 are N-S, E-W and U-D of the borehole, 4 to 6 of the surface."""
+    found = read_record(put(tmp_path, f"made.{component}", MADE["knet"](direction=direction)))
+    assert (found.component, found.azimuth, found.network) == (component, azimuth, "KiK-net")
+    assert found.place == ("borehole" if deep else "")
+    told = [remark for remark in found.remarks if "borehole" in remark]
+    assert told == ([f"component {component} is that of the borehole sensor, not of the surface"] if deep else [])
+
+
 def test_compass_letters_before_the_operator(tmp_path: Path) -> None:
     assert [azimuth_of(one) for one in ("N (CWB)", "E (CWB)", "360 (CDMG STATION 1)")] == [0.0, 90.0, 0.0]
     text = FILES["made.AT2"].decode()

@@ -383,7 +383,6 @@ def test_remarks_say_what_a_reader_did(tmp_path: Path) -> None:
         assert "uncorrected" in remarks[name]
     for name in ("made.AT2", "made_v2.cosmos", "made.V2", "made.ASC", "made.smc", "made.txt"):
         assert remarks[name] == ""
-    assert "borehole" in read_record(put(tmp_path, "made.EW1", MADE["knet"](direction="2"))).remarks[1]
 
 
 @pytest.mark.parametrize("name", sorted(FILES))

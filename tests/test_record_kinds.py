@@ -44,7 +44,7 @@ def test_files_of_others_of_the_same_kinds(shared: Path) -> None:
     """Their motion has its peak, 0.3 g, to 2.1e-3 g in those whose times or digits are rounded."""
     folder = shared / "findings" / "motions" / "inputs"
     if not folder.is_dir():
-        pytest.skip("no files of others")
+        pytest.skip(f"no folder {folder}: motions of others are not read")
     files = [path for path in folder.iterdir() if path.name in KINDS]
     assert len(files) >= 40
     for path in files:

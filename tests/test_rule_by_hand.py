@@ -7,6 +7,7 @@ import polars as pl
 import pytest
 
 import seismass as sm
+from seismass.effective_mass.by_hand import yield_drift
 from seismass.effective_mass.estimate import (
     base_shear_by_hand,
     best_estimate,
@@ -66,6 +67,44 @@ def test_base_shear_by_hand_is_near_that_of_runs() -> None:
         assert found.by_hand.yields == (strength is not None)
         assert found.by_hand.base_shear_coefficient == pytest.approx(found.base_shear_coefficient, rel=0.15)
         assert found.by_hand.eta == pytest.approx(0.2 / found.by_hand.base_shear_coefficient, rel=1e-14)
+
+
+def test_rule_of_unequal_goods_and_storeys(unequal_scene: sm.Scene, unequal_motions: tuple[sm.Record, ...]) -> None:
+    """What the rule takes, worked out here: levels of 4.3, 8.0 and 11.1 m, and the spring of storey 1 alone."""
+    building = unequal_scene.building
+    assert building is not None
+    mass, goods, levels = np.array([44.1, 35.7, 22.4]), np.array([30.4, 13.7, 7.8]), np.array([4.3, 8.0, 11.1])
+    found = sm.effective_mass(unequal_scene, unequal_motions, fractions=[0.0, 1.0], resamples=1)
+    rule = found.by_hand
+    heights = (goods @ levels / goods.sum()) / ((mass + goods) @ levels / (mass + goods).sum())
+    assert rule.height_ratio == pytest.approx(heights, rel=1e-12)
+    assert rule.period == building.periods[0]
+    assert rule.yields
+    ratio = min(rule.period / rule.corner_period, 1.5)
+    assert rule.exponent == pytest.approx(1.2 * (1.0 + ratio), rel=1e-14)
+    # C1 by hand, of the period and the elastic base shear with all goods attached.
+    motions = [motion.motion for motion in unequal_motions]
+
+    def spectrum(periods: np.ndarray) -> np.ndarray:
+        return np.mean([sm.response_spectrum(motion, periods)[0] for motion in motions], axis=0)
+
+    elastic = sm.design.response_spectrum_analysis(1e3 * (mass + goods), [29.3e6, 23.1e6, 16.1e6], spectrum)
+    weight = 9.80665e3 * (mass + goods).sum()
+    strength, demand = 283e3 / weight, elastic.storey_shear[0] / weight
+    ductility = (demand / strength - 1.0) * (1.0 + 0.6 * rule.corner_period / elastic.modes.periods[0])
+    expected = min(1.07 * demand, strength * min(1.87, 1.0 + 0.067 * ductility))
+    assert rule.base_shear_coefficient == pytest.approx(expected, rel=1e-9)
+    mu_k = (18.9 * 0.214 + 11.5 * 0.154 + 13.7 * 0.184 + 7.8 * 0.24) / 51.9
+    assert rule.eta == pytest.approx(mu_k / expected, rel=1e-9)
+    assert rule.estimate == pytest.approx(min(1.0, (rule.eta / heights**0.5) ** rule.exponent), rel=1e-12)
+    assert found.conservative == pytest.approx(min(1.0, found.eta / heights**0.5), rel=1e-12)
+
+
+def test_drift_at_yield_is_over_the_height_of_the_storey(unequal_scene: sm.Scene) -> None:
+    assert unequal_scene.building is not None
+    drifts = np.array([283e3 / 29.3e6, 227e3 / 23.1e6, 139e3 / 16.1e6])
+    np.testing.assert_allclose(yield_drift(unequal_scene.building), drifts / [4.3, 3.7, 3.1], rtol=1e-14)
+    np.testing.assert_allclose(yield_drift(unequal_scene.building.replace(heights=None, gravity_load=None)), drifts)
 
 
 def test_corner_period_follows_time_and_not_amplitude() -> None:

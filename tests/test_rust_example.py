@@ -22,7 +22,7 @@ def program() -> list[str]:
     if built.is_file() and built.stat().st_mtime > max(file.stat().st_mtime for file in sources):
         return [str(built)]
     if shutil.which("cargo") is None:
-        pytest.skip("no cargo")
+        pytest.skip("no cargo on the path: the example is not built")
     return ["cargo", "run", "--locked", "--quiet", "-p", "seismass", "--example", "warehouse"]
 
 

@@ -61,6 +61,26 @@ def test_mean_of_each_preset_touches_what_is_asked_for(scale, suite: list[sm.Rec
         np.testing.assert_allclose(found.factors, found.individual * found.common, rtol=1e-15)
 
 
+@pytest.mark.parametrize(
+    ("scale", "words", "clause"),
+    [
+        # 7-10: "not less than three appropriate ground motions"; 7-16: "not less than 11 ground motions".
+        (sm.scaling.scale_asce7_10, "three", "ASCE/SEI 7-10, 16.1.3"),
+        (sm.scaling.scale_asce7_16, "eleven", "ASCE/SEI 7-16, 16.2.2"),
+    ],
+)
+def test_too_few_motions_are_told_the_clause(scale, words: str, clause: str) -> None:
+    message = f"records of scaling must be at least {words} motions ({clause}); got 2"
+    with pytest.raises(sm.errors.InvalidMotion, match=f"^{re.escape(message)}$"):
+        scale(SUITE[:2], TARGET)
+
+
+def test_too_short_a_range_is_told_the_clause() -> None:
+    message = "longest of scaling must be at least 1.5 (ASCE/SEI 7-16, 16.2.3.1); got 1.49"
+    with pytest.raises(sm.errors.InvalidOption, match=f"^{re.escape(message)}$"):
+        sm.scaling.scale_asce7_16(ELEVEN, TARGET, longest=1.49)
+
+
 def test_asce7_16_range() -> None:
     def ends(**options: object) -> list[float]:
         return sm.scaling.scale_asce7_16(ELEVEN, TARGET, **options).periods[[0, -1]].tolist()

@@ -32,7 +32,7 @@ def test_a_slab_alone_is_a_block_on_the_ground() -> None:
     assert len(slab.peak_drift) == len(slab.peak_slip) == 0
 
 
-@pytest.mark.skipif(not SHARED, reason="needs SEISMASS_SHARED")
+@pytest.mark.skipif(not SHARED, reason="SEISMASS_SHARED is not set: no recordings")
 def test_a_mat_below_three_storeys() -> None:
     """An integrator of small steps, first order: 47.15 mm without damping; 37.67 mm and 3.43 mm of storey drift
     with 2 % in the modes of the structure fixed at its base."""
@@ -50,7 +50,7 @@ def test_a_mat_below_three_storeys() -> None:
     assert 1e3 * damped.peak_drift[0] == pytest.approx(3.43, rel=2e-3)
 
 
-@pytest.mark.skipif(not SHARED, reason="needs SEISMASS_SHARED")
+@pytest.mark.skipif(not SHARED, reason="SEISMASS_SHARED is not set: no recordings")
 def test_a_friction_pendulum_below_three_storeys() -> None:
     """A backbone whose first line ends at 1e-8 m goes to the same as that length goes to 0 (4.5e-5 apart at 1e-7 m)."""
     record = sm.read_record(Path(SHARED) / "records/02_Loma_Prieta_1989_Gilroy_Array_3/RSN767_LOMAP_G03000.AT2")

@@ -23,6 +23,7 @@ from seismass.slip import (
     slip_demand,
     wilson_interval,
 )
+from seismass.slip.clearance import exceedance_table
 from seismass.slip.squat import demand_in_g
 
 G = sm.STANDARD_GRAVITY
@@ -135,6 +136,15 @@ def test_turns_of_a_cubic_are_exact() -> None:
     assert plus[0] == pytest.approx(2.0 / 3.0**1.5, rel=1e-12) or minus[0] == pytest.approx(2.0 / 3.0**1.5, rel=1e-12)
 
 
+def test_no_side_goes_further_than_the_exact_peak() -> None:
+    """Cubics that overshoot to both sides: the further side is the exact peak, the other one at most that."""
+    rate = np.array([[2.0, -2.0], [2.0, -2.0], [2.3, -2.3]])
+    plus, minus = signed_peaks(np.zeros((3, 2)), rate, 0.5, np.array([0.05, 0.07]))
+    # 0.5 x 2 s (1 - s)(1 - 2 s) has its extrema of 0.096 at s = 1/2 -+ 1/sqrt(12).
+    assert 0.5 * 2.0 * 3.0**-0.5 / 6.0 > 0.07
+    assert plus.tolist() == minus.tolist() == [0.05, 0.07]
+
+
 def test_stiff_building_is_the_ground(suite: list[sm.Record]) -> None:
     """An elastic storey of 0.004 s moves with the ground, so that goods slide as there; to (w dt)^-2 or so."""
     scene = sm.Scene(sm.Building.uniform(1, 0.004), [sm.Block(1, mass_ratio=0.5, mu=0.15)])
@@ -159,6 +169,63 @@ def test_statistics_are_those_of_the_rows(suite: list[sm.Record]) -> None:
     assert found.runs.filter(block=1)["floor_acceleration_g"].to_list() == pytest.approx(
         [row[0] / G for row in table["peak_floor_acceleration"].to_list()], rel=1e-15
     )
+
+
+def test_unequal_goods_have_their_own_numbers(unequal_scene: sm.Scene, unequal_motions: tuple[sm.Record, ...]) -> None:
+    """Slips, floors, frictions and estimates of four blocks, two of them on floor 1, each by runs of its own."""
+    frictions = [(0.298, 0.214), (0.253, 0.154), (0.349, 0.184), (0.291, 0.24)]
+    floors = [1, 1, 2, 3]
+    found = slip_demand(unequal_scene, unequal_motions, clearance=0.03)
+    assert found.blocks.select("floor", "mu_s", "mu_k").rows() == [
+        (floor, *pair) for floor, pair in zip(floors, frictions, strict=True)
+    ]
+    alone, full = (sm.attached_scene(unequal_scene, share) for share in (0.0, 1.0))
+    for number, record in enumerate(unequal_motions, start=1):
+        real = sm.simulate(unequal_scene, record, histories=True)
+        bare, attached = (sm.simulate(scene, record) for scene in (alone, full))
+        rows = found.runs.filter(motion=number)
+        for column, values in {
+            "peak_slip": real.peak_slip,
+            "residual_slip": real.residual_slip,
+            "slip_path": real.slip_path,
+            "floor_acceleration_g": real.peak_floor_acceleration[[0, 0, 1, 2]] / G,
+            "alone_acceleration_g": bare.peak_floor_acceleration[[0, 0, 1, 2]] / G,
+            "attached_acceleration_g": attached.peak_floor_acceleration[[0, 0, 1, 2]] / G,
+        }.items():
+            np.testing.assert_allclose(rows[column], values, rtol=1e-12, err_msg=column)
+        static = np.array([mu_s for mu_s, _ in frictions])
+        over = static * G / attached.peak_floor_acceleration[[0, 0, 1, 2]]
+        np.testing.assert_allclose(rows["mu_over_attached"], over, rtol=1e-12)
+        # The larger of both sides is the peak; each side is at least what samples show.
+        np.testing.assert_array_equal(np.maximum(rows["slip_plus"], rows["slip_minus"]), real.peak_slip)
+        assert (rows["slip_plus"].to_numpy() >= real.slip.max(axis=0)).all()
+        assert (rows["slip_minus"].to_numpy() >= -real.slip.min(axis=0)).all()
+        base = Base(record.motion, record.pga, record.pgv, 0.0)
+        estimated = found.estimate_runs.filter(motion=number, base="ground")
+        for place, (mu_s, mu_k) in enumerate(frictions, start=1):
+            own = dict(estimated.filter(block=place).select("estimate", "slip").iter_rows())
+            on_ground = sm.Scene(None, [sm.Block(0, mass=1.0, mu_s=mu_s, mu_k=mu_k)])
+            assert own["rigid_block"] == pytest.approx(sm.simulate(on_ground, record).peak_slip[0], rel=1e-12)
+            assert own["newmark_pulse"] == pytest.approx(newmark_pulse(base, mu_k), rel=1e-9)
+            assert own["newmark_bound"] == pytest.approx(newmark_bound(base, mu_k), rel=1e-9)
+        # Under a floor: the absolute velocity of the floor in the building alone, and the kinetic friction.
+        under = sm.simulate(alone, record, histories=True)
+        velocity = np.abs(under.floor_velocity + record.velocity[:, None]).max(axis=0)
+        of_floor = found.estimate_runs.filter(motion=number, base="floor", estimate="newmark_pulse")["slip"]
+        for slip, floor, (_, mu_k) in zip(of_floor, floors, frictions, strict=True):
+            peak = under.peak_floor_acceleration[floor - 1]
+            limit = mu_k * G
+            expected = velocity[floor - 1] ** 2 / (2.0 * limit) * (1.0 - limit / peak) if peak > limit else 0.0
+            assert slip == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_clearance_is_exceeded_beyond_it() -> None:
+    """Slips of 0.1 and 0.2 m to one side, 0.3 and 0.05 m to the other one, against 0.1 and 0.05 m."""
+    plus, minus = np.array([[0.1], [0.2]]), np.array([[0.3], [0.05]])
+    table = exceedance_table(plus, minus, (Clearance(plus=0.1, minus=0.05),), 0.9)
+    assert table.select("side", "exceeding", "clearance").rows() == [("+", 1, 0.1), ("-", 1, 0.05), ("any", 2, 0.05)]
+    lost = exceedance_table(np.array([[np.inf]]), np.array([[np.inf]]), (Clearance(plus=0.1),), 0.9)
+    assert lost.select("side", "exceeding").rows() == [("+", 1), ("any", 1)]
 
 
 def test_clearances_by_side(suite: list[sm.Record]) -> None:

@@ -84,7 +84,7 @@ def test_weights_shears_and_drift_ratios(tmp_path: Path) -> None:
 
 
 def test_a_workbook_is_read_as_the_same_table(tmp_path: Path) -> None:
-    openpyxl = pytest.importorskip("openpyxl")
+    openpyxl = pytest.importorskip("openpyxl", reason="openpyxl is not installed: no workbook is read")
     rows = [
         ("Story", "Height (m)", "Mass (t)", "Yield Shear (kN)"),
         ("Roof", 3.0, 100, 900),

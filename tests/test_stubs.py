@@ -12,9 +12,9 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 
 
-@pytest.mark.skipif(shutil.which("cargo") is None, reason="needs the Rust toolchain")
+@pytest.mark.skipif(shutil.which("cargo") is None, reason="no cargo on the path: stubs are not made again")
 def test_stubs_are_current() -> None:
-    pytest.importorskip("maturin")
+    pytest.importorskip("maturin", reason="maturin is not installed: stubs are not made again")
     command = [sys.executable, str(ROOT / "tools" / "make_stubs.py"), "--check"]
     check = subprocess.run(command, capture_output=True, text=True, check=False)
     assert check.returncode == 0, check.stdout + check.stderr

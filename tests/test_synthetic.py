@@ -229,7 +229,8 @@ def test_writing_leaves_a_readable_suite(tmp_path: Path) -> None:
 
 
 def test_page_of_synthetic_motions_is_current() -> None:
-    pytest.importorskip("pywt")  # Baker's method, of which the page has a column
+    # Baker's method, of which the page has a column.
+    pytest.importorskip("pywt", reason="PyWavelets is not installed: the page is not made again")
     root = Path(__file__).parents[1]
     page = runpy.run_path(str(root / "tools" / "synthetic_page.py"))["page"]()
     assert (root / "docs" / "synthetic.md").read_text(encoding="utf-8") == page

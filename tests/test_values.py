@@ -13,7 +13,7 @@ import pytest
 import seismass as sm
 from seismass.assessment.building_file import example_file
 
-BUILDING = sm.Building.uniform(2, 0.3, heights=3.0, yield_shear_over_weight=[0.2, 0.12])
+BUILDING = sm.Building.uniform(2, 0.3, heights=[3.4, 2.7], yield_shear_over_weight=[0.2, 0.12])
 SCENE = sm.Scene(BUILDING, [sm.Block(1, mass_ratio=0.5, mu=0.2)])
 MOTION = sm.Motion([2.0, -2.0, 2.0, 0.0], dt=0.1, vertical=[0.0, 1.0, 0.0, -1.0])
 SUITE = sm.builtin_suite("seven")

@@ -37,7 +37,7 @@ def test_every_linked_crate_has_its_licence_in_the_file() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     assert "THIRD-PARTY-LICENCES.txt" in project["license-files"]
     if shutil.which("cargo") is None:
-        pytest.skip("no cargo")
+        pytest.skip("no cargo on the path: the crates that are linked are not listed")
     command = ["cargo", "tree", "--locked", "--target", "all", "--edges", "normal", "--prefix", "none"]
     command += ["-p", "seismass-python", "-p", "seismass-web"]
     tree = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True, timeout=300).stdout
@@ -63,7 +63,7 @@ def test_audit_allows_the_licences_that_are_linked_and_the_index_alone() -> None
         for part in needed.split(" AND "):
             assert allowed & set(part.split(" OR ")), expression
     if shutil.which("cargo-deny") is None:
-        pytest.skip("no cargo-deny: the configuration is held against the licences of linked crates alone")
+        pytest.skip("no cargo-deny on the path: the configuration is held against the licences of linked crates alone")
     command = ["cargo-deny", "--locked", "--offline", "check", "bans", "licenses", "sources"]
     checked = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
     assert checked.returncode == 0, checked.stdout + checked.stderr

@@ -1,0 +1,122 @@
+"""An assessment of a building whose storeys, goods and shares are all unequal: each row has its own numbers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import seismass as sm
+
+G = 9.80665
+
+
+@pytest.fixture(scope="module")
+def unequal(unequal_building: sm.assessment.OwnBuilding, unequal_motions: tuple[sm.Record, ...]) -> sm.Assessment:
+    return sm.assess(unequal_building, unequal_motions, scale=False, resamples=2)
+
+
+def test_unequal_storeys_and_goods_have_their_own_rows(
+    unequal: sm.Assessment, unequal_motions: tuple[sm.Record, ...]
+) -> None:
+    """Drifts, stability and slips of each storey and each kind again, from single runs of models made here."""
+    heights, stiffness = np.array([4.3, 3.7, 3.1]), np.array([1.93e8, 1.57e8, 1.13e8])
+    loads = 1e3 * np.array([6.1 * 530.0, 4.3 * 470.0, 1.9 * 410.0])
+    present = np.array([0.59 * 0.88 + 0.41 * 0.55, 0.71, 0.43]) * loads
+    gravity = np.cumsum((np.array([3.07e6, 2.39e6, 1.64e6]) + present)[::-1])[::-1]
+    frictions = [(1, 0.298, 0.214), (1, 0.253, 0.154), (2, 0.349, 0.184), (3, 0.291, 0.24)]
+    real = unequal.building.scene()
+    assert real.building is not None
+    assert unequal.advised is not None
+    bare = real.building.replace(
+        damping=real.building.damping_matrix, gravity_load=None, geometric_stiffness=gravity / heights
+    )
+
+    def attached(mass: Any) -> sm.Scene:
+        return sm.Scene(bare.replace(mass=real.building.mass + mass / G))
+
+    scenes = {
+        "real": real,
+        "real_mu_low": unequal.building.scene(mu_factor=0.71),
+        "real_mu_high": unequal.building.scene(mu_factor=1.37),
+        "advised": attached(unequal.advised * present),
+        "code": attached(0.25 * loads),
+        "attached": attached(present),
+        "bare": attached(0.0),
+    }
+    assert list(scenes) == unequal.storeys["model"].unique(maintain_order=True).to_list()
+    means = {}
+    for model, scene in scenes.items():
+        runs = [sm.simulate(scene, motion) for motion in unequal_motions]
+        drift = np.array([run.peak_drift for run in runs])
+        shear = np.array([run.peak_storey_shear for run in runs]).mean(axis=0)
+        rows = unequal.storeys.filter(model=model)
+        means[model] = (drift / heights).mean(axis=0)
+        for column, values in {
+            "mean": means[model],
+            "p16": np.quantile(drift / heights, 0.16, axis=0),
+            "median": np.median(drift / heights, axis=0),
+            "p84": np.quantile(drift / heights, 0.84, axis=0),
+            "max": (drift / heights).max(axis=0),
+            "mean_over_limit": means[model] / 0.017,
+            "motions_above_limit": (drift / heights > 0.017).sum(axis=0),
+            "mean_peak_shear": shear,
+            "theta": gravity * drift.mean(axis=0) / (shear * heights),
+            "theta_elastic": gravity / (stiffness * heights),
+        }.items():
+            np.testing.assert_allclose(rows[column], values, rtol=1e-10, err_msg=f"{model}, {column}")
+        if not scene.goods:
+            continue
+        slips, residuals = (np.array([getattr(run, name) for run in runs]) for name in ("peak_slip", "residual_slip"))
+        factor = {"real": 1.0, "real_mu_low": 0.71, "real_mu_high": 1.37}[model]
+        table = unequal.slip.filter(model=model)
+        assert table["goods"].to_list() == ["pallets", "drums", "", ""]
+        for row, (floor, mu_s, mu_k), peak, left in zip(
+            table.iter_rows(named=True), frictions, slips.T, np.abs(residuals.T), strict=True
+        ):
+            assert (row["floor"], row["mu_s"], row["mu_k"]) == (floor, factor * mu_s, factor * mu_k)
+            assert row["motions_that_slide"] == (peak > 0.0).sum()
+            found = [row[f"peak_{name}"] for name in ("mean", "p16", "median", "p84", "max")]
+            expected = [peak.mean(), *np.quantile(peak, [0.16, 0.5, 0.84]), peak.max()]
+            assert found == pytest.approx(expected, rel=1e-12, abs=1e-15)
+            found = [row[f"residual_{name}"] for name in ("mean", "median", "p84")]
+            assert found == pytest.approx([left.mean(), *np.quantile(left, [0.5, 0.84])], rel=1e-12, abs=1e-15)
+        # Of two kinds on a floor the one that slides further.
+        rows = unequal.runs.filter(model=model)
+        np.testing.assert_allclose(rows.filter(storey=1)["peak_slip"], slips[:, :2].max(axis=1), rtol=1e-12)
+        np.testing.assert_allclose(rows.filter(storey=2)["peak_slip"], slips[:, 2], rtol=1e-12)
+        np.testing.assert_allclose(rows.filter(storey=3)["residual_drift"], [run.residual_drift[2] for run in runs])
+    words = {"real": "mu as stated", "real_mu_high": "mu x 1.37", "real_mu_low": "mu x 0.71"}
+    for place, row in enumerate(unequal.governing.iter_rows(named=True)):
+        sliding = max(words, key=lambda model, place=place: means[model][place])
+        of = {model: means[model][place] for model in ("advised", "bare", *words)}
+        assert row["sliding_at"] == words[sliding]
+        assert row["sliding"] == pytest.approx(of[sliding], rel=1e-10)
+        assert row["governing"] == pytest.approx(max(of.values()), rel=1e-10)
+        by = max(of, key=lambda model, of=of: of[model])
+        names = {"advised": "analysis 1", "bare": "analysis 2"}
+        assert row["governed_by"] == names.get(by, f"goods slide, {words.get(by)}")
+        assert row["governing_over_limit"] == pytest.approx(max(of.values()) / 0.017, rel=1e-10)
+
+
+def test_shares_are_told_of_the_goods_present_and_of_the_design_load(unequal: sm.Assessment) -> None:
+    """The code counts 0.25 of the design load, which is 0.36 of the goods; the share advised is of the goods."""
+    loads = np.array([6.1 * 530.0, 4.3 * 470.0, 1.9 * 410.0])
+    present = np.array([0.59 * 0.88 + 0.41 * 0.55, 0.71, 0.43])
+    share = present @ loads / loads.sum()
+    assert unequal.advised is not None
+    text = " ".join(unequal.text.split())
+    assert f"ASCE/SEI 7-10, storage: {0.25 / share:.2f} of the goods present (0.25 of the design live load)" in text
+    own = f"lambda = {unequal.advised:.2f} of the goods present ({unequal.advised * share:.2f} of the design live load)"
+    assert own in text
+    assert unequal.advised_of_live_load == pytest.approx(unequal.advised * share, rel=1e-12)
+    assert f"present: {share:.3g} of the design live load of the whole building" in text
+    masses = unequal.tables["analysis"]
+    np.testing.assert_allclose(masses["multiplier_1"], unequal.advised * present, rtol=1e-12)
+    np.testing.assert_allclose(masses["multiplier_2"], 0.0, atol=0.0)
+    floors = np.array([5.3 * 530.0, 4.7 * 470.0, 3.7 * 410.0])
+    np.testing.assert_allclose(masses["weight_1_kn"], floors + unequal.advised * present * loads, rtol=1e-12)
+    real = unequal.effective["real"]
+    mu_k = np.array([0.59 * 0.88 * 0.214 + 0.41 * 0.55 * 0.154, 0.71 * 0.184, 0.43 * 0.24]) @ loads / (present @ loads)
+    assert f"eta = mu_k/C1 = {mu_k / real.base_shear_coefficient:.3f}" in text
