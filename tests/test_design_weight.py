@@ -54,7 +54,9 @@ def test_garages_are_exempt_where_the_code_says_so() -> None:
     np.testing.assert_allclose(found.weight, [1000.0, 1200.0], rtol=1e-14)
     assert found.table["exception"].to_list() == ["garage", ""]
     assert design.effective_seismic_weight([1.0], [9.0], code_id="nbc", use="garage").status == FROM_MEMORY
-    with pytest.raises(sm.errors.InvalidOption, match="use of code ec8 must be storage or ordinary; got 'garage'"):
+    with pytest.raises(
+        sm.errors.InvalidOption, match="use of code ec8 must be storage or ordinary or shop; got garage"
+    ):
         design.effective_seismic_weight([1.0], [9.0], code_id="ec8", use="garage")
 
 
@@ -119,7 +121,10 @@ def test_live_load_per_area_decides_in_some_codes() -> None:
     [
         ({"live": [1.0]}, "live of seismic weight must be 2 values, one per floor; got 1 values"),
         ({"dead": [1.0, -1.0]}, r"dead of seismic weight must be numbers of at least 0; got \[1.0, -1.0\]"),
-        ({"use": "office"}, "use of seismic weight must be one of storage, ordinary, garage; got 'office'"),
+        (
+            {"use": "office"},
+            "use of seismic weight must be one of storage, ordinary, archive, shop, garage; got 'office'",
+        ),
         ({"use": ["storage"]}, "use of seismic weight must be one use or a list of 2, one per floor; got 1 of them"),
         ({"snow": 1e3, "code_id": "ec8"}, "snow of code ec8 must be left out: its rule for snow is not known here"),
         ({"snow": 1e3}, "area of seismic weight must be given where snow is; got none"),

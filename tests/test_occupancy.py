@@ -73,7 +73,9 @@ def test_the_table_has_every_occupancy_and_others_are_refused() -> None:
         sm.occupancy.surveyed_load("office, sustained").deviation(0.0)
     with pytest.raises(sm.errors.InvalidOption, match="fraction of code must be from 0 to 1; got 25"):
         sm.occupancy.on_surveyed_goods(25.0)
-    with pytest.raises(sm.errors.InvalidOption, match="use of code must be one of storage, ordinary; got 'office'"):
+    with pytest.raises(
+        sm.errors.InvalidOption, match="use of code must be one of storage, ordinary, archive, shop; got 'office'"
+    ):
         sm.occupancy.on_surveyed_goods(0.25, "office")  # type: ignore[arg-type]
     # 25 % of ASCE 7 over 3.5/6.0, and over 0.5/2.4.
     assert sm.occupancy.on_surveyed_goods(0.25) == pytest.approx(0.25 * 6.0 / 3.5, rel=1e-14)

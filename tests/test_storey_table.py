@@ -40,7 +40,10 @@ def test_elevations_masses_and_stiffnesses_with_a_row_of_units(tmp_path: Path) -
     assert found.mass.tolist() == [150000.0, 90000.0]
     assert found.stiffness is not None
     assert found.stiffness.tolist() == [3.0e8, 1.5e8]
-    assert found.remarks == ("heights are differences of elevations, over a base at 0.2 m",)
+    assert found.remarks == (
+        "row Base is the ground and no storey: left out",
+        "heights are differences of elevations, over a base at 0.2 m",
+    )
     assert "2       Roof" in found.text
     other = read_storey_table(file, direction="y")
     assert other.mass is not None

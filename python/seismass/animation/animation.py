@@ -131,7 +131,7 @@ def animate(
         Ground motion.
     code : str, default "asce7-10"
         Code whose share of the live load the model has, as `code_fraction` takes it.
-    use : {"storage", "ordinary"}
+    use : {"storage", "ordinary", "archive", "shop", "garage"}
         Use of the floors, for the code.
     fraction : float, optional
         A share in place of the code's, from 0 to 1. Blocks are taken as the whole live load.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from seismass.assessment.answer import presence_sentence
-from seismass.assessment.floors import BY_RULE, NOTHING_STATED, FloorGoods
+from seismass.assessment.floors import BY_RULE, LARGER, NOTHING_STATED, FloorGoods
 from seismass.assessment.own_building import OwnBuilding
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.media.text_table import numbers_text
@@ -21,8 +21,23 @@ def about_code_mass(building: OwnBuilding) -> list[str]:
         for floor, one in enumerate(building.counted, start=1)
         if one.exception.startswith(BY_RULE)
     ]
+    found += [
+        f"floor {floor}: {one.fraction:g} of its live load is {one.exception}, more than the use that is stated has; "
+        "fraction in its table states another"
+        for floor, one in enumerate(building.counted, start=1)
+        if one.exception.startswith(LARGER)
+    ]
+    code = building.code
+    if code.low < code.high:
+        found.append(
+            f"{code.code} has {code.low:g} to {code.high:g} for the use {code.use}, and {code.fraction:g} is taken: "
+            f"{code.note} (another use, or fraction)"
+        )
     uses = [one.use or building.code.use for one in building.floor_codes]
-    if any(kind.presence.endswith(NOTHING_STATED) and kind.occupied == 1.0 and kind.mass for kind in building.loose):
+    if any(
+        kind.presence.endswith(NOTHING_STATED) and kind.mass and uses[kind.floor - 1] in ("storage", "archive")
+        for kind in building.loose
+    ):
         found.append(
             f"floors of storage are full, {NOTHING_STATED}: surveys find {surveyed_load(STORAGE).share:.2f} of "
             "the design live load in light storage, and how much is there moves the answer more than the mechanics "

@@ -231,7 +231,7 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
     counted = {"bare": 0.0 * mass, "all": fixed + present}
     if period.mass == "code share":
         live_load = by_floor(loose, [kind.live_load for kind in loose], len(storeys))
-        shares = [one.fraction for one in counted_fractions(fraction, of_floors, mass, live_load)]
+        shares = [one.fraction for one in counted_fractions(fraction, of_floors, mass, kinds, area)]
         counted["code share"] = fixed + np.array(shares) * live_load
     limit, limit_rule = limit_of(building, fraction)
     stiffness = _stiffness(storeys, building, frame, counted[period.mass], period.value)

@@ -14,7 +14,7 @@ from seismass.base.input_table import NOT_NEGATIVE, SHARE, Need, Table
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import printable
 from seismass.model.friction import BOUND_FACTORS, bound_factors, friction_pair
-from seismass.model.occupancy import USUAL, surveyed_load
+from seismass.model.occupancy import SURVEYED, surveyed_load
 
 LIVE_LOAD: Final = ("live_load_kpa", "live_load_kg")
 """Keys of the design live load of a floor."""
@@ -46,10 +46,10 @@ def kinds_of(
     """
     tables = storey.tables("goods")
     if not tables:
-        share, how = _present((storey, goods), live_load, area, use)
         given = (storey, goods)
+        share, how, of = _present(given, live_load, area, use)
         contact = _friction(given) if live_load * share > 0.0 else ("", 0.0, 0.0)
-        return (FloorGoods(floor, "", live_load, share, how, False, *contact, rack_of(given), stops_of(given)),)
+        return (FloorGoods(floor, "", live_load, share, how, False, *contact, rack_of(given), stops_of(given), of),)
     shares = [table.number("share", need=SHARE) if "share" in table.values else np.nan for table in tables]
     total = sum(shares)
     if not abs(total - 1.0) <= SUM_ERROR:
@@ -62,37 +62,42 @@ def kinds_of(
         load = part * live_load
         if attached:
             table.left_out((*FRICTION, "mu_k", *SUPPORT), f"{table.key('attached')} is true", "both")
-            share, how = _present((table,), live_load, area, "")
+            share, how, _ = _present((table,), live_load, area, "")
             found.append(FloorGoods(floor, name, load, share, how, True, "", 0.0, 0.0))
             continue
         places = (table, storey, goods)
-        share, how = _present(places, live_load, area, use)
+        share, how, of = _present(places, live_load, area, use)
         contact = _friction(places) if load * share > 0.0 else ("", 0.0, 0.0)
-        found.append(FloorGoods(floor, name, load, share, how, False, *contact, rack_of(places), stops_of(places)))
+        found.append(FloorGoods(floor, name, load, share, how, False, *contact, rack_of(places), stops_of(places), of))
     return tuple(found)
 
 
-def _present(tables: tuple[Table, ...], live_load: float, area: float, use: str) -> tuple[float, str]:
-    """Share of the design live load that is present, and how that is known."""
+def _present(tables: tuple[Table, ...], live_load: float, area: float, use: str) -> tuple[float, str, str]:
+    """Share of the design live load that is present, how that is known, and the occupancy that is stated."""
     place = held(tables, PRESENT)
     if place is None:
-        if use != "ordinary":
-            return 1.0, f"of the design live load, {NOTHING_STATED}"
-        usual = surveyed_load(USUAL)
-        return usual.share, f"of the design live load, as {USUAL}, since the use is ordinary and nothing is stated"
+        if use not in ("ordinary", "shop"):
+            return 1.0, f"of the design live load, {NOTHING_STATED}", ""
+        usual = surveyed_load(SURVEYED[use])
+        how = f"of the design live load, as {usual.occupancy_id}, since the use is {use} and nothing is stated"
+        return usual.share, how, ""
     table, key = place
     if key == "occupied":
-        return number_of(place, SHARE), "of the design live load, as stated"
+        return number_of(place, SHARE), "of the design live load, as stated", ""
     try:
         found = surveyed_load(table.text(key))
     except SeismassError as error:
         table.refuse_as(key, error)
     design = 1e-3 * STANDARD_GRAVITY * live_load / area
     if not design > 0.0:
-        return found.share, f"of the design live load, by {found.occupancy_id}, the area not being known"
+        return (
+            found.share,
+            f"of the design live load, by {found.occupancy_id}, the area not being known",
+            found.occupancy_id,
+        )
     share, spread = found.mean / design, found.deviation(area) / design
     scatter = f"+/- {spread:.2f} of the design live load, by {found.occupancy_id} ({found.mean:g} kPa)"
-    return min(1.0, share), scatter + (", which is more than all of it" if share > 1.0 else "")
+    return min(1.0, share), scatter + (", which is more than all of it" if share > 1.0 else ""), found.occupancy_id
 
 
 def _friction(tables: tuple[Table, ...]) -> tuple[str, float, float]:

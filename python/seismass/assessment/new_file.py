@@ -184,7 +184,7 @@ def building_text(
         "",
         "[code]                       # whose fraction of the live load is compared",
         'id = "asce7-10"',
-        'use = "storage"              # or "ordinary"',
+        'use = "storage"              # or "ordinary", "archive", "shop", "garage"',
         "",
         "[building]",
         *([f"period_s = {answers['period']!r}               # without goods"] if "period" in answers else []),

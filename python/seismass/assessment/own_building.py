@@ -241,7 +241,7 @@ class OwnBuilding(Card):
     @property
     def counted(self) -> tuple[CountedFraction, ...]:
         """Fraction of the design live load of each floor that the code counts, with its exceptions."""
-        return counted_fractions(self.code, self.floor_codes, self.mass, self.live_load)
+        return counted_fractions(self.code, self.floor_codes, self.mass, self.kinds, self.area)
 
     @property
     def code_share(self) -> float:

@@ -9,6 +9,7 @@ from typing import Final, Literal
 import numpy as np
 
 from seismass.assessment.sheet import Names, read_sheet
+from seismass.assessment.storey_rows import is_base, refuse_summaries
 from seismass.assessment.storey_table import COLUMNS, Order, is_roof_first
 from seismass.assessment.storey_units import system_of
 from seismass.base.errors import InvalidBuildingFile
@@ -90,8 +91,11 @@ def read_pushover(
     shear = sheet.numbers("shear", sheet.factor("shear", "force", system), owners)
     names = sheet.texts("storey") if "storey" in sheet.columns else [""] * len(drift)
     order_found = list(dict.fromkeys(names))
+    refuse_summaries(order_found, path.name)
     if "storey" in sheet.columns and is_roof_first(order_found, order, path):
         order_found.reverse()
+    base = [name for name in order_found if is_base(name)]
+    order_found = [name for name in order_found if name not in base]
     drifts, shears, turned = [], [], False
     for name in order_found:
         rows = [i for i, other in enumerate(names) if other == name]
@@ -110,7 +114,8 @@ def read_pushover(
         shears.append(columns[1])
     if not drifts:
         raise refusal(InvalidBuildingFile, "rows", path.name, "samples of a curve", "none")
-    remarks = ["drifts without a unit are ratios of the height"] * (ratio and unit == "")
+    remarks = [f"row {short(name)} is the ground and no storey: left out" for name in base]
+    remarks += ["drifts without a unit are ratios of the height"] * (ratio and unit == "")
     remarks += ["signs are turned, so that drifts and shears are positive"] * turned
     return PushoverCurves(
         source=path.name,

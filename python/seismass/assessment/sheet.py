@@ -6,7 +6,7 @@ import csv
 import io
 import re
 import zipfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -36,13 +36,21 @@ class Sheet:
         """Return the cells of a column, with what cannot be printed as escapes."""
         return [printable(row[self.columns[kind]].strip()) for row in self.body]
 
-    def numbers(self, kind: str, factor: float, owners: Sequence[str]) -> list[float]:
-        """Return a column of numbers times a factor, NaN where a cell is empty; `owners` name its rows in errors."""
-        place = self.columns[kind]
-        return [
-            factor * _number(row[place], f"{kind} of {owner}", self.path)
-            for row, owner in zip(self.body, owners, strict=True)
-        ]
+    def numbers(
+        self, kind: str, factor: float, owners: Sequence[str], *, left_out: Collection[int] = ()
+    ) -> list[float]:
+        """Return a column of numbers times a factor, NaN where a cell is empty; `owners` name its rows in errors. A cell
+        without a number is an error but in rows of `left_out`.
+        """
+        place, values = self.columns[kind], []
+        for number, (row, owner) in enumerate(zip(self.body, owners, strict=True)):
+            try:
+                values.append(factor * _number(row[place], f"{kind} of {owner}", self.path))
+            except InvalidBuildingFile:
+                if number not in left_out:
+                    raise
+                values.append(float("nan"))
+        return values
 
     def factor(self, kind: str, quantity: Quantity, system: tuple[float, float] | None) -> float:
         """Return the factor of a column towards SI units, by its own unit or else by a system (N, m)."""

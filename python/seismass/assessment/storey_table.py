@@ -14,7 +14,8 @@ from typing import Final, Literal
 
 import numpy as np
 
-from seismass.assessment.sheet import read_sheet
+from seismass.assessment.sheet import Sheet, read_sheet
+from seismass.assessment.storey_rows import is_base, refuse_summaries, refuse_sums
 from seismass.assessment.storey_units import Quantity, system_of
 from seismass.base.errors import InvalidBuildingFile
 from seismass.base.units import STANDARD_GRAVITY
@@ -97,37 +98,51 @@ def read_storey_table(
     need = "a head with a column story and others such as elevation, height, mass, weight, stiffness"
     sheet = read_sheet(path, COLUMNS, needed=("storey",), need=need, direction=direction)
     names = sheet.texts("storey")
+    refuse_summaries(names, path.name)
     repeated = sorted({name for name in names if names.count(name) > 1})
     if repeated:
         got = f"{short(repeated[0])} in {names.count(repeated[0])} rows: keep one load case and one diaphragm"
         raise refusal(InvalidBuildingFile, "rows", path.name, "one for each storey", got)
     system = None if units is None else system_of(units, path.name)
     owners = [f"storey {short(name)}" for name in names]
+    base_rows = [i for i, name in enumerate(names) if is_base(name)]
     ratio = "drift" in sheet.columns and not sheet.units["drift"]
     values: dict[str, list[float]] = {}
     for kind in sheet.columns:
         if kind != "storey":
             factor = 1.0 if kind == "drift" and ratio else sheet.factor(kind, _QUANTITIES[kind], system)
-            values[kind] = sheet.numbers(kind, factor, owners)
-    return _ordered(path, names, values, order, ratio=ratio)
+            values[kind] = sheet.numbers(kind, factor, owners, left_out=base_rows)
+    for kind in ("mass", "weight"):
+        if kind in values:
+            refuse_sums(names, values[kind], path.name)
+    return _ordered(sheet, names, values, order, ratio=ratio)
 
 
 def _ordered(
-    path: Path, names: list[str], values: dict[str, list[float]], order: Order | None, *, ratio: bool
+    sheet: Sheet, names: list[str], values: dict[str, list[float]], order: Order | None, *, ratio: bool
 ) -> StoreyTable:
     """Storeys from the ground up, without the row of the base."""
+    path = sheet.path
     remarks: list[str] = []
     rows = list(range(len(names)))
     elevation = values.get("elevation")
     if elevation is not None:
-        rows.sort(key=lambda i: elevation[i])
+        for name, number in zip(names, elevation, strict=True):
+            if np.isnan(number) and not is_base(name):
+                what = f"elevation of storey {short(name)}"
+                raise refusal(InvalidBuildingFile, what, path.name, "a number", "nothing")
+        rows.sort(key=lambda i: -np.inf if np.isnan(elevation[i]) else elevation[i])
     elif is_roof_first(names, order, path):
         rows.reverse()
     base = 0.0
     loads = [values[kind] for kind in ("mass", "weight", "stiffness", "height") if kind in values]
-    if rows and _BASE.fullmatch(names[rows[0]]) and all(not each[rows[0]] > 0.0 for each in loads):
-        base = 0.0 if elevation is None else elevation[rows[0]]
-        rows = rows[1:]
+    ground = [i for i in rows if is_base(names[i])]
+    if not ground and rows and _BASE.fullmatch(names[rows[0]]) and all(not each[rows[0]] > 0.0 for each in loads):
+        ground = rows[:1]
+    for row in ground:
+        rows.remove(row)
+        base = 0.0 if elevation is None else float(np.nan_to_num(elevation[row]))
+        remarks.append(f"row {short(names[row])} is the ground and no storey: left out{_carried(sheet, row)}")
     if not rows:
         raise refusal(InvalidBuildingFile, "rows", path.name, "a storey at least", "none")
 
@@ -167,6 +182,17 @@ def _ordered(
         strength=found["strength"],
         remarks=tuple(remarks),
     )
+
+
+def _carried(sheet: Sheet, row: int) -> str:
+    """What a row that is left out has in the columns that are read, as the table has it."""
+    cells = {kind: sheet.body[row][place].strip() for kind, place in sheet.columns.items()}
+    told = [
+        f"{kind} {short(printable(cell))} {printable(sheet.units[kind])}".rstrip()
+        for kind, cell in cells.items()
+        if kind not in ("storey", "elevation") and cell.strip("0.,-")
+    ]
+    return f", with {', '.join(told)}" if told else ""
 
 
 def is_roof_first(names: list[str], order: Order | None, path: Path) -> bool:

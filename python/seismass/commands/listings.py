@@ -6,7 +6,7 @@ from seismass.commands.terminal import columns
 from seismass.media.text_table import text_table
 from seismass.model.codes import MARK, NOT_CHECKED, code_legend, code_table
 from seismass.model.friction import friction_table
-from seismass.model.occupancy import STORAGE, USUAL, occupancy_table, on_surveyed_goods, surveyed_load
+from seismass.model.occupancy import SURVEYED, occupancy_table, on_surveyed_goods, surveyed_load
 
 
 def _listed(rows: list[list[str]], long: tuple[int, ...]) -> list[str]:
@@ -32,17 +32,17 @@ def codes_listing() -> str:
                 row["code_id"],
                 row["use"],
                 fraction,
-                f"{on_surveyed_goods(row['fraction'], row['use']):.2f}",
+                f"{on_surveyed_goods(row['fraction'], row['use']):.2f}" if row["use"] in SURVEYED else "",
                 row["clause"],
                 row["status"],
                 row["code"] + MARK * (not row["checked"]),
             ]
         )
-    storage, usual = surveyed_load(STORAGE), surveyed_load(USUAL)
+    shares = ", ".join(f"{surveyed_load(name).share:.2f} ({name})" for name in SURVEYED.values())
     legend = (
         "floors full: fraction of the design live load. as surveyed: the same mass over the goods that surveys find,\n"
-        f"for the upper end of a range: {storage.share:.2f} of the design live load ({STORAGE}), or {usual.share:.2f} "
-        f"({USUAL}).\nAbove 1 the code counts more than is there. The second compares with lambda of the goods present."
+        f"for the upper end of a range; shares of the design live load: {shares}.\n"
+        "Above 1 the code counts more than is there. The second compares with lambda of the goods present."
     )
     return "\n".join([*_listed(rows, (4, 6)), "", legend, "", code_legend()]) + "\n"
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Final, Literal, TypeAlias, get_args
+from typing import Any, Final, TypeAlias, get_args
 
 import numpy as np
 import polars as pl
@@ -26,10 +26,10 @@ from seismass.base.values import (
     short_repr,
 )
 from seismass.base.views import Card
-from seismass.model.codes import CODE_IDS, FROM_MEMORY, SECOND_HAND, VERIFIED, code_fraction
+from seismass.model.codes import CODE_IDS, FROM_MEMORY, SECOND_HAND, VERIFIED, Use, code_fraction
 
-FloorUse: TypeAlias = Literal["storage", "ordinary", "garage"]
-"""Use of a floor: storage and warehouses, offices and dwellings, or garages and open parking structures."""
+FloorUse: TypeAlias = Use
+"""Use of a floor."""
 
 PARTITION_MINIMUM: Final = 480.0
 """Least weight of partitions (Pa) where the floor load provides for them: ASCE/SEI 7-10, 12.7.2, item 2 (verified)."""
@@ -40,12 +40,6 @@ _STRENGTH: Final = (VERIFIED, SECOND_HAND, FROM_MEMORY)
 _ASCE: Final = {"asce7-10": VERIFIED, "asce7-16": FROM_MEMORY, "asce7-22": SECOND_HAND}
 _ITEM_1A: Final = "storage that adds at most 5 % to the weight of its level is exempt: 12.7.2, exception a"
 _TOGETHER: Final = "storage, equipment and landscaping that add at most 5 % together are exempt: 12.7.2, exception a"
-_GARAGE: Final = {
-    "asce7-10": ("12.7.2, item 1b", VERIFIED),
-    "asce7-16": ("12.7.2, item 1b", FROM_MEMORY),
-    "asce7-22": ("12.7.2, item 1b", FROM_MEMORY),
-    "nbc": ("4.1.8.2", FROM_MEMORY),
-}
 # Share of the snow load, and the load (Pa) above which it counts: 30 psf and 45 psf in ASCE 7.
 _SNOW: Final = {
     "asce7-10": (0.20, 1440.0, "12.7.2, item 4", VERIFIED),
@@ -63,8 +57,8 @@ _ROOF: Final = {
     ("gb50011", "ordinary"): (0.0, "5.1.3", FROM_MEMORY),
     ("nch2369", "ordinary"): (0.0, "", FROM_MEMORY),
 }
-# Live load (Pa) above which a floor has the fraction of storage, where that decides and not the use.
-_INTENSITY: Final = {"bnbc2017": (3000.0, "2.5.7.3", VERIFIED), "is1893": (3000.0, "table 10", FROM_MEMORY)}
+INTENSITY: Final = {"bnbc2017": (3000.0, "2.5.7.3", VERIFIED), "is1893": (3000.0, "table 10", FROM_MEMORY)}
+"""Live load (Pa) above which a floor has the fraction of storage, where that decides and not the use."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +122,7 @@ def effective_seismic_weight(
         Dead load and design live load of each floor (N), floor 1 first. Dead load is without what follows.
     code_id : str
         One of `seismass.model.codes.CODE_IDS`, in any case.
-    use : {"storage", "ordinary", "garage"} or list of them, optional
+    use : {"storage", "ordinary", "archive", "shop", "garage"} or list of them, optional
         Use of all floors, or of each. By default "storage"; for codes that decide by the live load per area (BNBC 2017,
         IS 1893), that decides where areas are given.
     area : array_like, shape (floors,), optional
@@ -185,7 +179,7 @@ def effective_seismic_weight(
         fraction, exception = _fraction(code, uses[i], roof and i == floors - 1, rules)
         counted = {"live_counted": fraction * q[i], "equipment": float(tools[i]), "landscaping": float(plants[i])}
         base = float(d[i] + part[i] + snow_weight[i])
-        if code in _ASCE and uses[i] == "storage":
+        if code in _ASCE and uses[i] in ("storage", "archive"):
             together = code == "asce7-22"
             small = sum(counted.values()) if together else counted["live_counted"]
             rest = base if together else base + counted["equipment"] + counted["landscaping"]
@@ -237,26 +231,21 @@ class _Rules:
 
 def _fraction(code: str, use: FloorUse, is_roof: bool, rules: _Rules) -> tuple[float, str]:
     """Fraction of the live load of a floor, and an exception in words."""
-    if use == "garage":
-        if not is_one_of(code, _GARAGE):
-            raise refusal(InvalidOption, "use", f"code {code}", "storage or ordinary", "'garage'")
-        rules.add("live load of public garages and open parking structures is exempt", *_GARAGE[code])
-        return 0.0, "garage"
     row = code_fraction(code, use)
     own = _ROOF.get((code, use)) if is_roof else None
     if own is not None:
         rules.add(f"{own[0]:g} of the live load of the roof ({use})", *own[1:])
         return own[0], "roof"
     rules.add(f"{row.fraction:g} of the live load ({use})", row.clause, row.status)
-    return row.fraction, ""
+    return row.fraction, "garage" if use == "garage" and row.fraction == 0.0 else ""
 
 
 def _uses(
     use: FloorUse | Sequence[FloorUse] | None, code: str, live: FloatArray, areas: FloatArray | None, rules: _Rules
 ) -> list[FloorUse]:
     """Use of each floor."""
-    if use is None and code in _INTENSITY and areas is not None:
-        limit, clause, status = _INTENSITY[code]
+    if use is None and code in INTENSITY and areas is not None:
+        limit, clause, status = INTENSITY[code]
         rules.add(f"the live load per area decides on the fraction, above or up to {limit / 1e3:g} kPa", clause, status)
         # Rounding must not lift a live load of exactly the limit above it.
         return ["storage" if q > limit * a * (1.0 + 1e-12) else "ordinary" for q, a in zip(live, areas, strict=True)]

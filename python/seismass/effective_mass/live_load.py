@@ -287,9 +287,10 @@ def _with_goods(scene: Scene, friction: float, present: float) -> Scene:
     blocks = []
     for block, mass in zip(scene.blocks, scene.block_mass, strict=True):
         if block.floor > 0 and present > 0.0:
-            factor = friction / block.mu_s if block.mu_s > 0.0 else 1.0
-            kinetic = factor * block.mu_k if block.mu_s > 0.0 else friction
-            wear = [(path, factor * mu_s, factor * mu_k) for path, mu_s, mu_k in block.wear]
+            # The ratio first, at most 1 as rounded: a factor that is rounded may lift mu_k above the friction.
+            over = [(path, mu_s / block.mu_s, mu_k / block.mu_s) for path, mu_s, mu_k in block.wear if block.mu_s > 0.0]
+            wear = [(path, friction * static, friction * kinetic) for path, static, kinetic in over] or block.wear
+            kinetic = friction * (block.mu_k / block.mu_s) if block.mu_s > 0.0 else friction
             amount = {"mass": None, "mass_ratio": block.mass_ratio * present} if block.mass_ratio else {}
             changes = {"mass": mass * present} | amount
             blocks.append(block.replace(**changes, mu_s=friction, mu_k=kinetic, mu=None, wear=wear))

@@ -5,7 +5,7 @@ A row of which any part was not read in the code itself says so: check it in the
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Final, Literal, TypeAlias, get_args
 
 import polars as pl
@@ -35,8 +35,10 @@ def __dir__() -> list[str]:
     return list(__all__)
 
 
-Use: TypeAlias = Literal["storage", "ordinary"]
-"""Use of a floor: storage and warehouses, or offices and dwellings."""
+Use: TypeAlias = Literal["storage", "ordinary", "archive", "shop", "garage"]
+"""Use of a floor: storage and warehouses, offices and dwellings, archives and libraries, shops, or car parks."""
+_CLASS_OF: Final[dict[str, Use]] = {"archive": "storage", "shop": "ordinary"}
+"""Use whose row counts where a code has none for a use; a car park has no such row."""
 
 VERIFIED: Final = "verified"
 SECOND_HAND: Final = "second-hand"
@@ -60,8 +62,8 @@ class CodeFraction:
         Short name, as options and files take it: "asce7-10".
     code : str
         The code in full.
-    use : {"storage", "ordinary"}
-        Storage and warehouses, or offices and dwellings.
+    use : {"storage", "ordinary", "archive", "shop", "garage"}
+        Storage and warehouses, offices and dwellings, archives and libraries, shops, or car parks.
     fraction : float
         Fraction of the design live load; the upper end where the code has a range.
     low, high : float
@@ -110,15 +112,19 @@ _BNBC_NOTE = (
     "a minimum; 1.00 for permanent heavy equipment, retained liquid or any imposed load sustained in nature, and a "
     "higher share where loads at the time of the earthquake are more correctly assessed"
 )
+_GARAGES = "public garages and open parking structures are exempt"
 _PAPER_NOTE = "as stated by the 16WCEE paper on rigid blocks in buildings"
 
 _ROWS: Final = (
     _row("asce7-10", "ASCE/SEI 7-10", "storage", 0.25, "12.7.2, item 1", VERIFIED, _ASCE_NOTE),
     _row("asce7-10", "ASCE/SEI 7-10", "ordinary", 0.0, "12.7.2", VERIFIED, "partitions and equipment count"),
+    _row("asce7-10", "ASCE/SEI 7-10", "garage", 0.0, "12.7.2, item 1b", VERIFIED, _GARAGES),
     _row("asce7-16", "ASCE/SEI 7-16", "storage", 0.25, "12.7.2, item 1", FROM_MEMORY, _ASCE_NOTE),
     _row("asce7-16", "ASCE/SEI 7-16", "ordinary", 0.0, "12.7.2", FROM_MEMORY, "partitions and equipment count"),
+    _row("asce7-16", "ASCE/SEI 7-16", "garage", 0.0, "12.7.2, item 1b", FROM_MEMORY, _GARAGES),
     _row("asce7-22", "ASCE/SEI 7-22", "storage", 0.25, "12.7.2, item 1", SECOND_HAND, _ASCE_NOTE),
     _row("asce7-22", "ASCE/SEI 7-22", "ordinary", 0.0, "12.7.2", SECOND_HAND, "partitions and equipment count"),
+    _row("asce7-22", "ASCE/SEI 7-22", "garage", 0.0, "12.7.2, item 1b", FROM_MEMORY, _GARAGES),
     _row(
         "asce7-10-racks",
         "ASCE/SEI 7-10, steel storage racks",
@@ -159,7 +165,16 @@ _ROWS: Final = (
         "4.2.4",
         SECOND_HAND,
         "phi psi_2 with psi_2 = 0.3: phi 1.0 at the roof, 0.8 where occupancies are correlated, 0.5 where "
-        "independent; psi_2 0.6 for assembly and shopping",
+        "independent; psi_2 0.6 for assembly",
+    ),
+    _row(
+        "ec8",
+        "Eurocode 8, EN 1998-1",
+        "shop",
+        0.6,
+        "4.2.4",
+        FROM_MEMORY,
+        "phi psi_2 = 1.0 x 0.6; psi_2 is second-hand, phi = 1.0 of category D is from memory",
     ),
     _row("nzs1170.5", "NZS 1170.5", "storage", 0.6, "4.2", FROM_MEMORY),
     _row("nzs1170.5", "NZS 1170.5", "ordinary", 0.3, "4.2", SECOND_HAND, "0 for roofs without public access"),
@@ -172,9 +187,10 @@ _ROWS: Final = (
         0.60,
         "4.1.8.2",
         SECOND_HAND,
-        "with 25 % of the snow and the full contents of tanks; storage garages are exempt (from memory)",
+        "with 25 % of the snow and the full contents of tanks",
     ),
     _row("nbc", "NBC of Canada", "ordinary", 0.0, "4.1.8.2", SECOND_HAND),
+    _row("nbc", "NBC of Canada", "garage", 0.0, "4.1.8.2", FROM_MEMORY, "storage garages are exempt"),
     _row(
         "is1893",
         "IS 1893 (Part 1): 2016",
@@ -205,6 +221,7 @@ _ROWS: Final = (
         "a minimum, where crowding of people or things is usual",
     ),
     _row("nch433", "NCh433, Chile", "ordinary", 0.25, "", SECOND_HAND, "a minimum"),
+    _row("nch433", "NCh433, Chile", "shop", (0.25, 0.50), "", FROM_MEMORY, "0.50 where crowding is usual"),
     _row("nch2369", "NCh2369, Chile, industrial", "storage", 0.50, "", FROM_MEMORY),
     _row("nch2369", "NCh2369, Chile, industrial", "ordinary", 0.25, "", FROM_MEMORY, "0 for roofs"),
     _row(
@@ -224,6 +241,15 @@ _ROWS: Final = (
         "art. 31 (2026), 26 (2018)",
         SECOND_HAND,
         "category C and roofs; 0.50 in categories A and B (from memory)",
+    ),
+    _row(
+        "e030",
+        "E.030, Peru",
+        "shop",
+        (0.25, 0.50),
+        "art. 31 (2026), 26 (2018)",
+        FROM_MEMORY,
+        "0.50 in buildings of category B, shopping centres among them",
     ),
     _row("nsr-10", "NSR-10, Colombia", "storage", 0.25, "", FROM_MEMORY, "deposits and warehouses"),
     _row("nsr-10", "NSR-10, Colombia", "ordinary", 0.0, "", FROM_MEMORY),
@@ -256,24 +282,27 @@ _ROWS: Final = (
         "a seismic live load of its own over that of floors: dwellings 0.6 of 1.8 kPa, offices 0.8 of 2.9, classrooms "
         "1.1 of 2.3, shops 1.3 of 2.9",
     ),
-    _row("tbdy2018", "TBDY 2018, Turkey", "storage", 0.80, "table 4.3", FROM_MEMORY),
+    _row("tbdy2018", "TBDY 2018, Turkey", "storage", 0.80, "table 4.3", SECOND_HAND),
     _row(
         "tbdy2018",
         "TBDY 2018, Turkey",
         "ordinary",
         0.30,
         "table 4.3",
-        VERIFIED,
-        "0.60 in schools, theatres, shops and car parks (from memory)",
+        SECOND_HAND,
+        "dwellings, offices, hotels, hospitals; 0.60 in schools, dormitories, halls for sport, cinemas, theatres, "
+        "places of worship and restaurants",
     ),
+    _row("tbdy2018", "TBDY 2018, Turkey", "shop", 0.60, "table 4.3", SECOND_HAND),
+    _row("tbdy2018", "TBDY 2018, Turkey", "garage", 0.30, "table 4.3", SECOND_HAND, "car parks, with dwellings"),
     _row(
         "rpa99",
         "RPA 99/2003, Algeria",
         "storage",
-        0.50,
+        (0.50, 1.00),
         "coefficient beta",
         FROM_MEMORY,
-        "1.00 in archives, libraries and tanks",
+        "0.50 in depots and hangars, where fraction = 0.5 states it; 1.00 in archives, libraries and tanks",
     ),
     _row(
         "rpa99",
@@ -284,8 +313,11 @@ _ROWS: Final = (
         FROM_MEMORY,
         "0.30 to 0.40 for assembly, 0.60 for other uses",
     ),
+    _row("rpa99", "RPA 99/2003, Algeria", "archive", 1.0, "coefficient beta", FROM_MEMORY, "with libraries and tanks"),
+    _row("rpa99", "RPA 99/2003, Algeria", "shop", 0.60, "coefficient beta", FROM_MEMORY, "one of the other uses"),
     _row("iran2800", "Iranian Standard 2800", "storage", 0.60, "", FROM_MEMORY, "storage and libraries"),
     _row("iran2800", "Iranian Standard 2800", "ordinary", 0.20, "", FROM_MEMORY, "0.40 in public buildings"),
+    _row("iran2800", "Iranian Standard 2800", "shop", 0.40, "", FROM_MEMORY, "with public buildings"),
 )
 
 CODE_IDS: Final = tuple(dict.fromkeys(row.code_id for row in _ROWS))
@@ -301,8 +333,9 @@ def code_fraction(code_id: str, use: Use = "storage") -> CodeFraction:
     ----------
     code_id : str
         One of `CODE_IDS`, in any case: "asce7-10", "ec8", "nzs1170.5", "nbc", ...
-    use : {"storage", "ordinary"}
-        Storage and warehouses, or offices and dwellings.
+    use : {"storage", "ordinary", "archive", "shop", "garage"}
+        Storage and warehouses, offices and dwellings, archives and libraries, shops, or car parks. A code without a row
+        of its own for archives has them in storage, for shops in ordinary floors.
 
     Raises
     ------
@@ -321,9 +354,9 @@ def code_fraction(code_id: str, use: Use = "storage") -> CodeFraction:
     if not is_one_of(use, get_args(Use)):
         raise refusal(InvalidOption, "use", "code", f"one of {', '.join(get_args(Use))}", brief(use))
     found = {row.use: row for row in _ROWS if row.code_id == wanted}
-    if use not in found:
+    if use not in found and _CLASS_OF.get(use) not in found:
         raise refusal(InvalidOption, "use", f"code {wanted}", " or ".join(found), use)
-    return found[use]
+    return found[use] if use in found else replace(found[_CLASS_OF[use]], use=use)
 
 
 def code_table() -> pl.DataFrame:

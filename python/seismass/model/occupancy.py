@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass
-from typing import Final, get_args
+from typing import Final
 
 import polars as pl
 
@@ -18,6 +18,7 @@ from seismass.model.codes import FROM_MEMORY, VERIFIED, Use
 __all__ = [
     "OCCUPANCY_IDS",
     "STORAGE",
+    "SURVEYED",
     "USUAL",
     "SurveyedLoad",
     "occupancy_table",
@@ -39,7 +40,7 @@ class SurveyedLoad:
     ----------
     occupancy_id : str
         Short name, as building files take it: "storage, sustained".
-    use : {"storage", "ordinary"}
+    use : {"storage", "ordinary", "archive", "shop"}
         What such a floor is for a code.
     mean : float
         Mean of the sustained load (kPa).
@@ -135,8 +136,8 @@ _ROWS: Final = (
     _row("heavy storage", "storage", _STORED, "0.1 to 1 years", (11.97, 250), "heavy storage warehouses"),
     _row("light industry", "storage", (1.0, 1.0, 2.8, 100.0), "5 to 10 years", (6.00, 125), "light manufacturing"),
     _row("heavy industry", "storage", (3.0, 1.5, 4.1, 100.0), "5 to 10 years", (11.97, 250), "heavy manufacturing"),
-    _row("library", "storage", (1.7, 0.5, 1.0, 20.0), "more than 10 years", (7.18, 150), "stack rooms of libraries"),
-    _row("retail", "ordinary", (0.9, 0.6, 1.6, 100.0), "1 to 5 years", (4.79, 100), "retail stores, first floor"),
+    _row("library", "archive", (1.7, 0.5, 1.0, 20.0), "more than 10 years", (7.18, 150), "stack rooms of libraries"),
+    _row("retail", "shop", (0.9, 0.6, 1.6, 100.0), "1 to 5 years", (4.79, 100), "retail stores, first floor"),
     _row("office", "ordinary", (0.5, 0.3, 0.6, 20.0), "5 years", (2.40, 50), "offices"),
 )
 OCCUPANCY_IDS: Final[tuple[str, ...]] = tuple(row.occupancy_id for row in _ROWS)
@@ -145,6 +146,13 @@ STORAGE: Final = "storage, sustained"
 """Occupancy with which fractions of codes for storage are compared on floors as surveyed."""
 USUAL: Final = "office, sustained"
 """Occupancy of a floor of ordinary use where nothing is said."""
+SURVEYED: Final[dict[str, str]] = {
+    "storage": STORAGE,
+    "ordinary": USUAL,
+    "archive": "library, sustained",
+    "shop": "retail, sustained",
+}
+"""Occupancy with which fractions of codes are compared, by use; car parks were not surveyed."""
 
 
 def surveyed_load(occupancy_id: str) -> SurveyedLoad:
@@ -180,8 +188,8 @@ def on_surveyed_goods(fraction: float, use: Use = "storage") -> float:
     ----------
     fraction : float
         Fraction of the design live load.
-    use : {"storage", "ordinary"}
-        Storage as `STORAGE`, ordinary floors as `USUAL`.
+    use : {"storage", "ordinary", "archive", "shop"}
+        Use of the floor, whose goods are those of `SURVEYED`.
 
     Raises
     ------
@@ -199,9 +207,9 @@ def on_surveyed_goods(fraction: float, use: Use = "storage") -> float:
     counted = as_number(fraction, "fraction", "code", InvalidOption)
     if not 0.0 <= counted <= 1.0:
         raise refusal(InvalidOption, "fraction", "code", "from 0 to 1", f"{counted:g}")
-    if not is_one_of(use, get_args(Use)):
-        raise refusal(InvalidOption, "use", "code", f"one of {', '.join(get_args(Use))}", brief(use))
-    return counted / surveyed_load(STORAGE if use == "storage" else USUAL).share
+    if not is_one_of(use, SURVEYED):
+        raise refusal(InvalidOption, "use", "code", f"one of {', '.join(SURVEYED)}", brief(use))
+    return counted / surveyed_load(SURVEYED[use]).share
 
 
 def occupancy_table() -> pl.DataFrame:
