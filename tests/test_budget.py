@@ -80,7 +80,7 @@ def hints(node: Definition) -> Iterator[ast.expr | None]:
 @cache
 def reached() -> set[tuple[str, str]]:
     """The files and names of classes and functions that a user can reach by public names, fields and results."""
-    todo = [("seismass", name) for name in names_of("seismass")[2]]
+    todo = [(module, name) for module in ("seismass", "seismass.assessment") for name in names_of(module)[2]]
     found = set()
     while todo:
         module, name = todo.pop()

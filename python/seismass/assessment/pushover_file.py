@@ -77,8 +77,45 @@ def read_pushover(
     order: Order | None = None,
     direction: Literal["x", "y"] = "x",
 ) -> PushoverCurves:
-    """Read pushover curves of CSV or XLSX: a curve per storey where there is a column of storeys, else one of the whole
-    building. `units` is for numbers without a unit; a drift without a unit or in % is a ratio.
+    r"""Read pushover curves.
+
+    Parameters
+    ----------
+    source : path-like
+        CSV (comma, semicolon or tab) or XLSX with a column of drifts (Roof Drift, Displacement, Monitored Displ, Story
+        Drift) and one of shears (Base Shear, Base Force, Story Shear). With a column of storeys there is a curve for
+        each, its rows in the order of the push; without one the curve is of the whole building.
+    units : str, optional
+        Force and length of numbers whose column states no unit: "kN-m", "kip-in". A drift without either, or in %, is
+        a ratio of the height.
+    order : {"roof-first", "ground-first"}, optional
+        Order of the storeys, where their names do not say it.
+    direction : {"x", "y"}
+        Which of the columns "Story Drift X" and "Story Drift Y" is read.
+
+    Returns
+    -------
+    PushoverCurves
+        The curves, storey 1 first.
+
+    Raises
+    ------
+    InvalidBuildingFile
+        The file cannot be read, has no such head, a cell that is no number, signs that change, or a unit or an order
+        that has to be stated.
+    MissingPackage
+        openpyxl is needed for XLSX.
+
+    Examples
+    --------
+    >>> import tempfile, pathlib
+    >>> from seismass.assessment import read_pushover
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = pathlib.Path(folder) / "push.csv"
+    ...     _ = file.write_text("Roof Drift (mm),Base Shear (kN)\n0,0\n20,400\n40,500\n80,520\n160,540\n")
+    ...     curves = read_pushover(file)
+    >>> curves.names, curves.drift[0].tolist(), curves.shear[0].tolist()
+    ((), [0.0, 0.02, 0.04, 0.08, 0.16], [0.0, 400000.0, 500000.0, 520000.0, 540000.0])
     """
     path = as_path(source, "pushover file", InvalidBuildingFile)
     need = "a head with a column of drifts, such as Roof Drift or Story Drift, and one of shears, such as Base Shear"

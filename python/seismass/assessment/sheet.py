@@ -39,8 +39,8 @@ class Sheet:
     def numbers(
         self, kind: str, factor: float, owners: Sequence[str], *, left_out: Collection[int] = ()
     ) -> list[float]:
-        """Return a column of numbers times a factor, NaN where a cell is empty; `owners` name its rows in errors. A cell
-        without a number is an error but in rows of `left_out`.
+        """Return a column of numbers times a factor, NaN where a cell is empty; `owners` name its rows in errors. A
+        cell without a number is an error but in rows of `left_out`.
         """
         place, values = self.columns[kind], []
         for number, (row, owner) in enumerate(zip(self.body, owners, strict=True)):

@@ -91,8 +91,43 @@ def read_storey_table(
     order: Order | None = None,
     direction: Literal["x", "y"] = "x",
 ) -> StoreyTable:
-    """Read a storey table of CSV or XLSX. The head is the first row with a column of storeys and another known one;
-    `units` is for columns without a unit, `order` where neither elevations nor names tell it.
+    r"""Read a storey table.
+
+    Parameters
+    ----------
+    source : path-like
+        CSV (comma, semicolon or tab) or XLSX. The head is the first row with a column of storeys and another known one.
+    units : str, optional
+        Force and length of numbers whose column states no unit, as these programs have them: "kN-m", "kip-in", "kgf-m".
+        Masses are then in force times s2 over length.
+    order : {"roof-first", "ground-first"}, optional
+        Order of the rows, where neither elevations nor names say it.
+    direction : {"x", "y"}
+        Which of the columns "Stiffness X" and "Stiffness Y" is read; the same of masses, shears and drifts.
+
+    Returns
+    -------
+    StoreyTable
+        The storeys, in SI units.
+
+    Raises
+    ------
+    InvalidBuildingFile
+        The file cannot be read, has no head that is known, a cell that is no number, a storey twice, a row of totals,
+        means or notes, or a unit or an order that has to be stated.
+    MissingPackage
+        openpyxl is needed for XLSX.
+
+    Examples
+    --------
+    >>> import tempfile, pathlib
+    >>> from seismass.assessment import read_storey_table
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = pathlib.Path(folder) / "storeys.csv"
+    ...     _ = file.write_text("Story,Height (m),Mass (t),Stiffness X (kN/m)\nRoof,3.5,120,2e5\nStory1,4,150,3e5\n")
+    ...     table = read_storey_table(file)
+    >>> table.names, table.mass.tolist(), table.stiffness.tolist()
+    (('Story1', 'Roof'), [150000.0, 120000.0], [300000000.0, 200000000.0])
     """
     path = as_path(source, "storey table", InvalidBuildingFile)
     need = "a head with a column story and others such as elevation, height, mass, weight, stiffness"
