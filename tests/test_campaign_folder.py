@@ -45,7 +45,8 @@ def rewrite(path: Path, changes: dict[str, Any]) -> None:
     [
         ("package_version", "0.0.9", "must be solved by seismass .*; got version 0.0.9"),
         ("bits", "another", "instruction set of this process"),
-        ("schema_version", 0, "schema_version of campaign must be 2; got 0"),
+        ("written_by", {"numpy": "1", "polars": "2"}, "written by numpy .*, polars .*; got numpy 1, polars 2"),
+        ("schema_version", 0, "schema_version of campaign must be 3; got 0"),
         ("kind", "report", "must be of the kind"),
     ],
 )

@@ -24,7 +24,7 @@ from seismass.spectra import TargetSpectrum
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SCHEMA_VERSION: Final = 6
+SCHEMA_VERSION: Final = 7
 """Version of the tables and of the JSON of an assessment."""
 
 

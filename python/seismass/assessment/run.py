@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
@@ -26,14 +24,13 @@ from seismass.assessment.shown_motion import Shown, motion_of_runs
 from seismass.assessment.site_scaling import scaled_to_site
 from seismass.assessment.spectra import spectra_table
 from seismass.assessment.tables import collapses_of, slip_table, storey_table
+from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import brief, refusal
 from seismass.effective_mass.beyond import SHARES_BEYOND, goes_beyond
-from seismass.effective_mass.tables import scene_bytes
 from seismass.model.codes import CodeFraction
 from seismass.model.friction import bound_factors
 from seismass.model.motion import motion_names
-from seismass.model.scene import Scene
 from seismass.records import Pair, Pairs, Suite, builtin_pairs, builtin_suite
 from seismass.runs.simulate import instruction_set
 from seismass.spectra import TargetSpectrum
@@ -182,7 +179,13 @@ def assess(
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
-            "inputs_sha256": _digest(chosen, scenes, spectrum, components, bootstrap),
+            "inputs_sha256": inputs_digest(
+                scenes,
+                chosen,
+                None if spectrum is None else spectrum.parameters,
+                motion_contents(components),
+                bootstrap,
+            ),
             **bootstrap,
             "damping": "matrix of the building without goods, in every model",
             "p_delta": chosen.gravity_load is not None,
@@ -242,49 +245,3 @@ class _Stages:
         if progress is None:
             return None
         return lambda done, _: progress(min(first + done, total), total)
-
-
-def _digest(
-    building: OwnBuilding,
-    scenes: dict[str, Scene],
-    target: TargetSpectrum | None,
-    motions: list[Any],
-    bootstrap: dict[str, Any],
-) -> str:
-    """SHA-256 of everything that the numbers depend on."""
-    limits = [
-        building.drift_limit,
-        building.theta_limit,
-        building.code.fraction,
-        building.code_share,
-        building.design_fraction,
-    ]
-    described = [SCHEMA_VERSION, None if target is None else target.parameters, bootstrap, limits]
-    digest = hashlib.sha256(json.dumps(described, sort_keys=True).encode())
-    for name, scene in scenes.items():
-        structure = scene.building
-        assert structure is not None
-        digest.update(name.encode())
-        springs = structure.springs_in_use().values()
-        arrays = (structure.mass, *springs, structure.damping_matrix, scene.geometric_stiffness)
-        for array in (*arrays, structure.heights, scene.collapse_drift, scene.block_mass):
-            digest.update(b"none" if array is None else np.ascontiguousarray(array, dtype="<f8").tobytes())
-        blocks = [[block.floor, block.mu_s, block.mu_k] for block in scene.blocks]
-        digest.update(np.array(blocks, dtype="<f8").tobytes())
-        stops = [block.stop_numbers for block in scene.blocks]
-        if scene.base is not None:
-            digest.update(repr(scene.base).encode())
-        if scene.racks or any(stops) or structure.stiffness_matrix is not None:
-            matrix = structure.stiffness_matrix
-            digest.update(b"" if matrix is None else np.ascontiguousarray(matrix, dtype="<f8").tobytes())
-            digest.update(repr((stops, *(sorted(rack._arguments().items()) for rack in scene.racks))).encode())
-        if scene.other_direction is not False:
-            for part in scene_bytes(scene._directions()[1]):
-                digest.update(part)
-    for motion in motions:
-        digest.update(np.float64(motion.dt).tobytes())
-        digest.update(np.ascontiguousarray(motion.acceleration, dtype="<f8").tobytes())
-        if getattr(motion, "vertical", None) is not None:
-            digest.update(b"vertical")
-            digest.update(np.ascontiguousarray(motion.vertical, dtype="<f8").tobytes())
-    return digest.hexdigest()

@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import hashlib
 import os
-import pickle
 import re
 import stat
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import polars as pl
 
@@ -110,11 +109,6 @@ def kept_folder(place: Path, name: str, sha256: str) -> Iterator[KeptResults]:
             _remove_ours(folder, identity, only=(_OWNER,))
         raise
     _remove_ours(folder, identity)
-
-
-def digest_of(*inputs: Any) -> str:
-    """Return a digest of objects that can be pickled: equal ones made in the same way have the same."""
-    return hashlib.sha256(pickle.dumps(inputs, protocol=5)).hexdigest()
 
 
 def _checked(folder: Path) -> int:

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final
 
-import numpy as np
 import polars as pl
 
 from seismass import _kernel
+from seismass.base.digest import inputs_digest
 from seismass.base.errors import InvalidOption
 from seismass.base.values import as_count, as_flag, as_name, brief, content_hash, refusal, same_content
 from seismass.campaign.columns import chosen_columns, stored
@@ -22,7 +20,7 @@ from seismass.runs.batch import Progress, checked_motions, stream_many
 from seismass.runs.grid.content import axes_table, grid_document
 from seismass.runs.grid.grid import Grid
 
-SCHEMA_VERSION: Final = 2
+SCHEMA_VERSION: Final = 3
 """Version of the folder of a campaign; see docs/campaign.md."""
 DEFAULT_PART_RUNS: Final = 65536
 """Runs of a part: some seconds of one core, and some megabytes."""
@@ -158,14 +156,9 @@ class CampaignRuns:
     @cached_property
     def sha256(self) -> str:
         """Digest of all that the numbers in the parts depend on, and of their cut."""
-        digest = hashlib.sha256(json.dumps([SCHEMA_VERSION, _kernel.VERSION, self.document], sort_keys=True).encode())
-        for axis in self.grid.axes():
-            for name, values in axis.columns.items():
-                digest.update(f"{axis.name} {name} {values.shape}".encode())
-                digest.update(np.ascontiguousarray(values).tobytes())
-        for motion in self.motions:
-            digest.update(motion.sha256.encode())
-        return digest.hexdigest()
+        axes = [(axis.name, axis.columns) for axis in self.grid.axes()]
+        motions = [motion.motion for motion in self.motions]
+        return inputs_digest(SCHEMA_VERSION, _kernel.VERSION, self.document, axes, motions)
 
     def __repr__(self) -> str:
         name = f"{self.name}: " if self.name else ""

@@ -7,6 +7,9 @@ import json
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
+import polars as pl
+
 from seismass import _kernel
 from seismass.base.errors import InvalidOption
 from seismass.base.files import read_file
@@ -23,6 +26,7 @@ _TYPES: Final[dict[str, type]] = {
     "name": str,
     "inputs_sha256": str,
     "package_version": str,
+    "written_by": dict,
     "bits": str,
     "scenes": int,
     "motions": int,
@@ -52,6 +56,7 @@ def manifest_of(campaign: CampaignRuns) -> dict[str, Any]:
         "name": campaign.name,
         "inputs_sha256": campaign.sha256,
         "package_version": _kernel.VERSION,
+        "written_by": {"numpy": np.__version__, "polars": pl.__version__},
         "bits": bits(),
         "scenes": len(campaign.grid),
         "motions": len(campaign.motions),
@@ -103,6 +108,12 @@ def check_same(present: dict[str, Any], wanted: dict[str, Any], folder: Path) ->
     if version != wanted["package_version"]:
         requirement = f"solved by seismass {wanted['package_version']}, the version that goes on"
         raise refusal(InvalidOption, f"folder {folder}", "campaign", requirement, f"version {version}")
+    if present["written_by"] != wanted["written_by"]:
+        here, there = (
+            ", ".join(f"{name} {number}" for name, number in each["written_by"].items()) for each in (wanted, present)
+        )
+        requirement = f"written by {here}, the versions that go on: others write other bytes"
+        raise refusal(InvalidOption, f"folder {folder}", "campaign", requirement, there)
     if present["bits"] != wanted["bits"]:
         requirement = (
             f"solved with the instruction set of this process, {wanted['bits']} (SEISMASS_INSTRUCTIONS chooses another)"

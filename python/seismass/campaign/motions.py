@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import polars as pl
 
+from seismass.base.digest import inputs_digest
 from seismass.base.values import printable
 from seismass.model.motion import Motion
 
@@ -37,10 +37,7 @@ class NamedMotion:
     @property
     def sha256(self) -> str:
         """Digest of the time step and the samples."""
-        digest = hashlib.sha256(np.float64(self.motion.dt).tobytes())
-        for samples in (self.motion.acceleration, self.motion.vertical):
-            digest.update(b"none" if samples is None else np.ascontiguousarray(samples, dtype="<f8").tobytes())
-        return digest.hexdigest()
+        return inputs_digest(self.motion)
 
 
 def named_motions(given: list[Any], motions: list[Motion], names: list[str]) -> tuple[NamedMotion, ...]:

@@ -90,7 +90,7 @@ def run(args: argparse.Namespace) -> int:
     from seismass.media.folder import check_out, folder_for
     from seismass.runs.simulate import instruction_set
     from seismass.study import StudyParameters
-    from seismass.study.run import inputs_digest
+    from seismass.study.run import study_digest
 
     check_out(args.out, "study")
     parameters = StudyParameters(
@@ -108,7 +108,7 @@ def run(args: argparse.Namespace) -> int:
     )
     target = read_target(args)
     suite = read_motions(args, "seven")
-    inputs = f"{inputs_digest(suite, target, parameters)} {VERSION} {instruction_set()}"
+    inputs = f"{study_digest(suite, target, parameters)} {VERSION} {instruction_set()}"
     with folder_for(args.out), kept_folder(args.out, "study", inputs) as kept:
         answer = _Answer(_solved(args, suite, target, parameters, kept), args.png)
         files = write_answer(args, answer)

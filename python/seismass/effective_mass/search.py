@@ -9,6 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from seismass import _kernel
+from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
 from seismass.effective_mass.beyond import (
@@ -42,7 +43,7 @@ from seismass.effective_mass.plane_runs import LARGER, DriftMeasure, check_drift
 from seismass.effective_mass.result import SCHEMA_VERSION, EffectiveMass
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, solve
 from seismass.effective_mass.structure_remarks import remarks_of_structure
-from seismass.effective_mass.tables import curve_table, inputs_digest, record_table, remarks_of, storey_table
+from seismass.effective_mass.tables import curve_table, record_table, remarks_of, storey_table
 from seismass.effective_mass.two_directions import friction_factor
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
@@ -269,7 +270,7 @@ class Search:
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
-            "inputs_sha256": inputs_digest(scene, self.motions, chosen),
+            "inputs_sha256": inputs_digest(scene, motion_contents(self.motions.components), chosen),
             **chosen,
             **{name: values.tolist() for name, values in building.springs_in_use().items() if name in SHAPE_FIELDS},
             "p_delta": bool(scene.geometric_stiffness.any()),

@@ -1,12 +1,8 @@
-"""Tables, remarks and digest of an effective mass, from peaks of the real building and of the models."""
+"""Tables and remarks of an effective mass, from peaks of the real building and of the models."""
 
 from __future__ import annotations
 
-import hashlib
-import json
-from collections.abc import Iterator
-from itertools import chain
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 import polars as pl
@@ -14,7 +10,6 @@ import polars as pl
 from seismass.base.values import FloatArray
 from seismass.effective_mass.curve import Kind, Statistic, interpolated_roots, is_below, kind_of, over_records
 from seismass.effective_mass.runs import NamedMotions, Peaks
-from seismass.model.scene import Scene
 
 STOREY_REMARK: Final = 1.05
 """A storey that drifts more than so many times the model is named in the remarks."""
@@ -132,45 +127,3 @@ def record_table(motions: NamedMotions, shares: FloatArray, real: Peaks, model: 
         )
     schema = {"motion": pl.UInt32, "event": pl.String, "first_root": pl.Float64, "last_root": pl.Float64}
     return pl.DataFrame(rows, schema_overrides=schema)
-
-
-def inputs_digest(scene: Scene, motions: NamedMotions, chosen: dict[str, Any]) -> str:
-    """SHA-256 of everything that the numbers depend on."""
-    digest = hashlib.sha256(json.dumps(chosen, sort_keys=True).encode())
-    for part in chain(scene_bytes(scene), motion_bytes(motions)):
-        digest.update(part)
-    return digest.hexdigest()
-
-
-def scene_bytes(scene: Scene) -> Iterator[bytes]:
-    """Yield what defines a scene, in an order that does not change."""
-    building = scene.building
-    if building is not None:
-        structure = [building.mass, *building.springs_in_use().values(), building.damping_matrix]
-        optional = [building.heights, scene.initial_drift, scene.initial_velocity, scene.collapse_drift]
-        if building.stiffness_matrix is not None:
-            yield np.ascontiguousarray(building.stiffness_matrix, dtype="<f8").tobytes()
-        if building.laws:
-            yield repr((building.backbone, building.hysteresis)).encode()
-        for array in (*structure, scene.geometric_stiffness, *optional):
-            yield b"none" if array is None else np.ascontiguousarray(array, dtype="<f8").tobytes()
-    for block, mass in zip(scene.blocks, scene.block_mass, strict=True):
-        stops = block.stop_numbers or ()
-        yield np.array([block.floor, mass, block.mu_s, block.mu_k, *chain(*block.wear), *stops], dtype="<f8").tobytes()
-    if scene.base is not None:
-        yield repr(scene.base).encode()
-    for rack in scene.racks:
-        yield repr(sorted(rack._arguments().items(), key=lambda item: item[0])).encode()
-    if scene.other_direction is not False:
-        yield b"in y"
-        yield from scene_bytes(scene._directions()[1])
-
-
-def motion_bytes(motions: NamedMotions) -> Iterator[bytes]:
-    """Yield the samples and the time step of each motion."""
-    for motion in motions.components:
-        yield np.float64(motion.dt).tobytes()
-        yield np.ascontiguousarray(motion.acceleration, dtype="<f8").tobytes()
-        if motion.vertical is not None:
-            yield b"vertical"
-            yield np.ascontiguousarray(motion.vertical, dtype="<f8").tobytes()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from typing import Any, Final, TypeAlias
 
 import numpy as np
@@ -11,9 +9,9 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
+from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidOption
 from seismass.base.values import as_array, counted
-from seismass.effective_mass.tables import motion_bytes, scene_bytes
 from seismass.fragility.compare import comparison_table, curve_table, exceedance_table, fragility_table
 from seismass.fragility.fragility import BootstrapOptions, Fragility
 from seismass.fragility.result import SCHEMA_VERSION, AnalysisMethod, FragilityAnalysis
@@ -78,7 +76,7 @@ def result_of(
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
-            "inputs_sha256": _digest(setting, described),
+            "inputs_sha256": inputs_digest(setting.models, motion_contents(motions.components), described),
             **described,
             "motions": len(motions),
             "clusters": motions.clusters,
@@ -129,15 +127,3 @@ def _remarks(
             f"stiffness, strength and gravity load as in the real building; damping: {convention}"
         )
     return tuple(remarks)
-
-
-def _digest(setting: Setting, described: dict[str, Any]) -> str:
-    """SHA-256 of everything that the numbers depend on."""
-    digest = hashlib.sha256(json.dumps(described, sort_keys=True).encode())
-    for name, scene in setting.models.items():
-        digest.update(name.encode())
-        for part in scene_bytes(scene):
-            digest.update(part)
-    for part in motion_bytes(setting.motions):
-        digest.update(part)
-    return digest.hexdigest()

@@ -25,7 +25,7 @@ from seismass.media.result import Result, finite_values
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SCHEMA_VERSION: Final = 1
+SCHEMA_VERSION: Final = 2
 """Version of the tables and of the JSON of an analysis."""
 FRACTILES: Final = (0.16, 0.50, 0.84)
 """Shares of the motions at which curves are summarised."""

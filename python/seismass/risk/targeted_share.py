@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
+from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, refusal
 from seismass.effective_mass.answer import effective_mass
@@ -26,7 +27,6 @@ from seismass.effective_mass.models import (
 )
 from seismass.effective_mass.result import EffectiveMass
 from seismass.effective_mass.runs import Progress
-from seismass.effective_mass.tables import inputs_digest
 from seismass.fragility.exact_capacities import exact_capacities
 from seismass.fragility.limits import LimitState
 from seismass.fragility.measures import IntensityMeasure, MeasureName
@@ -221,7 +221,7 @@ def risk_targeted_share(
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
-            "inputs_sha256": inputs_digest(checked, setting.motions, chosen),
+            "inputs_sha256": inputs_digest(checked, motion_contents(setting.motions.components), chosen),
             **chosen,
             "motions": len(setting.motions),
             "clusters": setting.motions.clusters,

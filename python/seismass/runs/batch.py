@@ -13,10 +13,11 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
+from seismass.base.digest import inputs_digest
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.files import polars_writing, written_whole
 from seismass.base.forks import require_polars
-from seismass.base.kept import digest_of, kept_folder
+from seismass.base.kept import kept_folder
 from seismass.base.values import (
     as_count,
     as_flag,
@@ -257,7 +258,7 @@ def write_many(
     solved_by = (_kernel.VERSION, instruction_set(), size, options["peaks_only"], stretch)
     with (
         written_whole(target) as temporary,
-        kept_folder(target.parent, target.name, digest_of(batch, solved_by)) as kept,
+        kept_folder(target.parent, target.name, inputs_digest(batch, solved_by)) as kept,
     ):
         parts = []
         for done in range(0, max(len(stretch), 1), size):

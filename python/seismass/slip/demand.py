@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Callable, Iterable
 from typing import Any, Final, TypeAlias
 
-import numpy as np
-
 from seismass import _kernel
+from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.values import as_count, as_flag, as_number, as_progress, brief, refusal
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, check_damping
-from seismass.effective_mass.runs import NamedMotions, named_motions
-from seismass.effective_mass.tables import inputs_digest
+from seismass.effective_mass.runs import named_motions
 from seismass.fragility.fragility import Fragility
 from seismass.fragility.measures import IntensityMeasure, MeasureName, measure_for
 from seismass.model.motion import HasMotion, Motion
@@ -206,22 +202,9 @@ def slip_demand(
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
-            "inputs_sha256": _digest(scene, named, chosen),
+            "inputs_sha256": inputs_digest(scene, motion_contents(named.components), chosen),
             "motions": len(named),
             "clusters": named.clusters,
             **chosen,
         },
     )
-
-
-def _digest(scene: Scene, motions: NamedMotions, chosen: dict[str, Any]) -> str:
-    """SHA-256 of everything that the numbers depend on, for scenes with and without a building."""
-    if scene.building is not None:
-        return inputs_digest(scene, motions, chosen)
-    digest = hashlib.sha256(json.dumps(chosen, sort_keys=True).encode())
-    digest.update(repr((scene.blocks, *(rack._arguments() for rack in scene.racks))).encode())
-    for motion in motions.components:
-        digest.update(np.float64(motion.dt).tobytes())
-        for part in (motion.acceleration, motion.vertical):
-            digest.update(b"none" if part is None else np.ascontiguousarray(part, dtype="<f8").tobytes())
-    return digest.hexdigest()

@@ -15,7 +15,7 @@ from seismass.media.result import Result, finite_values
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SCHEMA_VERSION: Final = 1
+SCHEMA_VERSION: Final = 2
 """Version of the tables and of the JSON of a slip demand."""
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, Final
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
+from seismass.base.digest import inputs_digest
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import FloatArray, as_array, as_number, counted, frozen, refusal
 from seismass.spectra.checks import OWNER
@@ -74,16 +74,12 @@ class SuiteMean:
     @property
     def parameters(self) -> dict[str, Any]:
         """Names, factors, damping, and a digest of the samples."""
-        digest = hashlib.sha256()
-        for motion in self.motions:
-            digest.update(np.float64(motion.dt).tobytes())
-            digest.update(np.ascontiguousarray(motion.acceleration, dtype="<f8").tobytes())
         return {
             "shape": "suite_mean",
             "records": list(self.names),
             "factors": self.factors.tolist(),
             "damping": self.damping,
-            "samples_sha256": digest.hexdigest(),
+            "samples_sha256": inputs_digest(self.motions),
         }
 
     @property

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import os
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -16,6 +14,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass import _kernel
+from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.kept import NOTHING_KEPT, KeptResults
 from seismass.base.values import FloatArray, brief, content_hash, printable, refusal, same_content, short_repr
@@ -35,7 +34,7 @@ from seismass.study.fractions import effective_fractions, fractions_table
 from seismass.study.parameters import StudyParameters, code_fractions
 from seismass.study.tables import designs_table, responses_table, summary_table
 
-SCHEMA_VERSION: Final = 3
+SCHEMA_VERSION: Final = 4
 """Version of the tables and of the metadata that a study gives back; see docs/study_schema.md."""
 
 SPECTRUM_RANGE: Final = (0.05, 3.0)
@@ -221,7 +220,7 @@ def run_study(
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
-            "inputs_sha256": inputs_digest(suite, target, chosen, factors if given else None),
+            "inputs_sha256": study_digest(suite, target, chosen, factors if given else None),
             "parameters": chosen.content(),
             "code": _code_metadata(chosen),
             "target": {"label": target.label, **target.parameters},
@@ -355,18 +354,8 @@ def _spectrum(
     return pl.DataFrame({"period": periods, "target": target(periods), "mean": scaled.mean(axis=0), **motions})
 
 
-def inputs_digest(
+def study_digest(
     suite: Suite, target: TargetSpectrum, parameters: StudyParameters, factors: FloatArray | None = None
 ) -> str:
-    """Return the SHA-256 of all that the numbers depend on: samples, target, parameters, factors where given."""
-    digest = hashlib.sha256()
-    digest.update(json.dumps([SCHEMA_VERSION, target.parameters, parameters.content()], sort_keys=True).encode())
-    for record in suite:
-        digest.update(np.float64(record.dt).tobytes())
-        digest.update(np.ascontiguousarray(record.acceleration, dtype="<f8").tobytes())
-        if record.vertical is not None:
-            digest.update(b"vertical")
-            digest.update(np.ascontiguousarray(record.vertical, dtype="<f8").tobytes())
-    if factors is not None:
-        digest.update(np.ascontiguousarray(factors, dtype="<f8").tobytes())
-    return digest.hexdigest()
+    """Return the digest of all that the numbers depend on: samples, target, parameters, factors where given."""
+    return inputs_digest(SCHEMA_VERSION, motion_contents(suite), target.parameters, parameters.content(), factors)
