@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 from seismass.base.errors import InvalidOption
 from seismass.base.files import written_whole
 from seismass.base.values import as_path
-from seismass.media.folder import PAGE, as_written, check_out, write_folder
+from seismass.media.folder import PAGE, as_written, check_out, edited_files, write_folder
 from seismass.show.assessment.tables import (
     ANIMATION,
     DOCUMENT,
@@ -69,7 +69,9 @@ def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figu
     )
 
 
-def write_assessment_page(folder: Path, target: Path, *, progress: Progress | None = None) -> None:
+def write_assessment_page(
+    folder: Path, target: Path, *, force: bool = False, progress: Progress | None = None
+) -> tuple[str, ...]:
     """Write the page of an assessment from the tables of its folder alone.
 
     Parameters
@@ -78,22 +80,32 @@ def write_assessment_page(folder: Path, target: Path, *, progress: Progress | No
         The folder of the assessment.
     target : Path
         File of the page.
+    force : bool
+        Read files that were edited since they were written; the page says so.
     progress : callable, optional
         Called with (figures drawn, figures in all).
+
+    Returns
+    -------
+    tuple of str
+        Files that were edited.
 
     Raises
     ------
     InvalidOption
-        As for `read_assessment_tables`.
+        As for `read_assessment_tables`; or a file was edited.
     OSError
         The file cannot be written.
     """
+    read = (DOCUMENT, ANIMATION, *(f"{name}.parquet" for name in TABLES))
+    edited = edited_files(folder, read, force=force)
     with as_written(folder):
         tables = read_assessment_tables(folder)
         _, drawings = _drawn(tables, progress)
-        page = _page(tables, drawings)
+        page = _page(tables, drawings, edited)
     with written_whole(target) as temporary:
         temporary.write_text(page, encoding="utf-8")
+    return edited
 
 
 def _drawn(tables: AssessmentTables, progress: Progress | None = None) -> tuple[dict[str, Figure], dict[str, str]]:
@@ -105,9 +117,9 @@ def _drawn(tables: AssessmentTables, progress: Progress | None = None) -> tuple[
     return figures, figure_svgs(figures, progress)
 
 
-def _page(tables: AssessmentTables, drawings: dict[str, str]) -> str:
+def _page(tables: AssessmentTables, drawings: dict[str, str], edited: tuple[str, ...] = ()) -> str:
     from seismass.media.svg import figure_svgs
     from seismass.show.assessment.figures import PHONE_SIZE, assessment_figures
     from seismass.show.assessment.page import building_page
 
-    return building_page(tables, drawings, figure_svgs(assessment_figures(tables, PHONE_SIZE)))
+    return building_page(tables, drawings, figure_svgs(assessment_figures(tables, PHONE_SIZE)), edited)
