@@ -114,16 +114,21 @@ lint: lint-quick
 	$(PYTHON) tools/make_stubs.py --check
 	$(PYTHON) -m mypy.stubtest seismass._kernel --mypy-config-file pyproject.toml
 
-# Features of shared crates are those of the extension, which is tested from Python.
-RUST_TESTS := cargo test --locked --workspace
+# Integration tests share the kernel that is compiled for the extension: its profile, and the same packages, so that crates
+# have the same features. Its unit tests compile the kernel once more, in a profile that is compiled quickly.
+SHARED_RUST := cargo test --locked --workspace --release
 
-test-rust:
-	$(RUST_TESTS)
+test-rust: build
+	$(SHARED_RUST) --test '*' --examples
+	$(SHARED_RUST) --exclude seismass --lib --bins
+	cargo test --locked -p seismass --lib
+	$(SHARED_RUST) --doc
 
-# Fewer random scenes, with the same checks of each, and no doctests and examples. In the extension's profile, whose
-# compiled kernel the tests share.
+# Fewer random scenes, with the same checks of each.
 test-rust-quick: build
-	SEISMASS_STRESS_SCENES=300 SEISMASS_JUDGE_SCENES=20 $(RUST_TESTS) --release --lib --tests
+	SEISMASS_STRESS_SCENES=300 SEISMASS_JUDGE_SCENES=20 $(SHARED_RUST) --test '*'
+	$(SHARED_RUST) --exclude seismass --lib --bins
+	cargo test --locked -p seismass --lib
 
 # Two processes, a file's tests in one of them: they share its fixtures.
 PYTEST := $(PYTHON) -m pytest --numprocesses 2 --dist loadfile

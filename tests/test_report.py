@@ -233,7 +233,7 @@ def test_folder_that_is_no_study_is_refused(
     shutil.copytree(folder, out)
     (out / "report.html").unlink()
     change(out)  # type: ignore[operator]
-    assert main(["report", str(out)]) == 2
+    assert main(["report", str(out), "--force"]) == 2
     assert re.search(message, capsys.readouterr().err)
     assert not (out / "report.html").exists()
 

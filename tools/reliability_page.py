@@ -28,6 +28,8 @@ TESTS: Final = (
      "nothing is run, nothing of others deleted; refused in one line"),
     ("a campaign's folder, its bits flipped, parts exchanged, cut or missing", "test_campaign_folder.py",
      "each change is told by `--verify`"),
+    ("a folder of a building or a study: bits flipped, files missing or added", "test_edited_folders.py",
+     "refused by `report` with the name of the file; with `--force` said on the page"),
     ("files that are devices, pipes, endless, or ask for hours", "test_inputs_without_end.py", "refused at once"),
     ("names of control characters, marks and formulas", "test_hostile_names.py", "shown as escapes"),
     ("pages with 20 names of scripts, handlers and addresses, in Chromium", "browser/test_hostile_pages.py",

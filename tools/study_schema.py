@@ -18,8 +18,8 @@ HEAD: Final = f"""# Files of a study
 
 `seismass study --out DIR` writes tables, each as Parquet and as CSV, `tables.json`, `study.json`, `animation.json`,
 figures as SVG (with `--png` as PNG too) and the page `report.html`, which [report.md](report.md) describes.
-`files.json` lists the files with their SHA-256. What a later study does not write again is removed where that list
-names it and its bytes are the same; nothing else of the folder is.
+`files.json` lists the files with their SHA-256, and has that of the list. What a later study does not write again is
+removed where that list names it and its bytes are the same; nothing else of the folder is.
 `seismass report DIR` makes the page again from these files alone. Schema version {SCHEMA_VERSION}. SI units unless the
 name says otherwise; storeys, floors, buildings, motions and runs count from 1. The same inputs give the same bytes,
 whatever the number of threads, with the same instruction set; two instruction sets may differ in last digits. This

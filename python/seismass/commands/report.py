@@ -15,6 +15,9 @@ def options(parser: argparse.ArgumentParser) -> None:
     """Add the options."""
     parser.add_argument("folder", type=Path, metavar="DIR", help="folder of seismass study or seismass building")
     add_out_option(parser, "FILE", "file to write (report.html in the folder)")
+    parser.add_argument(
+        "--force", action="store_true", help="read files that were edited since they were written; the page says so"
+    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -28,7 +31,9 @@ def run(args: argparse.Namespace) -> int:
     check_files(target)
     write = write_assessment_page if (args.folder / DOCUMENT).exists() else write_study_page
     with progress("figures") as tell:
-        write(args.folder, target, progress=tell)
+        edited = write(args.folder, target, force=args.force, progress=tell)
+    if edited:
+        show(f"edited since they were written: {', '.join(edited)}")
     show(f"{target}: {target.stat().st_size / 1e6:.2f} MB, {seconds(args)}")
     return 0
 
@@ -36,7 +41,7 @@ def run(args: argparse.Namespace) -> int:
 COMMAND = Command(
     description=(
         "Write the page of a study or of a building from the tables of its folder, without solving "
-        "anything. The page needs nothing but itself."
+        "anything. The page needs nothing but itself. Files are compared with the digests of files.json."
     ),
     examples="""
 report study

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 PAGE: Final = "report.html"
 """File of the page of a folder."""
 FILES: Final = "files.json"
-"""File with the names and SHA-256 of what was written, by which a later call knows its own."""
+"""File with the names and SHA-256 of what was written, and that of the list: a later call knows its own by it."""
 
 
 def check_out(out: Path, owner: str) -> None:
@@ -97,7 +97,7 @@ def write_folder(
             write(places[name])
         if earlier is not None:
             listed = {name: _sha256(place) for name, place in places.items()}
-            text = json.dumps({"sha256": listed}, indent=1) + "\n"
+            text = json.dumps({"sha256": listed, "sha256_of_list": _list_sha256(listed)}, indent=1) + "\n"
             places[FILES] = stack.enter_context(written_whole(out / FILES))
             places[FILES].write_text(text, encoding="utf-8")
     if earlier is not None:
@@ -105,6 +105,54 @@ def write_folder(
             if name not in places and earlier(name) and _is_file_with(out / name, before[name]):
                 (out / name).unlink()
     return [out / name for name in places]
+
+
+def edited_files(folder: Path, read: Sequence[str], *, force: bool = False) -> tuple[str, ...]:
+    """Return which files of a folder that are read are not as files.json has them, and how they differ.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder.
+    read : sequence of str
+        Names of all files that may be read, that by which the folder is known first.
+    force : bool
+        Return them; else the first is refused.
+
+    Raises
+    ------
+    InvalidOption
+        A file differs, is missing, or is not listed, or the list itself is not as it was written.
+    """
+    if not (folder / read[0]).exists():
+        return ()  # what the reader says of a folder of another kind says more
+    listed = _whole_list(folder)
+    if listed is None:
+        found = [(FILES, "other content" if (folder / FILES).exists() else "none")]
+    else:
+        found = [(name, "none") for name in read if name in listed and not (folder / name).exists()]
+        there = [name for name in read if (folder / name).exists()]
+        found += [(name, "a file that files.json does not list") for name in there if name not in listed]
+        changed = (name for name in there if name in listed and not _is_file_with(folder / name, listed[name]))
+        found += [(name, "other content") for name in changed]
+    if found and not force:
+        need = "as it was written, by the digests of files.json, or --force be given"
+        raise refusal(InvalidOption, found[0][0], f"folder {folder}", need, found[0][1])
+    return tuple(f"{name} ({how})" for name, how in found)
+
+
+def _whole_list(folder: Path) -> dict[str, str] | None:
+    """Digests by name of files.json; None where it is missing or not as it was written."""
+    try:
+        document = json.loads(read_file(folder / FILES, follow=False))
+        listed: dict[str, str] = document["sha256"]
+        return listed if document["sha256_of_list"] == _list_sha256(listed) else None
+    except (OSError, ValueError, RecursionError, LookupError, TypeError):
+        return None
+
+
+def _list_sha256(listed: Mapping[str, str]) -> str:
+    return hashlib.sha256(json.dumps(listed, sort_keys=True).encode()).hexdigest()
 
 
 def _listed(out: Path) -> dict[str, str]:

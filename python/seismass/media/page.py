@@ -72,6 +72,14 @@ def facts_html(facts: Mapping[str, str]) -> Markup:
     return Markup('<dl class="facts">{}</dl>').format(Markup("").join(rows))
 
 
+def edited_html(edited: Sequence[str]) -> list[Markup]:
+    """What a page says of files that were edited since they were written; nothing where none was."""
+    if not edited:
+        return []
+    words = "Edited since seismass wrote them, so that this page may not be what was computed: {}."
+    return [Markup('<p class="edited"><strong>{}</strong></p>').format(words.format(", ".join(edited)))]
+
+
 def page_html(
     title: str,
     sections: Iterable[Section],

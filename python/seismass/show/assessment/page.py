@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Final
 
 import polars as pl
@@ -14,7 +14,7 @@ from seismass.effective_mass.estimate import RULE, RULE_IN_WORDS, SAFE_RULE
 from seismass.effective_mass.result import KIND_TEXTS
 from seismass.effective_mass.rules import BY_HAND
 from seismass.media.isolate import sentence_html
-from seismass.media.page import Section, facts_html, page_html, table_html, text_html
+from seismass.media.page import Section, edited_html, facts_html, page_html, table_html, text_html
 from seismass.media.page_lists import bullets_html, long_html
 from seismass.media.roles import EFFECTIVE, ETA, LAMBDA, MU, OMEGA, OVER_MODEL, lettered
 from seismass.media.text_table import number_text
@@ -47,10 +47,13 @@ METHOD: Final = (
 
 
 def building_page(
-    result: AssessmentTables, drawings: Mapping[str, str], for_phones: Mapping[str, str] | None = None
+    result: AssessmentTables,
+    drawings: Mapping[str, str],
+    for_phones: Mapping[str, str] | None = None,
+    edited: Sequence[str] = (),
 ) -> str:
     """Return the page of an assessment as HTML, from SVG texts of its figures by name. It needs no other file; equal
-    tables give equal pages.
+    tables give equal pages. `edited` are files that were edited since they were written, which the page says first.
     """
     document = result.document
     pictures = Pictures(drawings, for_phones or {})
@@ -78,7 +81,9 @@ def building_page(
     subtitle = "; ".join(part for part in (document["note"], version) if part)
     title = document["name"] or "Building"
     description = f"{title}: how much of its live load acts as mass in an earthquake, drifts, stability and slips."
-    return page_html(title, sections, subtitle=subtitle, description=description, lead=[sheet_html(result)])
+    return page_html(
+        title, sections, subtitle=subtitle, description=description, lead=[*edited_html(edited), sheet_html(result)]
+    )
 
 
 def _number(value: float | None, digits: int = 2) -> str:

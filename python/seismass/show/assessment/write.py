@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 from seismass.base.errors import InvalidOption
 from seismass.base.files import written_whole
 from seismass.base.values import as_path
-from seismass.media.folder import PAGE, as_written, check_out, write_folder
+from seismass.media.folder import PAGE, as_written, check_out, edited_files, write_folder
 from seismass.show.assessment.tables import (
     ANIMATION,
     DOCUMENT,
@@ -58,16 +58,21 @@ def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figu
     )
 
 
-def write_assessment_page(folder: Path, target: Path, *, progress: Progress | None = None) -> None:
-    """Write the page of an assessment from the tables of its folder alone; `progress` is called with (figures drawn,
-    figures in all).
+def write_assessment_page(
+    folder: Path, target: Path, *, force: bool = False, progress: Progress | None = None
+) -> tuple[str, ...]:
+    """Write the page of an assessment from the tables of its folder alone and return the files that were edited since
+    they were written, which are read with `force` alone. `progress` is called with (figures drawn, figures in all).
     """
+    read = (DOCUMENT, ANIMATION, *(f"{name}.parquet" for name in TABLES))
+    edited = edited_files(folder, read, force=force)
     with as_written(folder):
         tables = read_assessment_tables(folder)
         _, drawings = _drawn(tables, progress)
-        page = _page(tables, drawings)
+        page = _page(tables, drawings, edited)
     with written_whole(target) as temporary:
         temporary.write_text(page, encoding="utf-8")
+    return edited
 
 
 def _drawn(tables: AssessmentTables, progress: Progress | None = None) -> tuple[dict[str, Figure], dict[str, str]]:
@@ -79,9 +84,9 @@ def _drawn(tables: AssessmentTables, progress: Progress | None = None) -> tuple[
     return figures, figure_svgs(figures, progress)
 
 
-def _page(tables: AssessmentTables, drawings: dict[str, str]) -> str:
+def _page(tables: AssessmentTables, drawings: dict[str, str], edited: tuple[str, ...] = ()) -> str:
     from seismass.media.svg import figure_svgs
     from seismass.show.assessment.figures import PHONE_SIZE, assessment_figures
     from seismass.show.assessment.page import building_page
 
-    return building_page(tables, drawings, figure_svgs(assessment_figures(tables, PHONE_SIZE)))
+    return building_page(tables, drawings, figure_svgs(assessment_figures(tables, PHONE_SIZE)), edited)

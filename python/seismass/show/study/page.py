@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Final
 
 import polars as pl
 from markupsafe import Markup
 
 from seismass.media.isolate import sentence_html
-from seismass.media.page import Section, facts_html, page_html, table_html, text_html
+from seismass.media.page import Section, edited_html, facts_html, page_html, table_html, text_html
 from seismass.media.page_lists import bullets_html, long_html
 from seismass.media.roles import ALPHA, ATTACHED, CODE, ETA, MU, SLIDE, lettered
 from seismass.show.study.answer import SHORT, answer, compared_rules, one_line, percent, span
@@ -32,9 +32,14 @@ _PAPER_FIGURES: Final = {
 }
 
 
-def study_page(result: StudyTables, drawings: Mapping[str, str], for_phones: Mapping[str, str] | None = None) -> str:
+def study_page(
+    result: StudyTables,
+    drawings: Mapping[str, str],
+    for_phones: Mapping[str, str] | None = None,
+    edited: Sequence[str] = (),
+) -> str:
     """Return the page of a study as HTML, from SVG texts of `study_drawings` by name and those for narrow screens. It
-    needs no other file; equal tables give equal pages.
+    needs no other file; equal tables give equal pages. `edited` are files that were edited, which the page says first.
     """
     metadata = result.metadata
     page = Pictures(drawings, for_phones or {})
@@ -64,6 +69,7 @@ def study_page(result: StudyTables, drawings: Mapping[str, str], for_phones: Map
     ]
     line = one_line(result)
     lead = [
+        *edited_html(edited),
         Markup('<p class="answer"><strong>{}</strong></p>').format(line),
         page.figure(first, _UNDERESTIMATION, f"{line} Rings: what the model with all goods attached gives."),
     ]

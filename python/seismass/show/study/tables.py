@@ -29,6 +29,8 @@ _SECTION4: Final = ("section4_runs", "section4_differences", "section4_histories
 _PLATFORM: Final = ("platform_runs", "platform_bands")
 OPTIONAL_TABLES: Final = ("sensitivity", "claims", *_SECTION4, *_PLATFORM)
 """Tables that a study has only where it was asked for them."""
+READ: Final = (DOCUMENT, ANIMATION, *(f"{name}.parquet" for name in (*_OWN, *OPTIONAL_TABLES)))
+"""Files of which the page is made."""
 
 
 @dataclass(frozen=True, eq=False)

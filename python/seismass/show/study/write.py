@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, Final
 import polars as pl
 
 from seismass.base.files import written_whole
-from seismass.media.folder import PAGE, as_written, write_folder
-from seismass.show.study.tables import ANIMATION, DOCUMENT, OPTIONAL_TABLES, StudyTables, read_study_tables
+from seismass.media.folder import PAGE, as_written, edited_files, write_folder
+from seismass.show.study.tables import ANIMATION, DOCUMENT, OPTIONAL_TABLES, READ, StudyTables, read_study_tables
 from seismass.study.columns import TABLES, units_of
 
 if TYPE_CHECKING:
@@ -63,18 +63,24 @@ def write_study(
     )
 
 
-def write_study_page(folder: Path, target: Path, *, progress: Progress | None = None) -> None:
-    """Write the page of a study from the tables of its folder alone; `progress` as in `write_study`."""
+def write_study_page(
+    folder: Path, target: Path, *, force: bool = False, progress: Progress | None = None
+) -> tuple[str, ...]:
+    """Write the page of a study from the tables of its folder alone and return the files that were edited since they
+    were written, which are read with `force` alone; `progress` as in `write_study`.
+    """
     from seismass.media.svg import figure_svgs
     from seismass.show.study.figures import phone_figures
     from seismass.show.study.page import study_page
 
+    edited = edited_files(folder, READ, force=force)
     with as_written(folder):
         result = read_study_tables(folder)
         _, drawings = _drawn(result, progress)
-        page = study_page(result, drawings, figure_svgs(phone_figures(result)))
+        page = study_page(result, drawings, figure_svgs(phone_figures(result)), edited)
     with written_whole(target) as temporary:
         temporary.write_text(page, encoding="utf-8")
+    return edited
 
 
 def _drawn(result: StudyTables, progress: Progress | None) -> tuple[dict[str, Figure], dict[str, str]]:
