@@ -204,7 +204,7 @@ def test_film_is_as_long_as_the_run(tmp_path: Path) -> None:
     sm.animate(SCENE, PULSE).write(path)
     said = subprocess.run(["ffmpeg", "-i", str(path)], capture_output=True, text=True).stderr
     (length,) = re.findall(r"Duration: 00:00:0(\d\.\d+)", said)
-    assert float(length) == pytest.approx(2.0, abs=0.1)
+    assert float(length) == pytest.approx(2.0, abs=0.1)  # to two frames, of 1/25 s
     assert "720x" in said
 
 

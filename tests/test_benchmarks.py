@@ -130,7 +130,7 @@ def test_guards_at_zero_are_lifted_and_guards_below_are_missed_events(module: An
     guard = watched.guards[yields]
     x[0] = -guard.offset / guard.row[0]
     lifted = watched.lifted(x, 0.0) - watched.limits
-    assert lifted[yields] == pytest.approx(machine.ROUNDING, rel=1e-2)
+    assert lifted[yields] == pytest.approx(machine.ROUNDING, rel=1e-9)
     assert np.count_nonzero(lifted) == 1
     with pytest.raises(module("contestants.base").Failed, match="missed"):
         watched.lifted(1.01 * x, 0.0)

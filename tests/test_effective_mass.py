@@ -113,7 +113,7 @@ def test_all_attached_is_not_enough() -> None:
 def test_top_storey_needs_the_envelope() -> None:
     found = sm.effective_mass(case(4, 0.57, 1.5, 6.0, 0.15), MOTIONS)
     top = found.storeys.row(-1, named=True)
-    assert top["ratio"] == pytest.approx(1.244, abs=1e-3)
+    assert top["ratio"] == pytest.approx(1.244, abs=5e-4)  # of the same independent run, to three decimals
     assert top["envelope_ratio"] < 1.0
     assert any("storey 4 drifts 1.24 times the model" in remark for remark in found.remarks)
 

@@ -240,8 +240,9 @@ def test_blocks_may_have_distributions_of_their_own() -> None:
     table = grid.table()
     ratio, mu = (np.array(table[name].to_list()) for name in ("mass_ratio", "mu_s"))
     assert (ratio[:, 1] == 0.5).all()
-    np.testing.assert_allclose(np.median(ratio[:, 0]), 1.0, rtol=0.01)
-    np.testing.assert_allclose(np.median(mu, axis=0), [0.4, 0.3], rtol=0.01)
+    # Points of Sobol part every coordinate evenly: medians are off by a spacing of 1/1024 of the probability, 6e-4.
+    np.testing.assert_allclose(np.median(ratio[:, 0]), 1.0, rtol=1e-3)
+    np.testing.assert_allclose(np.median(mu, axis=0), [0.4, 0.3], rtol=1e-3)
     assert abs(stats.spearmanr(mu[:, 0], mu[:, 1]).statistic) < 0.1
 
 
@@ -251,7 +252,7 @@ def test_kinetic_friction_may_be_drawn_over_static() -> None:
     ).table()
     ratio = (table["mu_k"] / table["mu_s"]).to_numpy()
     assert ratio.max() <= 1.0
-    np.testing.assert_allclose(ratio.mean(), 0.75, atol=0.005)
+    np.testing.assert_allclose(ratio.mean(), 0.75, atol=5e-4)
     half = sample(mu=[sm.distributions.lognormal(0.4, 0.25), 0.3], mu_k_over_mu_s=0.5).table()
     assert np.array_equal(np.array(half["mu_k"].to_list()), 0.5 * np.array(half["mu_s"].to_list()))
 

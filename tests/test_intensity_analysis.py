@@ -133,7 +133,7 @@ def test_capacities_are_those_of_brute_force() -> None:
 
 
 def test_the_hunt_has_the_same_answer_with_other_steps() -> None:
-    """Where curves cross the limit once, the bracket is the same to its tolerance."""
+    """Where curves cross the limit once, they do so at the same place: brackets of 1e-3, linear within."""
     default = incremental_dynamic_analysis(warehouse(), SUITE, DRIFT, resamples=0)
     other = incremental_dynamic_analysis(
         warehouse(), SUITE, DRIFT, hunt=HuntAndFill(step=0.2, increment=0.0, fill=2, steps=40), resamples=0
@@ -141,7 +141,7 @@ def test_the_hunt_has_the_same_answer_with_other_steps() -> None:
     once = (default.capacities["crossings"] == 1).to_numpy() & (other.capacities["crossings"] == 1).to_numpy()
     assert once.sum() > 25
     np.testing.assert_allclose(
-        default.capacities["capacity"].to_numpy()[once], other.capacities["capacity"].to_numpy()[once], rtol=2e-3
+        default.capacities["capacity"].to_numpy()[once], other.capacities["capacity"].to_numpy()[once], rtol=1e-4
     )
     # Runs are solved by rounds, so that what threads do changes nothing.
     again = incremental_dynamic_analysis(warehouse(), SUITE, DRIFT, resamples=0, threads=1)
@@ -258,11 +258,17 @@ def test_fractiles_of_demand_count_collapse_as_infinite(analysis: FragilityAnaly
     exact = solve_grid({"real": warehouse()}, SUITE, DRIFT, levels)
     for row, level in zip(found.iter_rows(named=True), levels, strict=True):
         demand = exact.filter(intensity=level)["drift_ratio"].to_numpy()
-        # Between points of the hunt curves are taken as linear.
-        assert row["p50"] == pytest.approx(np.median(demand), rel=0.05)
+        # Between points of the hunt, and from no demand at none, curves are taken as linear, which is off by 3 %.
+        curves = analysis.runs.filter(model="real").sort("intensity").partition_by("motion")
+        taken = [
+            np.interp(level, np.append(0.0, curve["intensity"]), np.append(0.0, curve["drift_ratio"]))
+            for curve in curves
+        ]
+        assert row["p50"] == pytest.approx(np.median(taken), rel=1e-12)
+        assert row["p50"] == pytest.approx(np.median(demand), rel=0.04)
     capacity = analysis.fractiles("demand", [0.02]).filter(model="real", demand_column="drift_ratio")
     rows = analysis.capacities.filter(limit=DRIFT.name, model="real")["capacity"].to_numpy()
-    assert capacity["p50"][0] == pytest.approx(np.median(rows), rel=1e-3)
+    assert capacity["p50"][0] == pytest.approx(np.median(rows), rel=1e-9)
     falls = analysis.fractiles("intensity", [30.0]).filter(model="real", demand_column="drift_ratio")
     assert falls["p50"].is_infinite().all()
 

@@ -126,10 +126,10 @@ def test_a_smooth_curve_has_its_misfit_said_and_drawn() -> None:
     axes = two.plot().axes[0]
     assert axes.get_title() == f"storey 1: misfit {100 * misfit.max():.2g} %, rms {100 * two.rms_misfit[0]:.2g} %"
     assert [len(fit_pushover([drift] * count, [shear] * count).plot().axes) for count in (1, 3, 6)] == [1, 3, 6]
-    # Twice as many samples on the elastic line are the same curve.
+    # More samples on the elastic line are the same curve, whose chords are 1e-4 nearer to it.
     dense = np.unique(np.r_[drift, np.linspace(0.0, 0.01, 40)])
     other = fit_pushover(dense, 1e6 * np.tanh(dense / 0.02))
-    assert other.stiffness[0] == pytest.approx(two.stiffness[0], rel=0.01)
+    assert other.stiffness[0] == pytest.approx(two.stiffness[0], rel=2e-4)
 
 
 @pytest.mark.parametrize(

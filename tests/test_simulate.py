@@ -47,7 +47,8 @@ def test_response_arrays() -> None:
         assert getattr(response, name).shape == (2000, 2), name
     assert response.time[-1] == pytest.approx(19.99)
     assert (np.abs(response.drift).max(axis=0) <= response.peak_drift).all()
-    assert np.abs(response.drift).max(axis=0) == pytest.approx(response.peak_drift, rel=1e-2)
+    # Peaks lie between samples of 0.01 s, by some w^2 (dt/2)^2/2 beyond them.
+    assert np.abs(response.drift).max(axis=0) == pytest.approx(response.peak_drift, rel=1e-3)
     assert response.drift[-1] == pytest.approx(response.residual_drift)
     assert response.slip[-1] == pytest.approx(response.residual_slip)
     assert (response.slip_path >= response.peak_slip).all()

@@ -16,6 +16,7 @@ from seismass.assessment.building_file import example_file
 from seismass.cli import main
 from seismass.model.codes import FROM_MEMORY, SECOND_HAND, VERIFIED
 from seismass.runs.scene_file import example_scene
+from seismass.spectra import corner_period
 
 G = 9.80665
 
@@ -156,8 +157,11 @@ def test_an_assessment_under_eurocode_8_says_what_it_took(cold_store: sm.Assessm
     assert "unverified; not checked against the code" in said
     assert "Limits: drift ratio 0.015 (Eurocode 8, EN 1998-1, 4.4.3.2(1), ductile-partitions" in said
     assert not cold_store.answer.doubts
-    # The rule's corner period is that of the motions, near T_C = 0.6 s of ground C to which they are scaled.
-    assert cold_store.effective["real"].by_hand.corner_period == pytest.approx(0.6, rel=0.15)
+    # The rule's corner period is that of the scaled motions: not T_C = 0.6 s of ground C, nor T_S of a shape of ASCE 7.
+    assert cold_store.scaling is not None
+    suite, factors = sm.builtin_suite("forty"), cold_store.scaling.factors
+    corner = corner_period(lambda at: factors @ sm.response_spectrum(suite, at) / len(suite))
+    assert cold_store.effective["real"].by_hand.corner_period == pytest.approx(corner, rel=1e-9)
     document = json.loads(cold_store.to_json())
     assert document["target"]["shape"] == "eurocode8"
     assert document["input"]["period_rule"]["clause"] == "4.3.3.2.2(3)"
