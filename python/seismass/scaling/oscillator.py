@@ -13,6 +13,7 @@ from seismass.base.values import FloatArray, brief, refusal
 from seismass.base.views import Card
 from seismass.design import vibration_modes
 from seismass.model.building import Building, of_storeys_alone
+from seismass.spectra.oscillators import Oscillator
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,11 @@ class FirstModeOscillator(Card):
     def post_yield_slope(self) -> float:
         """Slope after the first yield over the initial one: r2, or r3 where both yields coincide."""
         return self.second_slope if self.overstrength > 1.0 else self.third_slope
+
+    def of_spectrum(self) -> Oscillator:
+        """Return the oscillator as inelastic spectra take it."""
+        shape = (self.overstrength, self.second_slope, self.third_slope)
+        return Oscillator(self.period, self.yield_acceleration, self.damping, *shape)
 
     @property
     def building(self) -> Building:

@@ -291,7 +291,7 @@ class _Search:
         self._yield_deformation = oscillator.yield_deformation
         self._at_yield = oscillator.yield_deformation / elastic
         largest = _BEYOND * max(strength, 1.0) * float(self._at_yield.max())
-        self._runner = Oscillators([oscillator.building], suite, largest, threads)
+        self._runner = Oscillators([oscillator.of_spectrum()], suite, largest, threads)
 
     def deformations(self, motion: Any, factor: FloatArray) -> FloatArray:
         """Return the peak deformation (m) under motions by index, with factors; below yield it is proportional."""

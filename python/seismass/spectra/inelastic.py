@@ -10,16 +10,15 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
+from seismass import _kernel
 from seismass.base.errors import InvalidOption, SimulationError
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_array, as_count, as_number, content_hash, frozen, refusal, same_content
 from seismass.base.views import Card
-from seismass.model.building import Building
 from seismass.model.motion import motion_names
-from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
 from seismass.spectra.elastic import response_spectrum
 from seismass.spectra.motions import GroundMotion, as_motions, check_not_zero
-from seismass.spectra.oscillators import Oscillators
+from seismass.spectra.oscillators import Oscillator, Oscillators
 
 SCAN_STEP: Final = 0.04
 """Step of ln C_y by which the strength is lowered in search of a ductility; roots closer than it may be missed."""
@@ -98,9 +97,9 @@ def inelastic_spectrum(
     strength: ArrayLike | None = None,
     ductility: ArrayLike | None = None,
     damping: float = 0.05,
-    overstrength: float = DEFAULT_OVERSTRENGTH,
-    second_slope: float = DEFAULT_SECOND_SLOPE,
-    third_slope: float = DEFAULT_THIRD_SLOPE,
+    overstrength: float = _kernel.DEFAULT_OVERSTRENGTH,
+    second_slope: float = _kernel.DEFAULT_SECOND_SLOPE,
+    third_slope: float = _kernel.DEFAULT_THIRD_SLOPE,
     threads: int | None = None,
 ) -> InelasticSpectrum:
     """Return peak displacement and ductility of oscillators of given strength, or the strength for a given ductility.
@@ -167,16 +166,8 @@ def inelastic_spectrum(
     damping_ratio = as_number(damping, "damping", owner, InvalidOption)
     workers = None if threads is None else as_count(threads, "threads", owner, InvalidOption, least=1)
     elastic = response_spectrum(suite, at, damping_ratio, "displacement", threads=workers)
-    buildings = [
-        Building.uniform(
-            1,
-            period,
-            yield_shear_over_weight=1.0,
-            damping=damping_ratio,
-            overstrength=overstrength,
-            second_slope=second_slope,
-            third_slope=third_slope,
-        )
+    oscillators = [
+        Oscillator(period, STANDARD_GRAVITY, damping_ratio, overstrength, second_slope, third_slope)
         for period in at.tolist()
     ]
     unit = STANDARD_GRAVITY * (at / (2.0 * np.pi)) ** 2  # yield displacement of C_y = 1
@@ -184,12 +175,12 @@ def inelastic_spectrum(
     levels = _levels(given, name, owner)
     if ductility is None:
         finite = levels[np.isfinite(levels)]
-        runner = Oscillators(buildings, suite, float(1.0 / finite.min()) if len(finite) else 1.0, workers)
+        runner = Oscillators(oscillators, suite, float(1.0 / finite.min()) if len(finite) else 1.0, workers)
         found = _of_strengths(runner, np.atleast_1d(levels), elastic, unit)
     else:
         check_not_zero(elastic)
         largest = float(levels.max() / (elastic / unit).min())
-        runner = Oscillators(buildings, suite, largest, workers)
+        runner = Oscillators(oscillators, suite, largest, workers)
         found = _of_ductilities(runner, np.atleast_1d(levels), elastic / unit, unit)
     if levels.ndim == 0:
         found = [values[:, 0, :] for values in found]
