@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import copy
 import os
+from collections.abc import Callable
+from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -127,6 +130,30 @@ def unequal_motions() -> tuple[sm.Record, ...]:
         wave = peak * np.sin(2.0 * np.pi * time / period) * np.sin(np.pi * time / seconds) ** 2
         bursts.append(sm.Record(wave, dt, name=f"burst {number}"))
     return tuple(bursts)
+
+
+@pytest.fixture(scope="session")
+def take_few() -> Callable[[pytest.MonkeyPatch], None]:
+    """What makes three of the built-in forty, for whole commands of which no number is tested."""
+    from seismass.records import builtin
+
+    stored = builtin._stored
+    return lambda patch: patch.setattr(builtin, "_stored", lambda *of: stored(*of)[:3])
+
+
+@pytest.fixture
+def few_motions(take_few: Callable[[pytest.MonkeyPatch], None], monkeypatch: pytest.MonkeyPatch) -> None:
+    """The built-in forty are three in this test."""
+    take_few(monkeypatch)
+
+
+@pytest.fixture
+def small_map(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The command of the map has two buildings, and models of eleven shares."""
+    package = import_module("seismass.effective_mass")  # as an attribute of seismass it is the function
+    buildings = ((1, 0.4, "loaded"), (2, 0.38, "bare"))
+    small = partial(package.EffectiveMassParameters, buildings=buildings, shares=11)
+    monkeypatch.setattr(package, "EffectiveMassParameters", small)
 
 
 @pytest.fixture(scope="session")

@@ -22,7 +22,7 @@ from seismass.plots.timeline import MARKS
 from seismass.runs.response import EVENT_KINDS
 from seismass.runs.response_views import ResponsePlots
 from seismass.show.study.figures import study_figures
-from seismass.study import run_study
+from seismass.study import StudyParameters, run_study
 
 ROOT = Path(__file__).parents[1]
 G = sm.STANDARD_GRAVITY
@@ -346,7 +346,8 @@ def test_code_of_the_page_runs_and_its_figures_are_there() -> None:
 
 def test_figures_of_a_study_are_drawn_once_for_each_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Their cost is in drawing and in finding places: one drawing a file, and places once for all drift profiles."""
-    result = run_study(sm.builtin_suite("seven"), sm.TargetSpectrum.asce7())
+    few = StudyParameters(buildings=((2, 0.38), (3, 0.47)), mass_ratios=(1.0,))
+    result = run_study(sm.builtin_suite("seven"), sm.TargetSpectrum.asce7(), few)
     calls: list[str] = []
 
     def counted(owner: type, name: str) -> None:

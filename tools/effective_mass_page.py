@@ -2,8 +2,8 @@
 motions.
 
 Usage: tools/effective_mass_page.py SHARED [SUITE ...], SHARED a folder with `records`, by default all three suites;
-some ten minutes. Recordings are solved with a quarter of the shares. The tests check the table of the built-in suite
-alone.
+some ten minutes. Models are solved at a quarter of the shares that a map takes by default, and no interval is printed.
+The tests check the table of the built-in suite alone.
 """
 
 from __future__ import annotations
@@ -33,6 +33,7 @@ MORE = (
     "07_Kobe_1995_substitutes/RSN1111_KOBE_NIS090.AT2",
 )
 """Components of the far-field set that are, or stand beside, records of the paper: no rule was fitted on them."""
+PARAMETERS = EffectiveMassParameters(shares=26, resamples=1)
 TITLES = {
     "builtin": "Built-in suite, 7 synthetic motions",
     "paper": "The paper's seven recordings (one substitute)",
@@ -105,7 +106,6 @@ def write(maps: dict[str, EffectiveMassMap]) -> None:
 if __name__ == "__main__":
     if len(sys.argv) < 2 or not set(sys.argv[2:]) <= TITLES.keys():
         sys.exit(__doc__)
-    target, coarse = TargetSpectrum.asce7(), EffectiveMassParameters(shares=26)
     wanted = sys.argv[2:] or list(TITLES)
     every = suites(Path(sys.argv[1]))
-    write({key: effective_mass_map(every[key], target, None if key == "builtin" else coarse) for key in wanted})
+    write({key: effective_mass_map(every[key], TargetSpectrum.asce7(), PARAMETERS) for key in wanted})
