@@ -50,6 +50,8 @@ def test_triangle() -> None:
     assert record.significant_duration(0.0, 1.0) == pytest.approx(2.0 * h, rel=1e-13)
     assert record.significant_duration(0.5, 0.5) == 0.0
     assert record.bracketed_duration(0.1) == pytest.approx(2.0 * h * (1.0 - 0.1 * G / a), rel=1e-13)
+    # A threshold that is just reached is reached.
+    assert Record([0.0, 0.1 * G, -0.1 * G, 0.0], h).bracketed_duration(0.1) == h
 
 
 def test_peaks_between_samples() -> None:

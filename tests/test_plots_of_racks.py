@@ -91,7 +91,9 @@ def test_contacts(response: sm.Response) -> None:
         np.testing.assert_allclose(drawn.get_ydata(), own["sign"] * own["velocity"].abs())
         fastest = response.peak_contact_velocity[number - 1]
         assert np.abs(drawn.get_ydata()).max() == pytest.approx(fastest, rel=1e-12)
-        assert f"{own.height} contacts, at most {fastest:.3g} m/s" in axes.get_title(loc="left")
+        force = 1e-3 * response.peak_contact_force[number - 1]
+        said = f"{own.height} contacts, at most {fastest:.3g} m/s and {force:.3g} kN"
+        assert said in axes.get_title(loc="left")
     with pytest.raises(sm.errors.InvalidOption, match="blocks of figure of contacts must be some of 1, 4; got 2"):
         response.plot.contacts(blocks=[1, 2])
     without = sm.simulate(sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.2)]), sm.builtin_record("synthetic-1"))

@@ -105,10 +105,11 @@ def test_events_and_counts_agree() -> None:
 
 
 def test_drift_ratios_where_heights_are_known() -> None:
-    heights = [4.0, 3.0, 3.0]
+    heights = [4.1, 3.3, 2.9]
     response = sm.simulate(scene(heights=heights), shaking(), histories=True)
     assert response.peak_drift_ratio == pytest.approx(response.peak_drift / heights)
     assert response.drift_ratio == pytest.approx(response.drift / heights)
+    assert response.residual_drift_ratio == pytest.approx(response.residual_drift / heights)
     assert sm.simulate(scene(), shaking()).peak_drift_ratio is None
 
 
