@@ -22,7 +22,7 @@ _LONGEST_FLOW: Final = 60.0
 
 @dataclass(frozen=True)
 class Oscillator:
-    """An oscillator of 1 kg with a trilinear spring: period (s), A_y of the first yield (m/s2), damping ratio, shape."""
+    """An oscillator of 1 kg with a trilinear spring: period (s), first yield A_y (m/s2), damping ratio, shape."""
 
     period: float
     yield_acceleration: float
