@@ -49,7 +49,7 @@ endif
 
 # Wall times of the kernel alone; BENCH_OPTIONS goes to divan (a filter, --sample-count).
 bench-kernel:
-	cargo bench --locked -p seismass --bench kernel -- $(BENCH_OPTIONS)
+	cargo bench --locked -p seismass-bench --bench kernel -- $(BENCH_OPTIONS)
 
 # Instructions beside those last recorded in benchmarks/results/instructions.csv: fails where one grew by more than 1 %.
 # LABEL="what changed" records them there instead; BENCH_OPTIONS goes to benchmarks/instructions.py (--all, --tolerance).
@@ -103,9 +103,10 @@ lint: build
 	$(PYTHON) tools/make_stubs.py --check
 	$(PYTHON) -m mypy.stubtest seismass._kernel --mypy-config-file pyproject.toml
 
-# The extension crate is left out: it links against the Python that loads it and is tested from there.
+# The extension crate is left out: it links against the Python that loads it and is tested from there. Benchmarks hold no
+# tests, and what they depend on is not compiled for these.
 test-rust:
-	cargo test --locked --workspace --exclude seismass-python
+	cargo test --locked --workspace --exclude seismass-python --exclude seismass-bench
 
 # Two processes, a file's tests in one of them: they share its fixtures.
 test-python: build $(VENV)/browser web-kernel
