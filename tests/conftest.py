@@ -1,6 +1,7 @@
 """Fixtures of all tests."""
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -21,3 +22,14 @@ def shared() -> Path:
     if not path.is_dir():
         pytest.fail(f"SEISMASS_SHARED must be a directory; got {folder}")
     return path
+
+
+@pytest.fixture
+def reference(request: pytest.FixtureRequest) -> Callable[[str], Path]:
+    """Finds a file of the reference scenes: in the repository, else in the folder that is not part of the project."""
+
+    def find(name: str) -> Path:
+        path = Path(__file__).parents[1] / "crates/seismass/tests/data/reference" / name
+        return path if path.exists() else request.getfixturevalue("shared") / "reference" / name
+
+    return find
