@@ -56,7 +56,7 @@ endif
 
 # Wall times of the kernel alone; BENCH_OPTIONS goes to divan (a filter, --sample-count).
 bench-kernel:
-	cargo bench --locked -p seismass --bench kernel -- $(BENCH_OPTIONS)
+	cargo bench --locked -p seismass-bench --bench kernel -- $(BENCH_OPTIONS)
 
 # Instructions beside those last recorded in benchmarks/results/instructions.csv: fails where one grew by more than 1 %.
 # LABEL="what changed" records them there instead; BENCH_OPTIONS goes to benchmarks/instructions.py (--all, --tolerance).
@@ -115,8 +115,8 @@ lint: lint-quick
 	$(PYTHON) -m mypy.stubtest seismass._kernel --mypy-config-file pyproject.toml
 
 # Integration tests share the kernel that is compiled for the extension: its profile, and the same packages, so that crates
-# have the same features. Its unit tests compile the kernel once more, in a profile that is compiled quickly.
-SHARED_RUST := cargo test --locked --workspace --release
+# have the same features. Benchmarks hold no tests. The kernel's unit tests compile the kernel once more, in a profile that is compiled quickly.
+SHARED_RUST := cargo test --locked --workspace --exclude seismass-bench --release
 
 test-rust: build
 	$(SHARED_RUST) --test '*' --examples

@@ -44,7 +44,7 @@ TOLERANCE: Final = 1.0
 YIELDING: Final = "yielding, 4 storeys"
 SECTION4: Final = ("section 4, r2 = 0.05", "section 4, r2 = 0.5")
 STEPPED: Final = (YIELDING, *SECTION4, "sliding, 3 storeys", "rayleigh, 12 storeys")
-"""Scenes solved by plain steps and events, of crates/seismass/benches/common."""
+"""Scenes solved by plain steps and events, of crates/seismass-bench/benches/common."""
 WHOLE: Final = ("elastic, 4 storeys", "rayleigh, 100 storeys")
 """Scenes of which the run as a whole is counted: without events, and without plain steps."""
 OTHER: Final = (
@@ -78,11 +78,11 @@ class Count:
 
 @cache
 def program() -> Path:
-    """Build the work to be counted, crates/seismass/benches/count.rs, and return where it is."""
+    """Build the work to be counted, crates/seismass-bench/benches/count.rs, and return where it is."""
     if shutil.which("valgrind") is None:
         raise Missing("valgrind is not installed: no instruction is counted")
     cargo = os.environ.get("CARGO", "cargo")
-    options = ("--locked", "--quiet", "--no-run", "-p", "seismass", "--bench", "count", "--message-format=json")
+    options = ("--locked", "--quiet", "--no-run", "-p", "seismass-bench", "--bench", "count", "--message-format=json")
     built = subprocess.run([cargo, "bench", *options], cwd=ROOT, check=True, capture_output=True, text=True)
     found = [json.loads(line).get("executable") for line in built.stdout.splitlines() if line.startswith("{")]
     return Path(next(path for path in reversed(found) if path))

@@ -168,6 +168,17 @@ def shared() -> Path:
     return path
 
 
+@pytest.fixture
+def reference(request: pytest.FixtureRequest) -> Callable[[str], Path]:
+    """Finds a file of the reference scenes: in the repository, else in the folder that is not part of the project."""
+
+    def find(name: str) -> Path:
+        path = Path(__file__).parents[1] / "crates/seismass/tests/data/reference" / name
+        return path if path.exists() else request.getfixturevalue("shared") / "reference" / name
+
+    return find
+
+
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Mark the tests that take seconds. A line that no test of a collected file begins with is an error."""
     lines = [line.partition("  #")[0].rstrip() for line in SLOW.read_text(encoding="utf-8").splitlines()]

@@ -69,3 +69,30 @@ def test_the_environment_of_the_benchmarks_has_what_the_package_needs() -> None:
     listed = (ROOT / "benchmarks" / "requirements.txt").read_text(encoding="utf-8").splitlines()
     found = {re.split(r"[<>=;]", line)[0].strip().lower() for line in listed if not line.lstrip().startswith("#")}
     assert needed <= found
+
+
+def test_crates_have_no_dependency_that_they_do_not_name() -> None:
+    """What benchmarks alone need stays out of the dependencies of tests."""
+    for manifest in ROOT.glob("crates/*/Cargo.toml"):
+        crate = tomllib.loads(manifest.read_text(encoding="utf-8"))
+        parts = {
+            "dependencies": ("src",),
+            "build-dependencies": ("build.rs",),
+            "dev-dependencies": ("src", "tests", "benches", "examples"),
+        }
+        for kind, places in parts.items():
+            files = [
+                path
+                for place in places
+                for path in (manifest.parent / place, *manifest.parent.glob(f"{place}/**/*.rs"))
+            ]
+            text = "\n".join(path.read_text(encoding="utf-8") for path in files if path.is_file())
+            unnamed = [name for name in crate.get(kind, {}) if not re.search(rf"\b{name.replace('-', '_')}\b", text)]
+            assert not unnamed, f"{kind} of {manifest.parent.name}"
+
+
+def test_benchmarks_are_built_when_asked_for_alone() -> None:
+    workspace = tomllib.loads((ROOT / "Cargo.toml").read_text(encoding="utf-8"))["workspace"]
+    assert "crates/seismass-bench" in set(workspace["members"]) - set(workspace["default-members"])
+    tests = [line for line in (ROOT / "Makefile").read_text(encoding="utf-8").splitlines() if "cargo test" in line]
+    assert tests and all("--exclude seismass-bench" in line for line in tests if "--workspace" in line)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -147,14 +147,12 @@ def test_pairs_of_scene_files(tmp_path: Path) -> None:
         sm.read_scene(path)
 
 
-@pytest.mark.skipif("SEISMASS_SHARED" not in os.environ, reason="SEISMASS_SHARED is not set: no reference scenes")
 @pytest.mark.parametrize("name", ["25_plane", "33_plane_rack", "36_plane_stop"])
-def test_reference_scenes_from_files(name: str) -> None:
-    folder = Path(os.environ["SEISMASS_SHARED"], "reference", "general")
-    file = sm.read_scene(folder / f"{name}.json")
+def test_reference_scenes_from_files(reference: Callable[[str], Path], name: str) -> None:
+    file = sm.read_scene(reference(f"general/{name}.json"))
     assert file.other_motion is not None
     response = sm.simulate(file.scene, (file.motion, file.other_motion), energy=True)
-    expected = json.loads((folder / "results" / f"{name}.json").read_text())
+    expected = json.loads(reference(f"general/results/{name}.json").read_text())
     for key, found in (
         ("peak_drift", response.peak_drift),
         ("peak_acceleration", response.peak_floor_acceleration),

@@ -5,6 +5,7 @@ The reference results are those of an independent solver in 80-bit arithmetic; t
 
 import json
 import pickle
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -27,11 +28,10 @@ def rack(**changes) -> sm.Rack:
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_reference_scenes(shared: Path, name: str) -> None:
+def test_reference_scenes(reference: Callable[[str], Path], name: str) -> None:
     """Peaks to 1e-12 of the largest, the same events at the same times to 1e-11 s."""
-    folder = shared / "reference" / "general"
-    file = sm.read_scene(folder / f"{name}.json")
-    result = json.loads((folder / "results" / f"{name}.json").read_text())
+    file = sm.read_scene(reference(f"general/{name}.json"))
+    result = json.loads(reference(f"general/results/{name}.json").read_text())
     response = sm.simulate(file.scene, file.motion, energy=True)
     assert file.scene.engine == "general"
 

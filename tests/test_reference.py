@@ -1,4 +1,5 @@
-"""Every scene of $SEISMASS_SHARED/reference against its result, made by an independent solver in 80-bit arithmetic.
+"""Every reference scene against its result, made by an independent solver in 80-bit arithmetic: those of the repository
+always, the others of $SEISMASS_SHARED/reference where it is set.
 
 Tolerances are relative to the larger of a history's peak and a thousandth of the scene's largest of its kind. A double
 has 1e-16; the rest is what chaos in yielding and sliding amplifies: at worst 5.4e-14 of histories, 4.6e-14 of peaks and
@@ -26,7 +27,10 @@ INSTANT = 1e-10
 """Seconds; events that are closer are in one instant, where their order means nothing."""
 
 SHARED = os.environ.get("SEISMASS_SHARED")
-SCENES = sorted((Path(SHARED) / "reference").glob("*.json")) if SHARED else []
+FOLDERS = [Path(__file__).parents[1] / "crates/seismass/tests/data/reference"]
+if SHARED:
+    FOLDERS.insert(0, Path(SHARED) / "reference")
+SCENES = sorted({path.name: path for folder in FOLDERS for path in folder.glob("*.json")}.values())
 COLUMNS = ("drift", "slip", "peak drift", "peak slip", "event time s", "energy")
 
 

@@ -8,11 +8,13 @@ mod common;
 #[allow(dead_code)] // Scenes in one direction are read elsewhere.
 #[path = "../../seismass/tests/general_files/mod.rs"]
 mod general_files;
+#[path = "../../seismass/tests/references/mod.rs"]
+mod references;
 
 use std::num::NonZeroUsize;
-use std::path::Path;
 
 use general_files::read_plane;
+use references::reference_files;
 use seismass::{
     Block, EventKind, GeneralScene, Motion, Options, PlaneMotion, PlaneResponse, PlaneScene, STANDARD_GRAVITY,
     simulate_plane,
@@ -89,9 +91,11 @@ fn seeds_that_once_failed_hold() {
 /// agrees with it to 1e-12 (`plane_reference.rs` of the kernel), and with the judge.
 #[test]
 fn the_judge_agrees_on_reference_scenes() {
-    let Some(shared) = std::env::var_os("SEISMASS_SHARED") else { return };
-    for name in ["25_plane", "29_plane", "33_plane_rack", "36_plane_stop"] {
-        let path = Path::new(&shared).join(format!("reference/general/{name}.json"));
+    for path in reference_files("general") {
+        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+        if !name.contains("plane") {
+            continue;
+        }
         let (scene, motion) = read_plane(&path);
         let exact = solve_plane::<f64>(&scene, &motion, 1).unwrap();
         let response = simulate_plane(&scene, &motion, &OPTIONS).unwrap();

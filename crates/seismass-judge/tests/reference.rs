@@ -3,8 +3,11 @@
 #![allow(clippy::unwrap_used)]
 
 mod common;
+#[path = "../../seismass/tests/references/mod.rs"]
+mod references;
 
-use common::{numbers, read_events, read_reference, reference_files, shared, table};
+use common::{numbers, read_events, read_reference, table};
+use references::reference_files;
 use seismass_judge::{DoubleDouble, Real, Solution, compare_events, larger, solve};
 use serde_json::Value;
 
@@ -45,13 +48,12 @@ fn errors(solution: &Solution, result: &Value) -> [f64; 4] {
 }
 
 fn check<R: Real>(limits: [f64; 4], residual: f64) {
-    let Some(shared) = shared() else { return };
     println!(
         "{:26} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7}",
         "scene", "drift", "slip", "peaks", "event/s", "energy", "events", "time/s"
     );
     let mut failed = Vec::new();
-    for path in reference_files(&shared) {
+    for path in reference_files("") {
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();
         let (scene, motion, result) = read_reference(&path);
         let every = result["sample_every"].as_u64().unwrap() as usize;

@@ -9,15 +9,14 @@ mod general_compare;
 #[allow(dead_code)] // Scenes in one direction are read elsewhere.
 mod general_files;
 mod maximum;
+mod references;
 
-use common::shared;
 use general_compare::{ENERGY, EVENT_TIME, OPTIONS, PEAK, compare_events, deviation, values};
-use general_files::read_plane;
+use general_files::{read_plane, read_result};
 use maximum::larger;
+use references::reference_files;
 use seismass::{Axis, EventKind, Peak, PlaneEvent, simulate_plane};
 use serde_json::Value;
-
-const SCENES: [&str; 4] = ["25_plane", "29_plane", "33_plane_rack", "36_plane_stop"];
 
 /// Angles at which blocks begin to slide agree to this (rad). Those of stops are printed alone: they are of a velocity that
 /// vanishes and turns as a power of its size until then, so that they depend on when it counts as none.
@@ -78,17 +77,18 @@ fn angles_apart(found: &[PlaneEvent], expected: &Value, kind: EventKind) -> f64 
 
 #[test]
 fn two_directions() {
-    let Some(shared) = shared() else { return };
-    let folder = shared.join("reference/general");
     let mut failures = Vec::new();
     println!(
         "{:16} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7}",
         "scene", "peaks", "at end", "event/s", "angle", "of stops", "energy", "events"
     );
-    for name in SCENES {
-        let (scene, motion) = read_plane(&folder.join(format!("{name}.json")));
-        let text = std::fs::read_to_string(folder.join(format!("results/{name}.json"))).unwrap();
-        let result: Value = serde_json::from_str(&text).unwrap();
+    for path in reference_files("general") {
+        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+        if !name.contains("plane") {
+            continue;
+        }
+        let (scene, motion) = read_plane(&path);
+        let result = read_result(&path);
         let response = simulate_plane(&scene, &motion, &OPTIONS).unwrap();
         let (peaks, vector) = (&response.peaks, &response.peaks.vector);
         let mut of_peaks = Vec::new();

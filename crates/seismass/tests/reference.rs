@@ -4,11 +4,13 @@
 
 mod common;
 mod maximum;
+mod references;
 
 use std::num::NonZeroUsize;
 
-use common::{floats, read, shared};
+use common::{floats, read};
 use maximum::larger;
+use references::reference_files;
 use seismass::{Event, Options, simulate};
 use serde_json::Value;
 
@@ -80,20 +82,12 @@ fn compare_events(found: &[Event], expected: &[Value]) -> Result<f64, String> {
 
 #[test]
 fn reference_scenes() {
-    let Some(shared) = shared() else { return };
-    let mut files: Vec<_> = std::fs::read_dir(shared.join("reference"))
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|e| e == "json"))
-        .collect();
-    files.sort();
-    assert!(!files.is_empty());
     let mut failures = Vec::new();
     println!(
         "{:26} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7}",
         "scene", "drift", "slip", "peaks", "event/s", "damping", "energy", "events"
     );
-    for path in files {
+    for path in reference_files("") {
         let (scene, motion, file) = read(&path);
         let result = &file["result"];
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();

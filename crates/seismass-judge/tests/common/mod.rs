@@ -1,31 +1,11 @@
 //! Reads the reference scenes: the JSON format of scene files, as far as the references use it.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use seismass::{Block, Building, Damping, Event, EventKind, GravityEffect, Motion, STANDARD_GRAVITY, Scene, Storey};
 use serde_json::Value;
-
-/// The folder of shared data: none when `SEISMASS_SHARED` is not set; set but missing is a failure.
-pub fn shared() -> Option<PathBuf> {
-    let Some(path) = std::env::var_os("SEISMASS_SHARED").map(PathBuf::from) else {
-        println!("skipped: SEISMASS_SHARED is not set");
-        return None;
-    };
-    assert!(path.is_dir(), "SEISMASS_SHARED is {}, which is not a directory", path.display());
-    Some(path)
-}
-
-/// All scene files of the references, in order of name.
-pub fn reference_files(shared: &Path) -> Vec<PathBuf> {
-    let folder = shared.join("reference");
-    let entries = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
-    let mut files: Vec<PathBuf> = entries.filter(|path| path.extension().is_some_and(|e| e == "json")).collect();
-    files.sort();
-    assert!(!files.is_empty(), "no scene in {}", folder.display());
-    files
-}
 
 /// A number, null for infinity.
 fn number(value: &Value) -> f64 {

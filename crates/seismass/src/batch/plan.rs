@@ -11,7 +11,7 @@ use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::classes::Classes;
 use crate::machines::storey::StoreyLaw;
-use crate::scene::{Building, Damping, Motion, Scene, StoreyDamping};
+use crate::scene::{Block, Building, Damping, Motion, Scene, StoreyDamping, Wear};
 
 /// One run of a batch: a scene under a motion whose accelerations are multiplied by a factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,15 +103,17 @@ fn classes_of(scenes: &[Scene]) -> Vec<(usize, usize)> {
         // The number of storeys follows from the class of the building, that of blocks from the length.
         key.push(building.map_or(u64::MAX, |(structure, _)| structure as u64));
         key.extend(scene.geometric_stiffness().iter().map(|value| value.to_bits()));
-        key.extend(scene.blocks().iter().flat_map(|block| [block.floor as u64, block.mass.to_bits()]));
+        // Blocks are taken apart field by field: a new field does not compile until it is a part of a key.
+        for &Block { floor, mass, mu_s: _, mu_k: _, velocity: _, wear: _ } in scene.blocks() {
+            key.extend([floor as u64, mass.to_bits()]);
+        }
         let structure = structures.number(&key);
         key.clear();
         key.extend([structure as u64, building.map_or(u64::MAX, |(_, content)| content as u64)]);
-        let blocks = scene.blocks().iter();
-        key.extend(blocks.flat_map(|b| [b.mu_s, b.mu_k, b.velocity.unwrap_or(f64::NAN)]).map(f64::to_bits));
-        for (j, block) in scene.blocks().iter().enumerate().filter(|(_, block)| !block.wear.is_empty()) {
-            key.extend([j as u64, block.wear.len() as u64]);
-            key.extend(block.wear.iter().flat_map(|w| [w.path, w.mu_s, w.mu_k]).map(f64::to_bits));
+        for &Block { floor: _, mass: _, mu_s, mu_k, velocity, ref wear } in scene.blocks() {
+            key.extend([mu_s, mu_k, velocity.unwrap_or(f64::NAN)].map(f64::to_bits));
+            key.push(wear.len() as u64);
+            key.extend(wear.iter().flat_map(|&Wear { path, mu_s, mu_k }| [path, mu_s, mu_k]).map(f64::to_bits));
         }
         let initial = scene.initial_drift().iter().chain(scene.initial_velocity());
         key.extend(initial.chain(scene.collapse_drift().into_iter().flatten()).map(|value| value.to_bits()));
@@ -195,7 +197,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use crate::scene::{Block, Storey};
+    use crate::scene::Storey;
 
     fn scene(mu: f64) -> Scene {
         Scene::new(None, vec![Block::new(0, 1.0, mu)]).unwrap()

@@ -13,6 +13,14 @@ pub(crate) fn off_cubic(h: f64) -> f64 {
     square * square * (1.0 / 384.0)
 }
 
+/// What a quantity differs at most from the quintic through values and two derivatives at both ends of a step of length `h`,
+/// per unit of its sixth derivative.
+#[inline(always)]
+pub(crate) fn off_quintic(h: f64) -> f64 {
+    let cube = h * h * h;
+    cube * cube / 46080.0
+}
+
 /// The cubic through values and rates at both ends of a step stays between the least and the largest of its Bezier
 /// points; what deviates from it by at most `margin` stays within these widened by it.
 #[inline(always)]
@@ -124,6 +132,28 @@ pub(crate) fn quintic_ranges<V: Vector>(start: [V; 3], end: [V; 3], h: f64, marg
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// (t (h - t))^n has n zeros at each end and the derivative (2 n)! of order 2 n: what it differs by from the polynomial
+    /// that is nothing there is itself, largest in the middle with (h / 2)^(2 n). No function has more.
+    #[test]
+    fn what_a_polynomial_misses_is_reached() {
+        for h in [0.3, 1.7] {
+            let middle: f64 = 0.5 * h;
+            assert!((24.0 * off_cubic(h) / middle.powi(4) - 1.0).abs() < 1e-14);
+            assert!((720.0 * off_quintic(h) / middle.powi(6) - 1.0).abs() < 1e-14);
+        }
+    }
+
+    /// The Bezier points of a polynomial that rises in a straight line are on it; the margin widens to both sides.
+    #[test]
+    fn ranges_of_a_line() {
+        let (start, rate, h) = (0.7, 1.3, 0.3);
+        let end = start + rate * h;
+        let near =
+            |found: (f64, f64)| (found.0 - (start - 0.11)).abs() < 1e-15 && (found.1 - (end + 0.11)).abs() < 1e-15;
+        assert!(near(range(start, rate, end, rate, h * THIRD, 0.11)));
+        assert!(near(quintic_range([start, rate, 0.0], [end, rate, 0.0], h, 0.11)));
+    }
 
     /// What is said to stay above zero does so: cubics that deviate by their margin times 16 s^2 (1 - s)^2 either way.
     #[test]

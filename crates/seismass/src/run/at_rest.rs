@@ -45,10 +45,10 @@ impl ExactRun<'_> {
         (0..rest.len()).all(|i| {
             let reach = derivative_norm / tangent[i].sqrt();
             let (low, high) = (rest[i] - reach, rest[i] + reach);
-            let inside = |(lower, upper): (f64, f64)| high < upper && low > lower;
+            let (lower, upper) = state.springs.segment_ends[i];
             let a = derivative_norm * regime.row(Row::SecondOfAcceleration)[i];
-            inside(state.springs.segment_ends[i])
-                && inside(state.springs.collapse_bounds[i])
+            // What beats no peak does not collapse either.
+            (high < upper && low > lower)
                 && !self.observer.drift_may_peak(state, i, low, high)
                 && !self.observer.acceleration_may_peak(i, -a, a)
                 && a < state.blocks.stuck_mu[i + 1] * contact

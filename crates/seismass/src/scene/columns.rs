@@ -135,12 +135,13 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use crate::scene::UniformBuilding;
+    use crate::scene::{Damping, Storey};
 
     fn columns() -> SceneColumns {
-        let building = UniformBuilding { storeys: 2, period: 0.3, mass: 1000.0, ..Default::default() };
+        let storeys = vec![Storey::elastic(4.37e5), Storey::elastic(3.61e5)];
+        let building = Building::new(vec![1000.0, 700.0], storeys, Damping::default()).unwrap();
         SceneColumns {
-            buildings: vec![Arc::new(building.build().unwrap())],
+            buildings: vec![Arc::new(building)],
             floors: vec![1, 2],
             building: vec![0; 3],
             mass_ratio: vec![0.5, 0.0, 0.5, 1.5, 0.5, 0.0],
@@ -156,8 +157,29 @@ mod tests {
         assert_eq!(of_row, [0, 1, 0]);
         let block = |floor, mass| Block { mu_k: 0.2, ..Block::new(floor, mass, 0.3) };
         assert_eq!(scenes[0].blocks(), [block(1, 500.0)]);
-        assert_eq!(scenes[1].blocks(), [block(1, 500.0), block(2, 1500.0)]);
+        assert_eq!(scenes[1].blocks(), [block(1, 500.0), block(2, 1050.0)]);
         assert_eq!(scenes[1], columns().scene(1).unwrap());
+    }
+
+    /// Each column changed in one row: no row has the scene of another.
+    #[test]
+    fn rows_differ_by_each_column() {
+        let mut all = columns();
+        // Taken apart field by field: a new one does not compile until it is one of these.
+        let SceneColumns { buildings, floors: _, building, mass_ratio, mu_s, mu_k, collapse_drift: _ } = &mut all;
+        let other = Building::new(vec![1100.0, 700.0], buildings[0].storeys().to_vec(), Damping::default()).unwrap();
+        buildings.push(Arc::new(other));
+        (*building, *mass_ratio, *mu_s, *mu_k) = (vec![0; 8], vec![0.5; 16], vec![0.3; 16], vec![0.2; 16]);
+        building[1] = 1;
+        (mass_ratio[4], mass_ratio[7]) = (0.6, 0.6);
+        (mu_s[8], mu_s[11]) = (0.4, 0.4);
+        (mu_k[12], mu_k[15]) = (0.1, 0.1);
+        let (scenes, of_row) = all.scenes().unwrap();
+        assert_eq!(of_row, (0..8).collect::<Vec<_>>());
+        for row in 0..8 {
+            assert_eq!(scenes[row], all.scene(row).unwrap());
+            assert!((0..row).all(|before| scenes[row] != scenes[before]), "row {row}");
+        }
     }
 
     #[test]

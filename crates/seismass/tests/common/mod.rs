@@ -1,21 +1,11 @@
 //! Reads the reference scenes: the JSON format of scene files, as far as the references use it.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use seismass::{Block, Building, Damping, GravityEffect, Motion, STANDARD_GRAVITY, Scene, Storey};
 use serde_json::Value;
-
-/// The folder of shared data: none when `SEISMASS_SHARED` is not set; set but missing is a failure.
-pub fn shared() -> Option<PathBuf> {
-    let Some(path) = std::env::var_os("SEISMASS_SHARED").map(PathBuf::from) else {
-        println!("skipped: SEISMASS_SHARED is not set");
-        return None;
-    };
-    assert!(path.is_dir(), "SEISMASS_SHARED is {}, which is not a directory", path.display());
-    Some(path)
-}
 
 /// A number, or a list of numbers with null for infinity, as a list of `n`.
 fn list(value: &Value, n: usize) -> Vec<f64> {

@@ -106,6 +106,12 @@ fn rack(table: &Value) -> Rack {
     rack
 }
 
+/// The result that belongs to a scene file.
+pub fn read_result(path: &Path) -> Value {
+    let result = path.with_file_name("results").join(path.file_name().unwrap());
+    serde_json::from_str(&std::fs::read_to_string(result).unwrap()).unwrap()
+}
+
 /// A table with the keys of another put in.
 fn with(table: &Value, other: &Value) -> Value {
     let mut all = table.clone();

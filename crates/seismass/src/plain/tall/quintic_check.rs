@@ -5,7 +5,7 @@ use crate::plain::sliding::FloorBlock;
 use crate::plain::tall::bounds::TallBounds;
 use crate::plain::tall::norms::{Norms, RegimeRows};
 use crate::plain::tall::sample::TallSample;
-use crate::polynomial::enclosure::{THIRD, off_cubic, quintic_range, quintic_ranges, ranges, signs};
+use crate::polynomial::enclosure::{THIRD, off_cubic, off_quintic, quintic_range, quintic_ranges, ranges, signs};
 use crate::regime::operator_long::LongOperator;
 use crate::tolerances::SMALL_DIFFERENCE;
 
@@ -120,8 +120,7 @@ impl QuinticCheck<'_> {
     /// What the quintics of vector `k` may miss, per unit of the bounds of fourth derivatives.
     #[inline(always)]
     fn sixth(&self, k: usize) -> f64 {
-        let h3 = self.h * self.h * self.h;
-        self.curvature.norms.values[k] * (h3 * h3 / 46080.0)
+        self.curvature.norms.values[k] * off_quintic(self.h)
     }
 
     /// Which peaks the lanes of a vector that are near their bounds beat; nothing if a guard may fall inside the step.
