@@ -16,7 +16,7 @@ export PIP_NO_INPUT := 1
 export MPLBACKEND := Agg
 export MPLCONFIGDIR := $(abspath $(VENV))/matplotlib
 
-.PHONY: study explorer test bench bench-kernel count-instructions stress stress-general stress-plane docs clean build lint test-rust test-python test-wheel wheels \
+.PHONY: study explorer test bench bench-kernel count-instructions stress stress-general stress-plane mutants docs clean build lint test-rust test-python test-wheel wheels \
 	test-aarch64 web-kernel fuzz audit audit-packages
 
 study: build
@@ -88,6 +88,12 @@ stress-general:
 stress-plane:
 	cargo run --locked --release -p seismass-judge --bin stress_general -- --plane --scenes 100000 --judged 2200 \
 		--write docs/stress_plane.md
+
+# Faults planted one at a time in a copy of the tree, and what the tests see of them; MUTANTS_OPTIONS goes to
+# tools/mutants.py (--full asks every test, --only chooses faults). Hours of processor time.
+MUTANTS_OPTIONS := --generated 60 --generated-rust 60 --write docs/mutants.md
+mutants: build
+	$(PYTHON) tools/mutants.py $(MUTANTS_OPTIONS)
 
 lint: build
 	@cargo fmt --version >/dev/null && cargo clippy --version >/dev/null || \
