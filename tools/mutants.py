@@ -111,7 +111,13 @@ def pytest(tree: Path, options: list[str], seconds: float, **variables: str) -> 
     """Exit code and output of the tests of a tree."""
     for kept in tree.glob(".hypothesis"):
         shutil.rmtree(kept)
-    own = ["-q", "-p", "no:cacheprovider", "--hypothesis-seed=0", *(f"--deselect=tests/{name}.py" for name in OF_SOURCES)]
+    own = [
+        "-q",
+        "-p",
+        "no:cacheprovider",
+        "--hypothesis-seed=0",
+        *(f"--deselect=tests/{name}.py" for name in OF_SOURCES),
+    ]
     # Files of the same size that change within a second must not be mistaken for those that were compiled.
     where = {"PYTHONPATH": str(tree / "python"), "PYTHONDONTWRITEBYTECODE": "1", "MPLBACKEND": "Agg"}
     return run([sys.executable, "-m", "pytest", *own, *options], tree, seconds, **where, **variables)

@@ -7,6 +7,7 @@ import copy
 import random
 import re
 from collections.abc import Iterator
+from itertools import accumulate
 
 SWAPPED = {ast.Lt: ast.LtE, ast.Gt: ast.GtE, ast.Add: ast.Sub, ast.Mult: ast.Div, ast.And: ast.Or}
 SWAPPED |= {new: old for old, new in SWAPPED.items()}
@@ -29,13 +30,12 @@ def nodes(node: ast.AST) -> Iterator[ast.AST]:
 def changed(node: ast.AST) -> Iterator[tuple[str, ast.AST]]:
     """The node with each fault that it can have, and the operator's name."""
     fits = isinstance(node, ast.Compare | ast.BinOp | ast.AugAssign | ast.BoolOp | ast.Constant | ast.Call)
-    match new := copy.deepcopy(node) if fits else None:
+    match new := copy.copy(node) if fits else None:
         case ast.Compare():
-            for i, op in enumerate(new.ops):
+            for i, op in enumerate(node.ops):
                 if type(op) in SWAPPED:
-                    new.ops[i] = SWAPPED[type(op)]()
+                    new.ops = [*node.ops[:i], SWAPPED[type(op)](), *node.ops[i + 1 :]]
                     yield "comparison", new
-                    new.ops[i] = op
         case ast.BinOp() | ast.AugAssign() if type(new.op) in SWAPPED:
             parts = [part for name, part in ast.iter_fields(new) if name != "op"]
             texts = [isinstance(getattr(part, "value", None), str | bytes) for part in parts]
@@ -50,12 +50,13 @@ def changed(node: ast.AST) -> Iterator[tuple[str, ast.AST]]:
             yield "0, 1", new
         case ast.Call():
             name = new.func.attr if isinstance(new.func, ast.Attribute) else getattr(new.func, "id", "")
-            first = new.args[:2]
+            first = node.args[:2]
             if len({ast.dump(arg) for arg in first}) == 2 and len({*map(type, first)}) == 1 and name not in SYMMETRIC:
-                new.args[:2] = first[::-1]
+                new.args = [*first[::-1], *node.args[2:]]
                 yield "arguments", new
-                new.args[:2] = first
+                new.args = node.args
             if name in NAMES:
+                new.func = copy.copy(node.func)
                 setattr(new.func, "attr" if isinstance(new.func, ast.Attribute) else "id", NAMES[name])
                 yield "min, max", new
 
@@ -64,7 +65,7 @@ def python_faults(source: str) -> Iterator[tuple[str, str, str]]:
     """Operator, what is changed, and the text with the fault, for every fault that a Python file can have."""
     data = source.encode()
     lines = data.splitlines(keepends=True)
-    starts = [sum(map(len, lines[:i])) for i in range(len(lines))]
+    starts = [0, *accumulate(map(len, lines))]
     for node in nodes(ast.parse(source)):
         for operator, new in changed(node):
             start, end = starts[node.lineno - 1] + node.col_offset, starts[node.end_lineno - 1] + node.end_col_offset
