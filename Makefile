@@ -17,7 +17,7 @@ export MPLBACKEND := Agg
 export MPLCONFIGDIR := $(abspath $(VENV))/matplotlib
 
 .PHONY: study explorer test test-all lint lint-quick test-rust test-rust-quick test-python test-python-quick test-wheel docs \
-	build web-kernel bench bench-kernel count-instructions stress stress-general stress-plane fuzz audit audit-packages wheels \
+	build web-kernel mutants bench bench-kernel count-instructions stress stress-general stress-plane fuzz audit audit-packages wheels \
 	test-aarch64 clean
 
 study: build
@@ -96,6 +96,12 @@ stress-plane:
 	cargo run --locked --release -p seismass-judge --bin stress_general -- --plane --scenes 100000 --judged 2200 \
 		--write docs/stress_plane.md
 
+# Faults planted one at a time in a copy of the tree, and what the tests see of them; MUTANTS_OPTIONS goes to
+# tools/mutants.py (--full asks every test, --only chooses faults). Hours of processor time.
+MUTANTS_OPTIONS := --generated 60 --generated-rust 60 --write docs/mutants.md
+mutants: build
+	$(PYTHON) tools/mutants.py $(MUTANTS_OPTIONS)
+
 lint-quick: build
 	@cargo fmt --version >/dev/null || \
 		{ echo "make test needs rustfmt: rustup component add rustfmt" >&2; exit 1; }
@@ -115,7 +121,8 @@ lint: lint-quick
 	$(PYTHON) -m mypy.stubtest seismass._kernel --mypy-config-file pyproject.toml
 
 # Integration tests share the kernel that is compiled for the extension: its profile, and the same packages, so that crates
-# have the same features. Benchmarks hold no tests. The kernel's unit tests compile the kernel once more, in a profile that is compiled quickly.
+# have the same features. Benchmarks hold no tests. The kernel's unit tests compile it once more, in a profile that compiles
+# quickly.
 SHARED_RUST := cargo test --locked --workspace --exclude seismass-bench --release
 
 test-rust: build
