@@ -52,6 +52,13 @@ SELECTED: Final = {
 """What pytest is asked in each tier, the first with files of its own."""
 SCENES: Final = {"quick tier": {"SEISMASS_STRESS_SCENES": "300", "SEISMASS_JUDGE_SCENES": "20"}, "full tier": {}}
 """Random scenes of the Rust tests, as `make test` has them; the full tier has the tests' own number."""
+RELEASE: Final = ("--release", "--workspace", "--exclude", "seismass-bench")
+BUILT: Final = (
+    ("test", "--no-run", *RELEASE, "--test", "*"),
+    ("test", "--no-run", *RELEASE, "--exclude", "seismass", "--lib", "--bins"),
+    ("test", "--no-run", "-p", "seismass", "--lib"),
+)
+"""The Rust tests of `make test`, which share their kernel with the extension module."""
 OF_SOURCES: Final = ("test_mutants", "test_rust_example", "test_stubs")
 """Tests that read the planted text itself, or compile Rust, and say nothing of a fault in the Python package."""
 SWITCH: Final = """//! The switch of planted faults.
@@ -111,13 +118,8 @@ def pytest(tree: Path, options: list[str], seconds: float, **variables: str) -> 
     """Exit code and output of the tests of a tree."""
     for kept in tree.glob(".hypothesis"):
         shutil.rmtree(kept)
-    own = [
-        "-q",
-        "-p",
-        "no:cacheprovider",
-        "--hypothesis-seed=0",
-        *(f"--deselect=tests/{name}.py" for name in OF_SOURCES),
-    ]
+    left = [f"--deselect=tests/{name}.py" for name in OF_SOURCES]
+    own = ["-q", "-p", "no:cacheprovider", "--hypothesis-seed=0", *left]
     # Files of the same size that change within a second must not be mistaken for those that were compiled.
     where = {"PYTHONPATH": str(tree / "python"), "PYTHONDONTWRITEBYTECODE": "1", "MPLBACKEND": "Agg"}
     return run([sys.executable, "-m", "pytest", *own, *options], tree, seconds, **where, **variables)
@@ -201,9 +203,8 @@ def planted(tree: Path, target: Path, files: dict[Path, str], count: int, seed: 
     # Twice as many are tried, as some do not compile; a line has one.
     tried = {}
     for own, what, i, line in random_faults.drawn(sites, 2 * count, seed):
-        tried.setdefault(
-            (str(own), i + 1), (own, what, i, line.replace("MUT", str(10_000 + len(tried))), 10_000 + len(tried))
-        )
+        number = 10_000 + len(tried)
+        tried.setdefault((str(own), i + 1), (own, what, i, line.replace("MUT", str(number)), number))
     (tree / KERNEL / "mutant.rs").write_text(SWITCH, encoding="utf-8")
     while True:
         texts = {own: list(lines) for own, lines in sources.items()}
@@ -212,9 +213,11 @@ def planted(tree: Path, target: Path, files: dict[Path, str], count: int, seed: 
         for own, text in {**files, **{own: "\n".join(lines) for own, lines in texts.items()}}.items():
             if (tree / own).read_text(encoding="utf-8") != text:
                 (tree / own).write_text(text, encoding="utf-8")
-        code, messages = cargo(
-            tree, target, "test", "--no-run", "--workspace", "--exclude", EXTENSION, "--lib", "--tests"
-        )
+        code, messages = 0, []
+        for command in BUILT:
+            if code == 0:
+                code, said = cargo(tree, target, *command)
+                messages += said
         if code == 0:
             break
         found = [m["message"] for m in messages if m.get("message", {}).get("level") == "error"]
@@ -279,7 +282,7 @@ def ask_rust(faults: list[Fault], files: dict[Path, str], args: argparse.Namespa
         left = [fault for fault in faults if not fault.caught and not fault.reason]
         left = [fault for fault in left if tier == TIERS[2] or EXTENSION in fault.path.parts]
         if left:
-            code, messages = cargo(tree, target, "build", "--release", "-p", EXTENSION)
+            code, messages = cargo(tree, target, "build", *RELEASE, "--lib")
             if code != 0:
                 sys.exit(f"the planted extension module must compile; got exit code {code}")
             built = next(m["filenames"][0] for m in messages if m.get("target", {}).get("name") == "_kernel")
@@ -297,9 +300,7 @@ def main() -> None:
     parser.add_argument("--rust", action="store_true", help="faults of the Rust crates alone")
     parser.add_argument("--only", type=int, nargs="+", metavar="NUMBER", help="these faults of the lists alone")
     parser.add_argument("--generated", type=int, default=0, metavar="N", help="faults drawn at random in Python")
-    parser.add_argument(
-        "--generated-rust", type=int, default=0, metavar="N", help="faults drawn at random in the kernel"
-    )
+    parser.add_argument("--generated-rust", type=int, default=0, metavar="N", help="and in the kernel")
     parser.add_argument("--seed", type=int, default=1, help="draws others")
     parser.add_argument("--chosen", action="store_true", help="ask the chosen tests alone")
     parser.add_argument("--full", action="store_true", help="ask every test about what the quick tier does not see")
