@@ -141,6 +141,16 @@ def test_units_by_hand() -> None:
     assert unit_factor("kgf/cm", "stiffness", "unit", "table") == pytest.approx(980.665)
     assert unit_factor("Kip-s²/ft", "mass", "unit", "table") == pytest.approx(KIP / 0.3048)
     assert system_of("Tonf, m, C", "table") == pytest.approx((9806.65, 1.0))
+    # The foot of 1959 is 0.3048 m, its pound 0.45359237 kg; g = 9.80665 m/s2.
+    factors = {
+        "length": {"m": 1.0, "cm": 0.01, "mm": 0.001, "ft": 0.3048, "in": 0.0254},
+        "mass": {"kg": 1.0, "t": 1e3, "tonne": 1e3, "lb": 0.45359237, "lbm": 0.45359237},
+        "force": {"N": 1.0, "kN": 1e3, "MN": 1e6, "kgf": 9.80665, "tonf": 9806.65, "lbf": 0.45359237 * 9.80665},
+        "stiffness": {"kN/mm": 1e6, "kip/in": 453.59237 * 9.80665 / 0.0254, "lb/ft": 0.45359237 * 9.80665 / 0.3048},
+    }
+    for quantity, units in factors.items():
+        for unit, factor in units.items():
+            assert unit_factor(unit, quantity, "unit", "table") == pytest.approx(factor, rel=1e-14), unit
 
 
 ANSWERS = ["--area", "300", "--sds", "1.0", "--sd1", "0.6", "--live-load", "6", "--friction", "0.3"]

@@ -113,15 +113,16 @@ def afad(motion: Motion, dt: float) -> str:
 
 def geonet(motion: Motion, dt: float, *, corrected: bool = True) -> str:
     """Return a GeoNet V2A file of two components, or V1A: 16 lines, 4 of integers, 6 of reals, 10F8.1 in mm/s2."""
-    found = ""
+    found, factor = "", 0.8
     for number, component in enumerate(("S14E", "Up")):
-        values = [round(10.0 * value, 1) for value in motion(number)]
+        values = [round(10.0 * value / factor, 1) for value in motion(number)]
         value, at = largest(values)
         whole = [[0] * 10 for _ in range(4)]
         reals = [[0.0] * 10 for _ in range(6)]
         others = len(values) if corrected else 0
-        whole[3][0], whole[3][3], whole[3][4], whole[3][5] = len(values), len(values), others, others
-        reals[0][7], reals[2][4], reals[2][5] = 1.0, dt, dt
+        # Beside the numbers that a reader takes stand others, which differ: of what was recorded, twice as dense.
+        whole[3][0], whole[3][3], whole[3][4], whole[3][5] = 2 * len(values) - 1, len(values), others, others
+        reals[0][7], reals[2][4], reals[2][5] = factor, 0.5 * dt, dt
         text = [
             f"{'Corrected' if corrected else 'Uncorrected'} accelerogram 20000101_000000_NOWS_20 GNS Science",
             "Site NOWS       0 00 00S    0 00 00E",
@@ -136,7 +137,7 @@ def geonet(motion: Motion, dt: float, *, corrected: bool = True) -> str:
             f"Units are mm/s/s  at intervals of {dt:.3f} s",
             "Data is filtered",
             f"Component {component}",
-            f"Acceleration:  Peak  {value:.1f} mm/s/s at  {at * dt:.2f} s     RMS   1.00 mm/s/s",
+            f"Acceleration:  Peak  {factor * value:.1f} mm/s/s at  {at * dt:.2f} s     RMS   1.00 mm/s/s",
             "Velocity record",
             "Displacement record",
         ]

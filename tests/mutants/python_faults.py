@@ -403,5 +403,13 @@ FAULTS = [
      'self._per_block(name, scenes)[0].tolist() for name in ("mu_s", "mu_k")',
      'self._per_block(name, scenes)[0].tolist() for name in ("mu_s", "mu_s")',
      "test_grid test_grid_sample", ""),
+    (200, "GeoNet: the factor to mm/s2 is left out", "records/formats/geonet.py",
+     'acceleration=block.values * factor * ACCELERATION_UNITS["mm/s2"]',
+     'acceleration=block.values * ACCELERATION_UNITS["mm/s2"]',
+     "test_record_formats", ""),
+    (201, "GeoNet: samples of the recorded motion are counted", "records/formats/geonet.py",
+     "_COUNTS: Final = slice(33, 36)",
+     "_COUNTS: Final = slice(30, 33)",
+     "test_record_formats", ""),
 ]
 REASONS: dict[str, str] = {}
