@@ -85,13 +85,14 @@ def file(**base: Any) -> dict[str, Any]:
 def test_a_base_of_a_file() -> None:
     building = sm.read_building(file(mu_s=0.08, mu_k=0.06, radius_m=2.5, mass_kg=2e5))
     assert building.base == sm.SlidingBase(mu_s=0.08, mu_k=0.06, radius=2.5, mass=2e5)
-    found = sm.assess(building, sm.builtin_suite("seven"), resamples=100)
+    motions = [record.replace(acceleration=record.acceleration[:1000]) for record in SUITE]
+    found = sm.assess(building, motions, scale=False, mu_factors=(1, 1), resamples=2)
     told = " ".join(found.advice)
     assert "The base slips" in told
     assert "does not know a sliding base" in told
     assert any(line.startswith("Base: slides") and "slab of 200 t" in line for line in found.assumptions)
     assert found.runs["peak_base_slip"].null_count() == 0
-    firm = sm.assess(file(), sm.builtin_suite("seven"), resamples=100)
+    firm = sm.assess(file(), motions, scale=False, mu_factors=(1, 1), resamples=2)
     assert firm.runs["peak_base_slip"].null_count() == firm.runs.height
     assert found.metadata["inputs_sha256"] != firm.metadata["inputs_sha256"]
 

@@ -87,6 +87,7 @@ def test_usual_limits_have_no_remark() -> None:
     assert len(limit_remarks([("drift", 30.0), ("floor_acceleration_g", 9.81), ("residual_slip", 100.0)])) == 3
 
 
+@pytest.mark.usefixtures("few_motions")
 @pytest.mark.parametrize("words", [("fragility", "--method", "cloud"), ("slip",), ("risk", "--share", "0,1")])
 def test_commands_say_it_before_their_answer(
     words: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -101,12 +102,12 @@ def test_commands_say_it_before_their_answer(
     levels = np.geomspace(0.01, 100.0, 40)
     hazard.write_text("\n".join(["Sa,rate", *(f"{x:g},{0.01 * (x / 0.1) ** -2.5:.6g}" for x in levels), ""]))
     further = ["--hazard", str(hazard)] if words[0] == "risk" else []
-    assert main([words[0], str(file), *words[1:], *further, "--suite", "seven"]) == 0
+    assert main([words[0], str(file), *words[1:], *further]) == 0
     out = capsys.readouterr().out
     first, second = out.splitlines()[:2]
     assert first.startswith("DOUBTFUL INPUT: design live load of floor 1 is 30 kPa, above 25 kPa")
     assert second.startswith("DOUBTFUL INPUT: the drift limit is 0.3 of the height: limits are ratios, not per cent")
-    assert main([words[0], str(file), *words[1:], *further, "--suite", "seven", "--json"]) == 0
+    assert main([words[0], str(file), *words[1:], *further, "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["remarks"][0].startswith("design live load of floor 1 is 30 kPa")
 
 

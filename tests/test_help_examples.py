@@ -8,6 +8,7 @@ import re
 import shlex
 import shutil
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,8 @@ import pytest
 from seismass.cli import main
 from seismass.commands.parser import COMMANDS
 from seismass.explore import compiled
-from seismass.records.builtin import data_directory
+from seismass.matching.files import write_record
+from seismass.records.builtin import builtin_record, data_directory
 
 RUN = [
     "new own.toml --from storeys.csv --area 1200 --sds 1.0 --sd1 0.6 --live-load 7.2 --friction 0.3",
@@ -49,21 +51,22 @@ RUN = [
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Files of the names that the examples use."""
+def folder(tmp_path_factory: pytest.TempPathFactory, take_few: Callable[[pytest.MonkeyPatch], None]) -> Path:
+    """Files of the names that the examples use, and the folder of an assessment."""
     made, data = tmp_path_factory.mktemp("examples"), data_directory()
-    motions = [data / "synthetic" / f"synthetic-{number}.AT2" for number in (1, 2, 3)]
+    whole = [builtin_record(f"synthetic-{number}") for number in (1, 2, 3)]
+    motions = [motion.replace(acceleration=motion.acceleration[:1500]) for motion in whole]
     for name in ("records", "recordings"):
         (made / name).mkdir()
         for motion in motions:
-            shutil.copy(motion, made / name)
+            write_record(motion, made / name / f"{motion.name}.AT2")
     for name in ("record.AT2", "RSN1106_KOBE_KJM000.AT2"):
-        shutil.copy(motions[0], made / name)
+        write_record(whole[0], made / name)
     shutil.copy(data / "examples" / "warehouse.toml", made)
     shutil.copy(data / "examples" / "storage.toml", made / "scene.toml")
     scene = tomllib.loads((made / "scene.toml").read_text(encoding="utf-8"))
     (made / "scene.json").write_text(json.dumps(scene), encoding="utf-8")
-    (made / "suite.csv").write_text("file\n" + "".join(f"records/{motion.name}\n" for motion in motions))
+    (made / "suite.csv").write_text("file\n" + "".join(f"records/{motion.name}.AT2\n" for motion in motions))
     intensity = np.array([0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 8.0])
     rows = [f"{level:g},{rate:.6g}" for level, rate in zip(intensity, 0.01 * (intensity / 0.1) ** -2.5, strict=True)]
     storeys = "Story,Height (m),Mass (t),Stiffness (kN/m)\nRoof,4,600,5e5\nStory1,4.5,700,7e5\n"
@@ -75,7 +78,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     ]
     (made / "push.csv").write_text("\n".join(["Story,Drift (mm),Shear (kN)", *curves, ""]))
     (made / "hazard.csv").write_text("\n".join(["Sa,rate", *rows, ""]))
-    assert main(["building", str(made / "warehouse.toml"), "--out", str(made / "assessment"), "--no-figures"]) == 0
+    with pytest.MonkeyPatch.context() as patch:
+        take_few(patch)
+        assert main(["building", str(made / "warehouse.toml"), "--out", str(made / "warehouse"), "--no-figures"]) == 0
     return made
 
 
@@ -87,6 +92,7 @@ def test_every_command_is_among_them_and_every_line_in_the_help() -> None:
         assert f"\n  seismass {line}\n" in text, line
 
 
+@pytest.mark.usefixtures("few_motions", "small_map")
 @pytest.mark.parametrize("line", RUN)
 def test_example_runs(
     line: str, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

@@ -86,10 +86,12 @@ def test_elastic_storey_has_capacities_of_its_spectrum(suite: list[sm.Record]) -
 
 
 def test_limits_of_friction(suite: list[sm.Record]) -> None:
-    stuck = sm.risk.risk_targeted_share(storage(50.0), suite, HAZARD, 0.01, shares=SHARES, resamples=100)
+    stuck = sm.risk.risk_targeted_share(
+        storage(50.0), suite, HAZARD, 0.01, shares=SHARES, other_limits=[], resamples=100
+    )
     assert (stuck.kind, stuck.value, stuck.interval) == ("stuck", 1.0, (1.0, 1.0))
     assert stuck.real == pytest.approx(stuck.attached, rel=1e-8)
-    free = sm.risk.risk_targeted_share(storage(0.0), suite, HAZARD, 0.01, shares=SHARES, resamples=100)
+    free = sm.risk.risk_targeted_share(storage(0.0), suite, HAZARD, 0.01, shares=SHARES, other_limits=[], resamples=100)
     assert (free.kind, free.value, free.interval) == ("zero", 0.0, (0.0, 0.0))
     assert free.real == pytest.approx(float(free.curve["rate"][0]), rel=1e-8)
     assert free.attached == pytest.approx(stuck.attached, rel=1e-12)

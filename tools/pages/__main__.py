@@ -1,7 +1,7 @@
 """Writes the numbers, tables and figures of pages of docs, or says which pages are not current.
 
 Usage: python tools/pages [--check] [NAME[.PART] ...], a module of this folder each, by default all. Parts that take
-minutes are left as they are unless they are named: `effective_mass.far_field`, `matching.targets`, `reliability.tried`.
+minutes are left as they are unless they are named, as in `effective_mass.far_field`; the runner says which.
 Recordings are not part of this project: SEISMASS_SHARED names their folder; pages that need them are left out where it
 is not set.
 """
@@ -37,7 +37,8 @@ def main(arguments: list[str]) -> int:
             code = max(code, bool(faults))
         else:
             page.write()
-        print(f"{name}: {', '.join(faults) if faults else 'current'}")
+        kept = [part for part in page.parts if part not in page.asked]
+        print(f"{name}: {', '.join(faults) or 'current'}{'; not made: ' if kept else ''}{', '.join(kept)}")
     return code
 
 

@@ -22,6 +22,7 @@ MORE = (
     "07_Kobe_1995_substitutes/RSN1111_KOBE_NIS090.AT2",
 )
 """Components of the far-field set that are, or stand beside, records of the paper: no rule was fitted on them."""
+PARAMETERS = EffectiveMassParameters(shares=26, resamples=1)
 TITLES = {
     "builtin": "Built-in suite, 7 synthetic motions",
     "paper": "The paper's seven recordings (one substitute)",
@@ -30,16 +31,16 @@ TITLES = {
 
 
 def fill(page: Page) -> EffectiveMassMap:
-    """Put in the table of the built-in suite, and return its map; under recordings, with a quarter of the shares."""
-    target, coarse = TargetSpectrum.asce7(), EffectiveMassParameters(shares=26)
-    builtin = effective_mass_map(builtin_suite("seven"), target)
+    """Put in the table of the built-in suite, those of recordings that are asked for, and return the first map."""
+    target = TargetSpectrum.asce7()
+    builtin = effective_mass_map(builtin_suite("seven"), target, PARAMETERS)
     page.block("builtin", tables("builtin", builtin))
     if page.wants("paper"):
-        paper = effective_mass_map(read_suite(page.records / "paper_seven.csv"), target, coarse)
+        paper = effective_mass_map(read_suite(page.records / "paper_seven.csv"), target, PARAMETERS)
         page.block("paper", tables("paper", paper))
     if page.wants("far_field"):
         suite = Suite("FEMA P-695 far field", read_suite(page.records / "fema_p695_far_field").records)
-        found = effective_mass_map(suite, target, coarse)
+        found = effective_mass_map(suite, target, PARAMETERS)
         page.block("far_field", tables("far_field", found))
         page.figure("effective_fraction", collapse_figure, found)
         page.figure("rules", rules_figure, found)

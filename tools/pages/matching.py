@@ -26,19 +26,19 @@ OTHERS: Final = (
 )
 
 
-def fill(page: Page) -> sm.matching.MatchedSuite:
-    """Put in the tables of the seven records, those asked for of the others, and return the matched suite."""
-    suite = sm.read_suite(page.records / "paper_seven.csv")
-    matched = sm.matching.match_suite(suite, sm.TargetSpectrum.asce7())
-    page.marked("seven", seven(matched))
+def fill(page: Page) -> None:
+    """Put in the tables that are asked for."""
+    suite, target = sm.read_suite(page.records / "paper_seven.csv"), sm.TargetSpectrum.asce7()
+    if page.wants("seven"):
+        matched = sm.matching.match_suite(suite, target)
+        page.marked("seven", seven(matched))
+        page.figure("matched", matched[1].plot)
     if page.wants("far_field"):
         page.marked("far_field", far_field(sm.read_suite(page.records / "fema_p695_far_field")))
     if page.wants("targets"):
         page.marked("targets", each(suite, [sm.matching.match_suite(suite, target) for target in TARGETS]))
     if page.wants("other"):
         page.marked("other", other([suite[1], suite[6]]))  # steps of 0.005 s and 0.02 s
-    page.figure("matched", matched[1].plot)
-    return matched
 
 
 def misfit_row(matched: sm.matching.MatchedRecord) -> tuple[str, ...]:

@@ -88,8 +88,8 @@ class Page:
     """A page of docs, into which numbers, tables, blocks and figures are put."""
 
     def __init__(self, file: Path, parts: Iterable[str] = ()) -> None:
-        self.file, self.text, self.left = file, file.read_text(encoding="utf-8"), set(parts)
-        self.asked = frozenset(parts)
+        self.file, self.text = file, file.read_text(encoding="utf-8")
+        self.asked, self.parts = frozenset(parts), []
         self._figures: dict[str, Callable[[], Figure]] = {}
         self._tables: Counter[str] = Counter()
 
@@ -108,7 +108,7 @@ class Page:
 
     def wants(self, part: str) -> bool:
         """Whether a part that takes minutes was asked for by name."""
-        self.left.discard(part)
+        self.parts.append(part)
         return part in self.asked
 
     def words(self, said: str, *values: object) -> None:
@@ -172,8 +172,8 @@ class Page:
 
     def finish(self) -> None:
         """Check that all parts that were asked for are there, and that no table was left as it was."""
-        if self.left:
-            raise SystemExit(f"{self.file.name} has no part {', '.join(sorted(self.left))}")
+        if unknown := self.asked.difference(self.parts):
+            raise SystemExit(f"{self.file.name} has no part {', '.join(sorted(unknown))}; it has {self.parts}")
         for head, count in self._tables.items():
             if (there := len(re.findall(rf"^{re.escape(head)}$", self.text, re.MULTILINE))) != count:
                 raise SystemExit(f"{self.file.name} must have {count} tables {head}; got {there}")
