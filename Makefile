@@ -46,11 +46,11 @@ ifeq ($(filter-out --quick,$(BENCH_OPTIONS)),)
 	$(BENCH_VENV)/bin/python benchmarks/spring_loops.py
 	$(BENCH_VENV)/bin/python benchmarks/general_engine.py --write .
 	[ -z "$$SEISMASS_SHARED" ] || $(BENCH_VENV)/bin/python benchmarks/sliding_base.py --write .
-	$(PYTHON) tools/spring_loops_page.py
+	$(PYTHON) tools/pages spring_loops
 	[ -z "$$SEISMASS_SHARED" ] || $(BENCH_VENV)/bin/python benchmarks/ground_motions.py $(BENCH_OPTIONS)
 	[ -z "$$SEISMASS_SHARED" ] || $(BENCH_VENV)/bin/python benchmarks/matching.py $(BENCH_OPTIONS)
 	[ -z "$$SEISMASS_SHARED" ] || $(BENCH_VENV)/bin/python benchmarks/validation.py
-	[ -z "$$SEISMASS_SHARED" ] || $(PYTHON) tools/validation_page.py
+	[ -z "$$SEISMASS_SHARED" ] || $(PYTHON) tools/pages validation
 endif
 	$(BENCH_VENV)/bin/python benchmarks/work_precision.py $(BENCH_OPTIONS)
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import runpy
 import statistics
 import time
 from pathlib import Path
@@ -16,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 import seismass as sm
+from environment import page_module
 
 TARGET = 0.6
 """Seconds that one call may take on two cores."""
@@ -27,8 +27,7 @@ def records() -> tuple[str, list[sm.Record]]:
     """Return 42 scaled records and what they are."""
     shared = os.environ.get("SEISMASS_SHARED")
     if shared:
-        page = runpy.run_path(str(Path(__file__).parents[1] / "tools" / "effective_mass_page.py"))
-        suite = page["far_field_components"](Path(shared))
+        suite = page_module("effective_mass").far_field_components(Path(shared) / "records")
         factors = sm.scaling.scale_asce7_10(suite, sm.TargetSpectrum.asce7(), between=False).factors
     else:
         seven = list(sm.builtin_suite("seven"))

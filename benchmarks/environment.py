@@ -1,20 +1,28 @@
-"""What the measurements depend on: the machine and the versions, and what is missing."""
+"""What the measurements depend on: the machine and the versions, what is missing, and where pages are written."""
 
 from __future__ import annotations
 
+import importlib
 import importlib.metadata
 import os
 import platform
 import re
 import shutil
 import subprocess
+import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import seismass
 
 PACKAGES: Final = ("numpy", "numba", "scipy", "openseespy", "heyoka", "pydiffsol", "polars")
+
+
+def page_module(name: str) -> Any:
+    """Return a module of tools/pages."""
+    sys.path.append(str(Path(__file__).parents[1] / "tools"))
+    return importlib.import_module(f"pages.{name}")
 
 
 def cpu() -> str:

@@ -10,7 +10,6 @@ import argparse
 import importlib
 import importlib.metadata
 import os
-import runpy
 import sys
 import time
 from collections.abc import Callable
@@ -21,11 +20,10 @@ from typing import Any, Final
 import numpy as np
 
 import seismass as sm
-from environment import summary
+from environment import page_module, summary
 from scenes import FloatArray
 from seismass.records import Record
 
-PAGE_TOOL: Final = Path(__file__).parents[1] / "tools" / "ground_motions_page.py"
 DAMPING: Final = 0.05
 ZEROS: Final = 60.0
 """Zeros after the record (s), in which the responses of the longest periods die away."""
@@ -141,14 +139,13 @@ def measures_rows(pairs: list[sm.Pair]) -> list[tuple[str, ...]]:
 
 def text(shared: Path, *, quick: bool) -> str:
     """Return the section of the page."""
-    tool = runpy.run_path(str(PAGE_TOOL))
-    table = tool["table"]
+    tool, table = page_module("ground_motions"), page_module("parts").table
     pairs = sm.records.find_pairs(shared / "records")
-    listed = tool["listed_pairs"](shared, pairs)[: 2 if quick else None]
+    listed = tool.listed_pairs(shared / "records", pairs)[: 2 if quick else None]
     bands = (f"to {BANDS[0][1]:g} s", *(f"{low:g} to {high:g} s" for low, high in BANDS[1:]))
-    spectra = table(("program", *bands, "median", "time (s)"), spectra_rows(listed, tool["signed"]))
+    spectra = table(["program", *bands, "median", "time (s)"], spectra_rows(listed, tool.signed), 1)
     chosen = [item.pair for item in listed]
-    measured = table(("eqsig less ours", "least", "median", "largest"), measures_rows(chosen))
+    measured = table("eqsig less ours | least | median | largest", measures_rows(chosen), 1)
     return (
         f"RotD50, 5 % damping, {len(listed)} pairs at {len(listed[0].periods)} periods: differences from the flatfile "
         "(%) by band of periods, least to\nlargest, and processor time of one thread for all of them.\n\n"
@@ -174,9 +171,10 @@ def main() -> None:
     if arguments.quick:
         print(section)
         return
-    tool = runpy.run_path(str(PAGE_TOOL))
-    page: Path = tool["PAGE"]
-    page.write_text(tool["with_tables"](page.read_text(encoding="utf-8"), {"peers": section}), encoding="utf-8")
+    parts = page_module("parts")
+    page = parts.Page(parts.ROOT / "docs" / "ground_motions.md")
+    page.marked("peers", section)
+    page.write()
 
 
 if __name__ == "__main__":

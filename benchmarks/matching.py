@@ -11,7 +11,6 @@ import importlib
 import importlib.metadata
 import logging
 import os
-import runpy
 import sys
 import time
 from pathlib import Path
@@ -20,10 +19,9 @@ from typing import Any, Final
 import numpy as np
 
 import seismass as sm
-from environment import cpu
+from environment import cpu, page_module
 from scenes import FloatArray
 
-PAGE_TOOL: Final = Path(__file__).parents[1] / "tools" / "matching_page.py"
 RANGE: Final = (0.2, 1.5)
 SHARE: Final = 0.05
 """Share of the range by which that of reqpy-M is wider, whose periods do not fall on its ends."""
@@ -75,7 +73,6 @@ def with_reqpy(record: sm.Record, target: sm.TargetSpectrum) -> tuple[sm.Record,
 
 def text(shared: Path, *, quick: bool) -> str:
     """Return the section of the page."""
-    tool = runpy.run_path(str(PAGE_TOOL))
     records = list(sm.read_suite(shared / "records" / "paper_seven.csv"))
     records = records[1:2] if quick else records
     target = sm.TargetSpectrum.asce7()
@@ -90,20 +87,8 @@ def text(shared: Path, *, quick: bool) -> str:
                 rows.append((record.station, *measured(name, *_spread(match, record, target, periods, ordinates))))
             except ImportError as missing:
                 rows.append((record.station, f"{name}: absent ({missing})", *[""] * 7))
-    table = tool["table"](
-        (
-            "record",
-            "program",
-            "over the target",
-            "rms (%)",
-            "PGV (m/s)",
-            "PGD (m)",
-            "end (m/s)",
-            "end (m)",
-            "time (s)",
-        ),
-        rows,
-    )
+    heads = "record | program | over the target | rms (%) | PGV (m/s) | PGD (m) | end (m/s) | end (m) | time (s)"
+    table = page_module("parts").table(heads, rows, 1)
     try:
         version = importlib.metadata.version("reqpy-M")
     except importlib.metadata.PackageNotFoundError:
@@ -136,9 +121,10 @@ def main() -> None:
     if arguments.quick:
         print(section)
         return
-    tool = runpy.run_path(str(PAGE_TOOL))
-    page: Path = tool["PAGE"]
-    page.write_text(tool["PARTS"]["with_text"](page.read_text(encoding="utf-8"), "peer", section), encoding="utf-8")
+    parts = page_module("parts")
+    page = parts.Page(parts.ROOT / "docs" / "matching.md")
+    page.marked("peer", section)
+    page.write()
 
 
 if __name__ == "__main__":

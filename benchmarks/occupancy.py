@@ -11,13 +11,13 @@ from __future__ import annotations
 
 import argparse
 import math
-import runpy
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import seismass as sm
+from environment import page_module
 from seismass.assessment.building_file import example_file
 from seismass.media.text_table import text_table
 from seismass.model.occupancy import STORAGE, surveyed_load
@@ -84,5 +84,6 @@ if __name__ == "__main__":
     found = table()
     print("\n".join(found))
     if options.write:
-        with_block = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))["with_block"]
-        PAGE.write_text(with_block(PAGE.read_text(encoding="utf-8"), "occupancy", found), encoding="utf-8")
+        page = page_module("parts").Page(PAGE)
+        page.block("occupancy", found)
+        page.write()

@@ -11,14 +11,14 @@ from __future__ import annotations
 
 import argparse
 import csv
-import runpy
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import seismass as sm
+from environment import page_module
 from seismass.assessment.building_file import example_file
 from seismass.assessment.opensees_models import write_models
 
@@ -72,9 +72,9 @@ def main() -> None:
             lines += [*([""] if lines else []), *lines_of(title, compared(Path(folder), text))]
     print("\n".join(lines))
     if options.write:
-        parts: dict[str, Any] = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
-        page = PAGE.read_text(encoding="utf-8")
-        PAGE.write_text(parts["with_block"](page, "comparison", lines), encoding="utf-8")
+        page = page_module("parts").Page(PAGE)
+        page.block("comparison", lines)
+        page.write()
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
     benchmarks/racks.py [--suite far_field|seven|forty] [--studies racks friction walls stops]
 
 solves the cases and keeps them in benchmarks/results/racks.csv, those of each suite and study in place of earlier ones.
-tools/racks_page.py makes docs/racks.md and its figures of them. Recordings are read from the folder `records` of
+tools/pages/racks.py makes docs/racks.md and its figures of them. Recordings are read from the folder `records` of
 SEISMASS_SHARED. A study of the far-field suite takes one to five minutes of two cores.
 
 The building has three storeys and a period of 0.47 s without goods, 5 % damping, goods of once the floor mass on

@@ -12,13 +12,12 @@ from __future__ import annotations
 
 import argparse
 import os
-import runpy
 from pathlib import Path
-from typing import Any
 
 import polars as pl
 
 import seismass as sm
+from environment import page_module
 from seismass.effective_mass import EffectiveMassParameters, effective_mass_map
 from seismass.effective_mass.rules import CLOSED_FORMS
 from seismass.spectra import DEFAULT_SDS_G
@@ -121,9 +120,9 @@ def main() -> None:
         parser.error("nothing is kept yet: name --suites")
     print("\n".join(lines(table)))
     if options.write:
-        parts: dict[str, Any] = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
-        page = PAGE.read_text(encoding="utf-8")
-        PAGE.write_text(parts["with_block"](page, "rules", lines(table)), encoding="utf-8")
+        page = page_module("parts").Page(PAGE)
+        page.block("rules", lines(table))
+        page.write()
 
 
 if __name__ == "__main__":

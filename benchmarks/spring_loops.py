@@ -1,6 +1,6 @@
 """Loops of the spring laws by OpenSees: every case's material driven along one list of drifts, kept as Parquet.
 
-The table is read by tests and by tools/spring_loops_page.py, which run without OpenSees. Only `main` needs it.
+The table is read by tests and by tools/pages/spring_loops.py, which run without OpenSees. Only `main` needs it.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
     benchmarks/two_directions.py [--suites far_field other forty] [--assess] [--write]
 
 solves the cases under the pairs of a suite, keeps them in benchmarks/results/two_directions.json, those of each suite
-in place of earlier ones, and prints the page that tools/two_directions_page.py makes of them; `--write` writes it.
+in place of earlier ones, and prints the page that tools/pages/two_directions.py makes of them; `--write` writes it.
 `--assess` times `assess` in two directions under 42 pairs and keeps the time too. Recordings are read from the folder
 `records` of SEISMASS_SHARED. A suite takes some minutes of two cores.
 
@@ -18,7 +18,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import runpy
 import time
 import tomllib
 from collections.abc import Sequence
@@ -30,6 +29,7 @@ import numpy as np
 import polars as pl
 
 import seismass as sm
+from environment import page_module
 from seismass.base.values import FloatArray
 from seismass.effective_mass.curve import interpolated
 from seismass.effective_mass.estimate import exponent, height_ratio
@@ -232,11 +232,10 @@ def main() -> None:
         kept["assess"] = timed_assessment()
     if options.suites or options.assess:
         RESULTS.write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
-    tool = runpy.run_path(str(ROOT / "tools" / "two_directions_page.py"))
-    page = tool["page"](kept)
-    print(page)
+    page, _ = page_module("parts").made("two_directions")
+    print(page.text)
     if options.write:
-        runpy.run_path(str(ROOT / "tools" / "two_directions_page.py"), run_name="__main__")
+        page.write()
 
 
 if __name__ == "__main__":

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import runpy
 import shutil
 from pathlib import Path
 
@@ -286,9 +285,3 @@ def test_command_refuses(
 ) -> None:
     assert main([argument.format(tmp_path) for argument in arguments]) == 2
     assert message in capsys.readouterr().err
-
-
-def test_page_is_current() -> None:
-    root = Path(__file__).parents[1]
-    page = runpy.run_path(str(root / "tools" / "catalogue_page.py"))["page"]()
-    assert (root / "docs" / "catalogue.md").read_text(encoding="utf-8") == page

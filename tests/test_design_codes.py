@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import runpy
 from pathlib import Path
 
 import numpy as np
@@ -199,10 +198,3 @@ def test_stability_and_drift_of_storeys_by_hand() -> None:
     assert without["theta"].null_count() == 3
     assert without["drift_ok"].to_list() == [True, True, True]  # 0.04/4 and 0.08/4
     assert without.filter(pl.col("p_delta").is_not_null()).height == 0
-
-
-def test_the_page_is_current() -> None:
-    tool = runpy.run_path(str(ROOT / "tools" / "design_page.py"))
-    page = tool["page"](tool["example"]())
-    assert (ROOT / "docs" / "design.md").read_text(encoding="utf-8") == page
-    assert "{" not in page.replace("{ ", "")

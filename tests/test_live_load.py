@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import runpy
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,6 +12,7 @@ import pytest
 from scipy import stats
 
 import seismass as sm
+from pages.effective_mass import far_field_components
 from seismass.design import response_spectrum_analysis
 from seismass.spectra import mean_spectrum
 
@@ -81,7 +81,7 @@ def test_same_seed_same_answer_and_files(tmp_path: Path) -> None:
 )
 def test_reference_on_recordings(shared: Path, reduction: float, share: float, quantiles: tuple[float, ...]) -> None:
     """Values of another sampling of the same distributions: equal expected drift, 5, 50 and 95 %."""
-    suite = runpy.run_path(str(ROOT / "tools" / "effective_mass_page.py"))["far_field_components"](shared)
+    suite = far_field_components(shared / "records")
     factors = sm.scaling.scale_asce7_10(suite, sm.TargetSpectrum.asce7(), between=False).factors
     motions = [record.scaled(factor) for record, factor in zip(suite, factors, strict=True)]
     bare = sm.Building.uniform(3, 0.47, mass=1.0)

@@ -1,9 +1,8 @@
-"""The kernel's spring laws against loops of OpenSees that are kept as data, and the page that shows them."""
+"""The kernel's spring laws against loops of OpenSees that are kept as data."""
 
 from __future__ import annotations
 
 import importlib
-import runpy
 import sys
 from pathlib import Path
 from typing import Any
@@ -68,9 +67,3 @@ def test_yield_drift_of_imk_falls_with_its_strength(loops: Any) -> None:
     found = abs(differences(loops, "cyclic-hardening-imk")[at_yield])
     # `IMKPeakOriented` leaves the energy of the increment that passes zero out, 0.01^2/2 at most, over the capacity.
     assert found == pytest.approx(expected, abs=0.5 * 0.01**2 / capacity)
-
-
-def test_page_is_current() -> None:
-    module = runpy.run_path(str(ROOT / "tools" / "spring_loops_page.py"))
-    assert module["PAGE"].read_text(encoding="utf-8") == module["page"]()
-    assert module["FIGURE"].is_file()

@@ -16,6 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import seismass as sm
+from pages.ground_motions import listed_pairs
 from seismass.records import Pair, Record, find_pairs, read_pair, rotd
 from seismass.records.rotation import between
 
@@ -341,15 +342,13 @@ def test_azimuth_of_the_largest(plane: Any) -> None:
     assert table.columns == ["period", "rotd00", "rotd50", "rotd100", "angle", "azimuth"]
 
 
-def test_flatfile_and_page(shared: Path) -> None:
-    """Peaks and RotD50 of 13 pairs beside those that NGA-West2 lists, and the page that says so.
+def test_flatfile(shared: Path) -> None:
+    """Peaks and RotD50 of 13 pairs beside those that NGA-West2 lists.
 
     The flatfile's ordinates are peaks at samples, no fewer than ten a period: between them a vibration of that period
     exceeds the largest by at most 1/cos(pi/10) - 1 = 5.1 %. Its numbers have five to seven digits.
     """
-    tool = runpy.run_path(str(ROOT / "tools" / "ground_motions_page.py"))
-    assert tool["PAGE"].read_text(encoding="utf-8") == tool["page"](shared)
-    listed = tool["listed_pairs"](shared, find_pairs(shared / "records"))
+    listed = listed_pairs(shared / "records", find_pairs(shared / "records"))
     assert len(listed) == 13
     for item in listed[::4]:
         found = rotd(item.pair, item.periods)

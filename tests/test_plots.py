@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pickle
 import re
-import runpy
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -17,6 +16,8 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.text import Text
 
 import seismass as sm
+from pages.parts import Page
+from pages.plots import FIGURES
 from seismass.media.figure_file import save_figure
 from seismass.plots.timeline import MARKS
 from seismass.runs.response import EVENT_KINDS
@@ -329,12 +330,11 @@ def test_a_collapsed_run_is_drawn_to_its_end(record: sm.Record) -> None:
 
 
 def test_code_of_the_page_runs_and_its_figures_are_there() -> None:
-    tool = runpy.run_path(str(ROOT / "tools" / "plots_page.py"))
-    names = tool["made"]()
-    assert all(isinstance(names[name], Figure) for name in tool["FIGURES"])
+    names = Page(ROOT / "docs" / "plots.md").example()
+    assert all(isinstance(names[name], Figure) for name in FIGURES)
     page = (ROOT / "docs" / "plots.md").read_text(encoding="utf-8")
     shown = set(re.findall(r"\(figures/(\w+)\.png\)", page))
-    assert shown == set(tool["FIGURES"].values())
+    assert shown == set(FIGURES.values())
     assert all((ROOT / "docs" / "figures" / f"{file}.png").is_file() for file in shown)
     response = names["response"]
     assert f"Storey 1 drifts most, {1e3 * response.peak_drift.max():.0f} mm." in page

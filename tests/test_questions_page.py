@@ -1,30 +1,20 @@
-"""docs/questions.md prints what its commands and its code print today, and its words are true of it."""
+"""The words of docs/questions.md are true of what it prints."""
 
 from __future__ import annotations
 
 import re
-import runpy
 from pathlib import Path
-from typing import Any
 
 import pytest
+
+from pages.questions import command
 
 ROOT = Path(__file__).parents[1]
 
 
 @pytest.fixture(scope="module")
-def tool() -> dict[str, Any]:
-    return runpy.run_path(str(ROOT / "tools" / "questions_page.py"))
-
-
-@pytest.fixture(scope="module")
-def page(tool: dict[str, Any]) -> str:
-    text: str = tool["PAGE"].read_text(encoding="utf-8")
-    return text
-
-
-def test_page_is_what_its_blocks_print(tool: dict[str, Any], page: str) -> None:
-    assert tool["written"](page) == page
+def page() -> str:
+    return (ROOT / "docs" / "questions.md").read_text(encoding="utf-8")
 
 
 def test_every_block_that_prints_shows_it(page: str) -> None:
@@ -63,6 +53,6 @@ def test_words_of_the_page_are_true_of_what_it_prints(page: str) -> None:
         ("seismass building --codes | tail -n 1", "piped to head -n COUNT alone; got tail -n 1"),
     ],
 )
-def test_lines_that_are_no_commands_of_a_page_are_refused(tool: dict[str, Any], line: str, message: str) -> None:
+def test_lines_that_are_no_commands_of_a_page_are_refused(line: str, message: str) -> None:
     with pytest.raises(SystemExit, match=message):
-        tool["command"](line)
+        command(line)

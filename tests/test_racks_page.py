@@ -1,22 +1,12 @@
-"""The page of racks, walls and stops is what its tool makes of the stored cases, and its words are true of them."""
-
-import runpy
-from pathlib import Path
+"""The words of the page of racks, walls and stops are true of the stored cases."""
 
 import polars as pl
 
-ROOT = Path(__file__).parents[1]
-
-
-def test_the_page_is_current() -> None:
-    tool = runpy.run_path(str(ROOT / "tools" / "racks_page.py"))
-    rows = tool["solved"]()
-    assert (ROOT / "docs" / "racks.md").read_text(encoding="utf-8") == tool["page"](rows)
-    assert "{" not in tool["page"](rows)
+from pages import racks as page
 
 
 def test_words_of_the_page() -> None:
-    rows = runpy.run_path(str(ROOT / "tools" / "racks_page.py"))["solved"]()
+    rows = page.solved()
     racks = rows.filter(study="racks")
     pairs = racks.filter(goods="sliding").join(racks.filter(goods="yielding"), on=["R", "rack_period"], suffix="_weak")
     assert (pairs["value_weak"] <= pairs["value"]).all()  # a rack that yields acts less

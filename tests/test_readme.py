@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-import runpy
 from pathlib import Path
 
 import pytest
 from PIL import Image
 
+from pages.questions import command
 from seismass import animate, read_scene
 from seismass.explore import compiled
 from seismass.runs.scene_file import example_scene
@@ -39,7 +39,6 @@ def test_it_is_short_and_in_its_order() -> None:
 def test_every_command_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Line by line in one empty folder; the live page where its kernel was compiled."""
     monkeypatch.chdir(tmp_path)
-    command = runpy.run_path(str(ROOT / "tools" / "questions_page.py"))["command"]
     lines = [line.partition("#")[0].strip() for line in "\n".join(blocks("sh")).splitlines()]
     asked = [line for line in lines if line and line not in SET_UP]
     assert asked == [
@@ -68,7 +67,7 @@ def test_code_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_every_block_is_one_that_is_run_or_written() -> None:
-    """Shell and Python run above; the one block of text is that of tools/readme_answer.py (test_pages)."""
+    """Shell and Python run above; the one block of text is that of tools/pages/readme.py (test_pages)."""
     opened = re.findall(r"^```(.+)$", README, re.MULTILINE)
     assert set(opened) == {"sh", "python", "text"}
     assert opened.count("text") == 1

@@ -49,7 +49,3 @@ def test_files_of_others_of_the_same_kinds(shared: Path) -> None:
     assert len(files) >= 40
     for path in files:
         check(path, path.name, made=False)
-
-
-def test_the_table_of_kinds_is_current() -> None:
-    assert (ROOT / "docs" / "records.md").read_text(encoding="utf-8") == TOOL["page"]()

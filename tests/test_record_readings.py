@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import csv
 import re
-import runpy
 import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from pages.records import ARGUMENTS
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.records import read_record, read_records, read_suite
 from seismass.records.formats.headers import NO_COUNT
 
 ROOT = Path(__file__).parents[1]
-PAGE = runpy.run_path(str(ROOT / "tools" / "records_page.py"))
 with (ROOT / "tests" / "data" / "other_readers.csv").open(encoding="utf-8", newline="") as _file:
     OTHERS = list(csv.DictReader(_file))
 
@@ -56,7 +55,7 @@ def test_a_recording_is_what_its_header_says(
     unit: float,
 ) -> None:
     path = shared / "record_formats" / file
-    record = read_records(path, **PAGE["ARGUMENTS"].get(path.name, {}))[channel - 1]
+    record = read_records(path, **ARGUMENTS.get(path.name, {}))[channel - 1]
     where = int(np.argmax(np.abs(record.acceleration)))
     assert (record.samples, record.dt) == (points, pytest.approx(dt, rel=1e-12))
     if peak is not None:  # to the last of five digits of SMC's samples, or the last of the header
@@ -69,7 +68,7 @@ def test_a_recording_is_what_its_header_says(
 def test_other_readers_give_the_same(shared: Path, row: dict[str, str]) -> None:
     """Their numbers have seven digits; the mean of K-NET was removed from obspy's by hand."""
     path = shared / "record_formats" / row["file"]
-    record = read_records(path, **PAGE["ARGUMENTS"].get(path.name, {}))[int(row["channel"]) - 1]
+    record = read_records(path, **ARGUMENTS.get(path.name, {}))[int(row["channel"]) - 1]
     where = int(np.argmax(np.abs(record.acceleration)))
     assert record.samples == int(row["points"])
     assert record.dt == pytest.approx(float(row["dt"]), rel=1e-12)
@@ -123,7 +122,7 @@ def test_a_wrong_header_of_a_recording_is_remarked(shared: Path) -> None:
 def test_sound_recordings_have_no_remark(shared: Path) -> None:
     for path in sorted((shared / "record_formats").rglob("*")):
         if path.is_file() and path.name not in ("43.AT2", "BadHeader.V2"):
-            for record in read_records(path, **PAGE["ARGUMENTS"].get(path.name, {})):
+            for record in read_records(path, **ARGUMENTS.get(path.name, {})):
                 expected = [NO_COUNT, "mean of", "first numbers"]
                 assert all(any(word in remark for word in expected) for remark in record.remarks), path
 
@@ -163,7 +162,3 @@ def test_reading_is_quick(shared: Path) -> None:
         read_record(file)
         times.append(time.process_time() - start)
     assert min(times) < 0.06
-
-
-def test_page_of_records_is_current(shared: Path) -> None:
-    assert (ROOT / "docs" / "records.md").read_text(encoding="utf-8") == PAGE["page"](shared)

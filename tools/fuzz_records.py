@@ -411,7 +411,7 @@ def table(tally: Tally, seed: int, real: bool) -> str:
 def write_page(text: str) -> None:
     """Put the table into docs/records.md between its marks."""
     page = PAGE.read_text(encoding="utf-8")
-    parts = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
+    parts = runpy.run_path(str(ROOT / "tools" / "pages" / "parts.py"))
     PAGE.write_text(parts["with_text"](page, "fuzz", text), encoding="utf-8")
 
 

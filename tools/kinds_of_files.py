@@ -1,9 +1,8 @@
 """Kinds of files that stand beside records or are written in unusual ways: made here, read, and put into a table.
 
-Usage: tools/kinds_of_files.py, which writes the table of docs/records.md. The motion is a sum of decaying sines with
-its largest value, 0.3 g, at sample 501 of 1200; nothing recorded is in the files. A test says whether each is read
-rightly or refused for its cause, here and, where SEISMASS_SHARED names a folder, in files of the same kinds that
-others made.
+tools/pages/records.py puts the table into docs/records.md. The motion is a sum of decaying sines with its largest
+value, 0.3 g, at sample 501 of 1200; nothing recorded is in the files. A test says whether each is read rightly or
+refused for its cause, here and, where SEISMASS_SHARED names a folder, in files of the same kinds that others made.
 """
 
 from __future__ import annotations
@@ -21,8 +20,6 @@ from seismass.base.values import printable
 from seismass.records import read_records
 
 ROOT = Path(__file__).parents[1]
-PAGE = ROOT / "docs" / "records.md"
-PARTS = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
 NETWORKS = runpy.run_path(str(ROOT / "tools" / "network_files.py"))
 SMALL = runpy.run_path(str(ROOT / "tools" / "record_files.py"))
 
@@ -218,13 +215,3 @@ def table() -> str:
             said = ", ".join(f"`{key}={value!r}`" for key, value in kind.arguments.items())
             lines.append(f"| `{file}` | {said} | {outcome(path, kind.arguments)} |".replace("'|", "'\\|"))
     return "\n".join(lines)
-
-
-def page() -> str:
-    """Return the page with its table as it is now."""
-    changed: str = PARTS["with_text"](PAGE.read_text(encoding="utf-8"), "kinds", table())
-    return changed
-
-
-if __name__ == "__main__":
-    PAGE.write_text(page(), encoding="utf-8")

@@ -41,5 +41,5 @@ BINS: Final = (
     Bin(1.5, 2.0, 0.99, 1.0, 1.0),
     Bin(2.0, None, 1.0, 1.0, 1.0),
 )
-"""The map of the built-in suite, as docs/effective_mass.md prints it; `tools/effective_mass_page.py` computes it, and a
-test compares both."""
+"""The map of the built-in suite, as docs/effective_mass.md prints it, which `tools/pages` computes; a test compares
+both."""

@@ -1,6 +1,5 @@
-"""Runs the code and the commands of docs/questions.md and puts what they print below them.
+"""What the code and the commands of the page print.
 
-Usage: python tools/questions_page.py
 A block of TOML whose first line is `# NAME` is the file NAME. Blocks of Python run by themselves. Commands run one
 after another in one folder; `> FILE` and `| head -n COUNT` mean what they do in a shell. A block of plain text below
 either is what they print.
@@ -16,11 +15,24 @@ import tempfile
 from pathlib import Path
 from typing import Final
 
+from pages.parts import Page
 from seismass.cli import main as seismass
 
-PAGE: Final = Path(__file__).parents[1] / "docs" / "questions.md"
 BLOCK: Final = re.compile(r"^```(\w+)\n(.*?)^```$(?:(\n\n```text\n)(.*?)^```$)?", re.MULTILINE | re.DOTALL)
 """A block of code with its language, and the block of plain text below it, where there is one."""
+
+
+def fill(page: Page) -> None:
+    """Put in what the blocks print today, made in an empty folder."""
+
+    def block(found: re.Match[str]) -> str:
+        language, code, between, _ = found.groups()
+        text = printed_by(language, code)
+        shown = f"```{language}\n{code}```"
+        return shown if between is None else f"{shown}{between}{text.strip()}\n```"
+
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+        page.text = BLOCK.sub(block, page.text)
 
 
 def command(line: str) -> str:
@@ -63,20 +75,3 @@ def printed_by(language: str, code: str) -> str:
     with contextlib.redirect_stdout(printed):
         exec(compile(code, "code of the page", "exec"), {"__name__": "page"})
     return printed.getvalue()
-
-
-def written(page: str) -> str:
-    """Return the page with what its blocks print today, made in an empty folder."""
-
-    def block(found: re.Match[str]) -> str:
-        language, code, between, _ = found.groups()
-        text = printed_by(language, code)
-        shown = f"```{language}\n{code}```"
-        return shown if between is None else f"{shown}{between}{text.strip()}\n```"
-
-    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
-        return BLOCK.sub(block, page)
-
-
-if __name__ == "__main__":
-    PAGE.write_text(written(PAGE.read_text(encoding="utf-8")), encoding="utf-8")

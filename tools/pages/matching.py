@@ -1,29 +1,17 @@
-"""Puts the tables of docs/matching.md into it: the seven records, the far-field components, other ranges and dampings;
-and draws its figure.
+"""Matching of the seven records, of the far-field components, and for other ranges and dampings.
 
-Usage: SEISMASS_SHARED=... python tools/matching_page.py [seven] [far_field] [targets] [other] [figure]; all by default.
-The recordings are not part of this project: SEISMASS_SHARED names the folder that holds them. The table of another
-program is written by benchmarks/matching.py and kept as it is.
+The table of another program is written by benchmarks/matching.py and kept as it is.
 """
 
 from __future__ import annotations
 
-import os
-import runpy
-import sys
-from collections.abc import Callable
-from pathlib import Path
 from typing import Final
 
 import numpy as np
 
 import seismass as sm
-from seismass.media.figure_file import save_figure
+from pages.parts import Page, table
 
-ROOT: Final = Path(__file__).parents[1]
-PARTS: Final = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
-PAGE: Final = ROOT / "docs" / "matching.md"
-FIGURE: Final = ROOT / "docs" / "figures" / "matched.png"
 TARGETS: Final = (
     sm.TargetSpectrum.eurocode8(1, "C", agr_g=0.3),
     sm.TargetSpectrum.nzs1170("D", z=0.4),
@@ -38,10 +26,19 @@ OTHERS: Final = (
 )
 
 
-def table(header: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
-    """Return a table whose first column is of words."""
-    lines = [header, tuple("---" if column == 0 else "---:" for column in range(len(header))), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+def fill(page: Page) -> None:
+    """Put in the tables that are asked for."""
+    suite, target = sm.read_suite(page.records / "paper_seven.csv"), sm.TargetSpectrum.asce7()
+    if page.wants("seven"):
+        matched = sm.matching.match_suite(suite, target)
+        page.marked("seven", seven(matched))
+        page.figure("matched", matched[1].plot)
+    if page.wants("far_field"):
+        page.marked("far_field", far_field(sm.read_suite(page.records / "fema_p695_far_field")))
+    if page.wants("targets"):
+        page.marked("targets", each(suite, [sm.matching.match_suite(suite, target) for target in TARGETS]))
+    if page.wants("other"):
+        page.marked("other", other([suite[1], suite[6]]))  # steps of 0.005 s and 0.02 s
 
 
 def misfit_row(matched: sm.matching.MatchedRecord) -> tuple[str, ...]:
@@ -81,38 +78,14 @@ def power(value: float) -> str:
     return f"< 1e{int(np.ceil(np.log10(value)))}" if value > 1e-12 else "< 1e-12"
 
 
-def seven(shared: Path) -> str:
+def seven(matched: sm.matching.MatchedSuite) -> str:
     """Return both tables of the seven records."""
-    matched = sm.matching.match_suite(sm.read_suite(shared / "records" / "paper_seven.csv"), sm.TargetSpectrum.asce7())
-    misfits = table(
-        (
-            "record",
-            "factor",
-            "largest before (%)",
-            "rms before (%)",
-            "largest (%)",
-            "rms (%)",
-            "passes",
-            "shorter periods (%)",
-            "longer periods (%)",
-        ),
-        [misfit_row(one) for one in matched],
-    )
-    motions = table(
-        (
-            "record",
-            "PGA (g)",
-            "PGV (m/s)",
-            "PGD (m)",
-            "Arias (m/s)",
-            "D5-95 (s)",
-            "build-up apart (%)",
-            "end velocity apart (m/s)",
-            "end displacement apart (m)",
-        ),
-        [motion_row(one) for one in matched],
-    )
-    return f"{misfits}\n\n{motions}"
+    misfits = "largest before (%) | rms before (%) | largest (%) | rms (%) | passes"
+    misfits = f"record | factor | {misfits} | shorter periods (%) | longer periods (%)"
+    motions = "record | PGA (g) | PGV (m/s) | PGD (m) | Arias (m/s) | D5-95 (s) | build-up apart (%)"
+    motions = f"{motions} | end velocity apart (m/s) | end displacement apart (m)"
+    tables = table(misfits, map(misfit_row, matched), 1), table(motions, map(motion_row, matched), 1)
+    return "\n\n".join(tables)
 
 
 def each(suite: sm.Suite, results: list[sm.matching.MatchedSuite]) -> str:
@@ -126,19 +99,12 @@ def each(suite: sm.Suite, results: list[sm.matching.MatchedSuite]) -> str:
         rows.append((record.name, *cells))
     every = [one for result in results for one in result]
     missed = sum(not one.converged for one in every)
-    header = ("largest (%), rms (%), passes", *(result[0].target for result in results))
-    return f"{table(header, rows)}\n\n{len(every) - missed} of {len(every)} are within 3 %."
+    header = ["largest (%), rms (%), passes", *(result[0].target for result in results)]
+    return f"{table(header, rows, 1)}\n\n{len(every) - missed} of {len(every)} are within 3 %."
 
 
-def targets(shared: Path) -> str:
-    """Return the table of the seven records towards other targets."""
-    suite = sm.read_suite(shared / "records" / "paper_seven.csv")
-    return each(suite, [sm.matching.match_suite(suite, target) for target in TARGETS])
-
-
-def far_field(shared: Path) -> str:
+def far_field(suite: sm.Suite) -> str:
     """Return the tables of the far-field components: each of them, and the distribution over them."""
-    suite = sm.read_suite(shared / "records" / "fema_p695_far_field")
     matched = sm.matching.match_suite(suite, sm.TargetSpectrum.asce7())
     rows = []
     for name, values in (
@@ -156,15 +122,13 @@ def far_field(shared: Path) -> str:
     ends = max(abs(one.record.displacement[-1] - one.original.displacement[-1]) for one in matched)
     return (
         f"{each(suite, [matched])}\n\n"
-        f"{table(('quantity', 'least', '16 %', 'median', '84 %', 'largest'), rows)}\n\n"
+        f"{table('quantity | least | 16 % | median | 84 % | largest', rows, 1)}\n\n"
         f"Displacements at the end differ from those before by {power(ends)} m."
     )
 
 
-def other(shared: Path) -> str:
+def other(chosen: list[sm.Record]) -> str:
     """Return the table of other ranges, dampings and tolerances."""
-    records = list(sm.read_suite(shared / "records" / "paper_seven.csv"))
-    chosen = [records[1], records[6]]  # steps of 0.005 s and 0.02 s
     rows = []
     for name, options in OTHERS:
         cells = []
@@ -176,34 +140,4 @@ def other(shared: Path) -> str:
             state = "" if one.converged else ", not converged"
             cells.append(f"{100.0 * one.misfit.largest:.1f}, {100.0 * one.misfit.rms:.1f}, {one.iterations}{state}")
         rows.append((name, *cells))
-    return table(("largest (%), rms (%), passes", *(record.station for record in chosen)), rows)
-
-
-def draw(shared: Path) -> None:
-    """Draw the second of the seven records, before and after."""
-    record = sm.read_suite(shared / "records" / "paper_seven.csv")[1]
-    save_figure(sm.matching.match_spectrum(record, sm.TargetSpectrum.asce7()).plot(), "png", FIGURE)
-
-
-TABLES: Final[dict[str, Callable[[Path], str]]] = {
-    "seven": seven,
-    "far_field": far_field,
-    "targets": targets,
-    "other": other,
-}
-
-
-def main(names: list[str]) -> None:
-    """Write the tables of these names and the figure, or all."""
-    folder = os.environ.get("SEISMASS_SHARED")
-    if not folder:
-        sys.exit("SEISMASS_SHARED must name the folder that holds the recordings")
-    if not names or "figure" in names:
-        draw(Path(folder))
-    for name in [name for name in TABLES if not names or name in names]:
-        content = TABLES[name](Path(folder))
-        PAGE.write_text(PARTS["with_text"](PAGE.read_text(encoding="utf-8"), name, content), encoding="utf-8")
-
-
-if __name__ == "__main__":
-    main(sys.argv[1:])
+    return table(["largest (%), rms (%), passes", *(record.station for record in chosen)], rows, 1)

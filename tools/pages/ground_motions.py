@@ -1,16 +1,11 @@
-"""Writes docs/ground_motions.md: measures, pairs and RotD spectra of recordings, beside the NGA-West2 flatfile.
+"""Measures, pairs and RotD spectra of recordings, beside the NGA-West2 flatfile.
 
-Usage: SEISMASS_SHARED=... python tools/ground_motions_page.py
-The recordings are not part of this project: SEISMASS_SHARED names the folder that holds them. The table of other
-programs is written by benchmarks/ground_motions.py and kept as it is.
+The table of other programs is written by benchmarks/ground_motions.py and kept as it is.
 """
 
 from __future__ import annotations
 
-import os
 import re
-import runpy
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -20,14 +15,24 @@ import polars as pl
 from numpy.typing import NDArray
 
 import seismass as sm
+from pages.parts import Page, table
 
-ROOT: Final = Path(__file__).parents[1]
-PARTS: Final = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
-PAGE: Final = ROOT / "docs" / "ground_motions.md"
-FLATFILE: Final = Path("records/reference/nga_w2_selected.csv")
 LENGTH_RATIO: Final = 15.0
 FILTER: Final = (0.2, 25.0)
 FILTERED: Final = "RSN6_IMPVALL.I_I-ELC180-hor1"
+
+
+def fill(page: Page) -> list[Listed]:
+    """Put in the tables, and return the pairs that the flatfile lists."""
+    suite = sm.read_suite(page.records / "paper_seven.csv")
+    pairs = sm.records.find_pairs(page.records)
+    listed = listed_pairs(page.records, pairs)
+    page.marked("measures", measures_table(suite))
+    page.marked("pairs", pairs_table(pairs))
+    page.marked("flatfile", flatfile_tables(listed))
+    page.marked("processing", processing_table(sm.read_record(next(page.records.glob(f"*/{FILTERED}.AT2")))))
+    page.marked("similitude", similitude_table(suite))
+    return listed
 
 
 @dataclass(frozen=True)
@@ -41,9 +46,9 @@ class Listed:
     peaks: dict[str, float]
 
 
-def listed_pairs(shared: Path, pairs: sm.records.Pairs) -> list[Listed]:
+def listed_pairs(records: Path, pairs: sm.records.Pairs) -> list[Listed]:
     """Return the pairs that the flatfile lists, by record sequence number."""
-    flat = pl.read_csv(shared / FLATFILE, infer_schema_length=0)
+    flat = pl.read_csv(records / "reference" / "nga_w2_selected.csv", infer_schema_length=0)
     columns = [column for column in flat.columns if re.fullmatch(r"T\d+\.\d+S", column)]
     periods = np.array([float(column[1:-1]) for column in columns])
     found = []
@@ -65,24 +70,15 @@ def listed_pairs(shared: Path, pairs: sm.records.Pairs) -> list[Listed]:
     return sorted(found, key=lambda item: item.sequence)
 
 
-def table(header: tuple[str, ...], rows: list[tuple[str, ...]], left: int = 1) -> str:
-    """Return a table whose first columns are of words."""
-    lines = [header, tuple("---" if column < left else "---:" for column in range(len(header))), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
-
-
-def measures_table(shared: Path) -> str:
+def measures_table(suite: sm.Suite) -> str:
     """Return the measures of the paper's components."""
-    measured = sm.records.intensity_table(sm.read_suite(shared / "records" / "paper_seven.csv"))
-    header = ("record", "PGA (g)", "PGV (m/s)", "PGD (m)", "Arias (m/s)", "D5-75 (s)", "D5-95 (s)", "CAV (m/s)",
-              "bracketed (s)")  # fmt: skip
-    names = ("pga_g", "pgv", "pgd", "arias", "d5_75", "d5_95", "cav", "bracketed")
-    digits = (4, 3, 3, 3, 2, 2, 2, 2)
+    digits = {"pga_g": 4, "pgv": 3, "pgd": 3, "arias": 3, "d5_75": 2, "d5_95": 2, "cav": 2, "bracketed": 2}
     rows = [
-        (f"{row['name'].partition('__')[0]}", *(f"{row[name]:.{n}f}" for name, n in zip(names, digits, strict=True)))
-        for row in measured.iter_rows(named=True)
+        (row["name"].partition("__")[0], *(f"{row[name]:.{n}f}" for name, n in digits.items()))
+        for row in sm.records.intensity_table(suite).iter_rows(named=True)
     ]
-    return table(header, rows)
+    heads = "PGA (g) | PGV (m/s) | PGD (m) | Arias (m/s) | D5-75 (s) | D5-95 (s) | CAV (m/s) | bracketed (s)"
+    return table(f"record | {heads}", rows, 1)
 
 
 def pairs_table(pairs: sm.records.Pairs) -> str:
@@ -92,10 +88,10 @@ def pairs_table(pairs: sm.records.Pairs) -> str:
         said = "not stated" if pair.azimuths is None else " / ".join(f"{azimuth:g}" for azimuth in pair.azimuths)
         files = ("yes" if pair.vertical is not None else "no", str(pair.samples), f"{pair.dt:g}")
         peaks = [f"{record.pga_g:.5f}" for record in (pair.first, pair.second)]
-        rows.append((pair.name, said, *files, *peaks, str(sum("samples of its pair" in one or "zeros" in one
-                                                              for one in pair.remarks))))  # fmt: skip
-    header = ("pair", "azimuths", "vertical", "samples", "dt (s)", "PGA 1 (g)", "PGA 2 (g)", "components aligned")
-    return table(header, rows)
+        aligned = sum("samples of its pair" in one or "zeros" in one for one in pair.remarks)
+        rows.append((pair.name, said, *files, *peaks, aligned))
+    heads = "pair | azimuths | vertical | samples | dt (s) | PGA 1 (g) | PGA 2 (g) | components aligned"
+    return table(heads, rows, 1)
 
 
 def flatfile_tables(listed: list[Listed]) -> str:
@@ -120,8 +116,7 @@ def flatfile_tables(listed: list[Listed]) -> str:
             )
         )
     all_of_them = np.array(differences)
-    header = ("record", "dt (s)", "PGA", "PGV", "PGD", "spectrum, median", "largest", "RotD100/50 at 1 s",
-              "its azimuth")  # fmt: skip
+    heads = "record | dt (s) | PGA | PGV | PGD | spectrum, median | largest | RotD100/50 at 1 s | its azimuth"
     by_period = [
         (f"{period:g}", *(signed(float(value)) for value in (column.min(), np.median(column), column.max())))
         for period, column in zip(listed[0].periods, all_of_them.T, strict=True)
@@ -132,8 +127,8 @@ def flatfile_tables(listed: list[Listed]) -> str:
     long_periods = np.abs(all_of_them[:, listed[0].periods >= 1.0]).max()
     return (
         f"Differences of ours from the flatfile (%), RotD50, {len(listed)} pairs at {all_of_them.shape[1]} periods:\n\n"
-        f"{table(header, rows)}\n\n"
-        f"{table(('period (s)', 'least', 'median', 'largest'), by_period, 0)}\n\n"
+        f"{table(heads, rows, 1)}\n\n"
+        f"{table('period (s) | least | median | largest', by_period, 0)}\n\n"
         f"The least difference is {least} %, the largest {largest} % (RSN{item.sequence} at {period:g} s, "
         f"{period / item.pair.dt:.0f} samples a period): the\nflatfile's are peaks at samples, as the table of other "
         "programs shows, and ours in continuous time. From 1 s on the two\n"
@@ -141,31 +136,20 @@ def flatfile_tables(listed: list[Listed]) -> str:
     )
 
 
-def similitude_table(shared: Path) -> str:
+def similitude_table(suite: sm.Suite) -> str:
     """Return what the paper's components are on a table at reduced scale."""
     rows = []
-    for record in sm.read_suite(shared / "records" / "paper_seven.csv"):
+    for record in suite:
         model = record.similitude(LENGTH_RATIO)
-        rows.append(
-            (
-                record.name.partition("__")[0],
-                f"{record.dt:g}",
-                f"{1000.0 * model.dt:.4f}",
-                f"{record.duration:.2f}",
-                f"{model.duration:.2f}",
-                f"{model.pga_g:.4f}",
-                f"{100.0 * model.pgv:.2f}",
-                f"{1000.0 * model.pgd:.2f}",
-            )
-        )
-    header = ("record", "dt (s)", "dt of the model (ms)", "duration (s)", "of the model (s)", "PGA (g), both",
-              "PGV of the model (cm/s)", "PGD of the model (mm)")  # fmt: skip
-    return table(header, rows)
+        times = f"{record.dt:g}", f"{1000.0 * model.dt:.4f}", f"{record.duration:.2f}", f"{model.duration:.2f}"
+        peaks = f"{model.pga_g:.4f}", f"{100.0 * model.pgv:.2f}", f"{1000.0 * model.pgd:.2f}"
+        rows.append((record.name.partition("__")[0], *times, *peaks))
+    heads = "record | dt (s) | dt of the model (ms) | duration (s) | of the model (s) | PGA (g), both"
+    return table(f"{heads} | PGV of the model (cm/s) | PGD of the model (mm)", rows, 1)
 
 
-def processing_table(shared: Path) -> str:
+def processing_table(record: sm.Record) -> str:
     """Return what filtering with and without pads and baselines does to one component."""
-    record = sm.read_record(next((shared / "records").glob(f"*/{FILTERED}.AT2")))
     drifting = record.replace(acceleration=record.acceleration + 0.002 * sm.STANDARD_GRAVITY)
     made = {
         "as it is": record,
@@ -175,52 +159,15 @@ def processing_table(shared: Path) -> str:
         "that, baseline of degree 1 fitted to the velocity": drifting.baseline_corrected(1),
         "that, mean removed": drifting.baseline_corrected(0, fit="acceleration"),
     }
-    rows = [
-        (
-            what,
-            str(one.samples),
-            f"{one.pga_g:.4f}",
-            f"{one.pgv:.3f}",
-            f"{one.pgd:.3f}",
-            f"{one.velocity[-1]:z.4f}",
-            f"{one.displacement[-1]:z.3f}",
-        )
-        for what, one in made.items()
-    ]
-    header = ("RSN6, 180", "samples", "PGA (g)", "PGV (m/s)", "PGD (m)", "end velocity (m/s)", "end displacement (m)")
-    return table(header, rows)
+    rows = []
+    for what, one in made.items():
+        ends = f"{one.velocity[-1]:z.4f}", f"{one.displacement[-1]:z.3f}"
+        rows.append((what, one.samples, f"{one.pga_g:.4f}", f"{one.pgv:.3f}", f"{one.pgd:.3f}", *ends))
+    heads = "RSN6, 180 | samples | PGA (g) | PGV (m/s) | PGD (m) | end velocity (m/s) | end displacement (m)"
+    return table(heads, rows, 1)
 
 
 def signed(value: float) -> str:
     """Return a difference with its sign; without one where it rounds to zero."""
     text = f"{value:+z.2f}"
     return "0.00" if text == "+0.00" else text
-
-
-def with_tables(page: str, tables: dict[str, str]) -> str:
-    """Return the page with each table between its markers."""
-    for key, text in tables.items():
-        page = PARTS["with_text"](page, key, text)
-    return page
-
-
-def page(shared: Path) -> str:
-    """Return the page with its tables made anew."""
-    pairs = sm.records.find_pairs(shared / "records")
-    return with_tables(
-        PAGE.read_text(encoding="utf-8"),
-        {
-            "measures": measures_table(shared),
-            "pairs": pairs_table(pairs),
-            "flatfile": flatfile_tables(listed_pairs(shared, pairs)),
-            "processing": processing_table(shared),
-            "similitude": similitude_table(shared),
-        },
-    )
-
-
-if __name__ == "__main__":
-    folder = os.environ.get("SEISMASS_SHARED")
-    if not folder:
-        sys.exit(__doc__)
-    PAGE.write_text(page(Path(folder)), encoding="utf-8")

@@ -1,38 +1,24 @@
-"""Writes docs/two_directions.md from the cases that benchmarks/two_directions.py solved.
-
-    tools/two_directions_page.py [--check]
-
-Every number of the page comes from benchmarks/results/two_directions.json; a test compares the page with it.
-"""
+"""Two directions: the cases that benchmarks/two_directions.py solved, kept in its results."""
 
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Callable, Sequence
-from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 from matplotlib.figure import Figure
 
 import seismass as sm
+from pages.parts import ROOT, Page, table
 from seismass.base.values import FloatArray
 from seismass.effective_mass.estimate import best_estimate, conservative_estimate
 from seismass.effective_mass.rules import by_period
 from seismass.effective_mass.two_directions import REDUCED_FRICTION
-from seismass.media.figure_file import save_figure
 from seismass.plots import FloorPlan, Footprint, floor_paths
 
-ROOT: Final = Path(__file__).parents[1]
-RESULTS: Final = ROOT / "benchmarks" / "results" / "two_directions.json"
-PAGE: Final = ROOT / "docs" / "two_directions.md"
-TEXT: Final = ROOT / "tools" / "pages" / "two_directions.md"
-TITLES: Final = {
-    "far_field": "18 recorded pairs, FEMA P-695 far field (the factor was chosen on these)",
-    "other": "7 recorded pairs of other stations",
-    "forty": "16 of the built-in synthetic pairs",
-}
+SUITES: Final = ("far_field", "other", "forty")
+"""In the order of the page; the factor was chosen on the first."""
 CODES: Final = {
     "none, 0": 0.0,
     "ASCE 7 storage, 0.25": 0.25,
@@ -45,21 +31,50 @@ CODES: Final = {
 Case = dict[str, Any]
 
 
+def fill(page: Page) -> None:
+    """Put in the tables and what is said of them."""
+    found = kept()
+    cases = found["cases"]
+    base = sliding(cases, "far_field")
+    slid = [case for case in base if case["slip_one"] > 1e-3]
+    one, two = numbers(base, "value_one"), numbers(base, "value_two")
+    of_suites = [own for suite in SUITES if (own := sliding(cases, suite))]
+    for of in (drift_table, slip_table, rule_table):
+        page.tables(*map(of, of_suites))
+    page.tables(code_table(base), factor_table(cases))
+    page.words(
+        "Peak drift in a direction, two over one: {} of {} cases.", spread(numbers(base, "drift_ratio")), len(base)
+    )
+    higher = int(np.sum(two > one + 0.005))
+    change = spread(two - one, "+.2f")
+    page.words("Effective fraction, two minus one: {}; higher in {} of {}.", change, higher, len(base))
+    for said, name in (
+        ("Peak slip in a direction, two over one: {}, {} times in sum;", "slip_ratio"),
+        ("over that in one direction: {}, {} times in sum.", "length_ratio"),
+    ):
+        page.words(said, spread(numbers(slid, name)), f"{in_sum(slid, name):.2f}")
+    failed, runs = (sum(case[name] for case in cases) for name in ("failed", "pairs"))
+    reached = f"All but {failed} of {failed + runs}" if failed else f"All {runs}"
+    page.words("\n\n{} runs in two directions reach their end.", reached)
+    said = "mu_k counts {} times: lambda = min(1, ({} eta_h)^p) safe: min(1, {} eta_h) "
+    page.words(said, *[f"{REDUCED_FRICTION:g}"] * 3)
+    said = "building of {} storeys with stated strengths in two directions under {} pairs ({} of them turned in plan), "
+    said += "with its three frictions, takes {} s of {} cores, {} s of processor"
+    timed = ("storeys", "pairs", "turned", "seconds", "cores", "processor_seconds")
+    page.words(said, *(f"{found['assess'][name]:.0f}" for name in timed))
+    page.figure("two_directions_paths", paths)
+
+
 def kept() -> dict[str, Any]:
     """Return what is stored."""
-    found: dict[str, Any] = json.loads(RESULTS.read_text(encoding="utf-8"))
+    file = ROOT / "benchmarks" / "results" / "two_directions.json"
+    found: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
     return found
 
 
 def sliding(cases: Sequence[Case], suite: str) -> list[Case]:
     """Return the cases of a suite in which goods slide in one direction."""
     return [case for case in cases if case["suite"] == suite and case["slides"]]
-
-
-def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return a table in Markdown."""
-    lines = ["| " + " | ".join(heads) + " |", "| " + " | ".join("---" for _ in heads) + " |"]
-    return "\n".join([*lines, *("| " + " | ".join(row) + " |" for row in rows)])
 
 
 def groups(cases: Sequence[Case]) -> list[tuple[str, list[Case]]]:
@@ -87,23 +102,14 @@ def drift_table(cases: Sequence[Case]) -> str:
     for name, own in groups(cases):
         one, two, larger = (numbers(own, f"value_{which}") for which in ("one", "two", "larger"))
         between = np.mean([[case["drift_ratios"][1], case["drift_ratios"][3]] for case in own], axis=0)
-        rows.append(
-            [
-                name,
-                str(len(own)),
-                spread(numbers(own, "drift_ratio")),
-                f"{between[0]:.2f} to {between[1]:.2f}",
-                f"{one.mean():.2f}",
-                f"{two.mean():.2f}",
-                spread(two - one, "+.2f"),
-                f"{larger.mean():.2f}",
-            ]
-        )
-    heads = ("cases", "number", "drift, two over one", "pairs, 16 to 84 %", "lambda, one", "two", "change")
-    return table((*heads, "two, larger of x and y"), rows)
+        drift = spread(numbers(own, "drift_ratio")), f"{between[0]:.2f} to {between[1]:.2f}"
+        shares = f"{one.mean():.2f}", f"{two.mean():.2f}", spread(two - one, "+.2f"), f"{larger.mean():.2f}"
+        rows.append([name, len(own), *drift, *shares])
+    heads = "cases | number | drift, two over one | pairs, 16 to 84 % | lambda, one | two | change"
+    return table(f"{heads} | two, larger of x and y", rows)
 
 
-def slip_rows(cases: Sequence[Case]) -> str:
+def slip_table(cases: Sequence[Case]) -> str:
     """Return slip of two directions over that of one."""
     rows = []
     for name, own in groups(cases):
@@ -112,18 +118,11 @@ def slip_rows(cases: Sequence[Case]) -> str:
             continue
         of_pairs = [case["slip_ratios"] for case in slid if case["slip_ratios"] is not None]
         between = np.mean([[each[1], each[3]] for each in of_pairs], axis=0)
-        rows.append(
-            [
-                name,
-                str(len(slid)),
-                spread(numbers(slid, "slip_ratio")),
-                f"{between[0]:.2f} to {between[1]:.2f}",
-                spread(numbers(slid, "length_ratio")),
-                f"{1e3 * numbers(slid, 'slip_one').mean():.0f} mm",
-            ]
-        )
-    heads = ("cases", "number", "slip in x or y, two over one", "pairs, 16 to 84 %", "length over one")
-    return table((*heads, "slip, one"), rows)
+        ratios = spread(numbers(slid, "slip_ratio")), f"{between[0]:.2f} to {between[1]:.2f}"
+        slip = f"{1e3 * numbers(slid, 'slip_one').mean():.0f} mm"
+        rows.append([name, len(slid), *ratios, spread(numbers(slid, "length_ratio")), slip])
+    heads = "cases | number | slip in x or y, two over one | pairs, 16 to 84 % | length over one | slip, one"
+    return table(heads, rows)
 
 
 def in_sum(cases: Sequence[Case], name: str) -> float:
@@ -147,7 +146,7 @@ def code_table(cases: Sequence[Case]) -> str:
             ratio = np.array([model_ratio(case, share, real) for case in cases])
             cells += [f"{np.exp(np.log(ratio).mean()):.2f}", f"{100.0 * np.mean(1.0 / ratio > 1.05):.0f} %"]
         rows.append(cells)
-    return table(("share attached", "model/real, one", "unsafe, one", "model/real, two", "unsafe, two"), rows)
+    return table("share attached | model/real, one | unsafe, one | model/real, two | unsafe, two", rows)
 
 
 RULES: Final[dict[str, Callable[[Case], float]]] = {
@@ -177,7 +176,7 @@ def rule_table(cases: Sequence[Case]) -> str:
         cells = [name, _judged(whole)]
         rows.append([*cells, *(_judged(row) for row in by_period(name, ratio, period))])
     classes = [f"T = {value:g} s" for value in sorted(set(period.tolist()))]
-    return table(("rule", "all", *classes), rows)
+    return table(["rule", "all", *classes], rows)
 
 
 def _judged(row: dict[str, Any]) -> str:
@@ -192,66 +191,12 @@ def bias_of_factor(cases: Sequence[Case], factor: float) -> float:
 
 def factor_table(cases: Sequence[Case]) -> str:
     """Return what other factors of friction would give."""
-    suites = [suite for suite in TITLES if sliding(cases, suite)]
+    suites = [suite for suite in SUITES if sliding(cases, suite)]
     rows = [
         [f"{factor:.2f}", *(f"{bias_of_factor(sliding(cases, suite), factor):.3f}" for suite in suites)]
         for factor in (0.7, 0.75, 0.8, 0.85, 0.9, 1.0)
     ]
-    return table(("factor of mu", *suites), rows)
-
-
-def failed_text(cases: Sequence[Case]) -> str:
-    """Return how many runs did not reach their end."""
-    failed, runs = (sum(case[name] for case in cases) for name in ("failed", "pairs"))
-    if not failed:
-        return f"All {runs} runs in two directions reach their end."
-    return (
-        f"{failed} of {failed + runs} runs in two directions do not reach their end; their pairs are left out, in one "
-        "direction too."
-    )
-
-
-def time_text(stored: dict[str, Any]) -> str:
-    """Return the time of an assessment under 42 pairs."""
-    found = stored.get("assess")
-    if found is None:
-        return "The time of 42 pairs was not measured."
-    return (
-        f"`assess` of a building of {found['storeys']} storeys with stated strengths in two directions under "
-        f"{found['pairs']} pairs ({found['turned']} of them turned in plan), with its three frictions, takes "
-        f"{found['seconds']:.0f} s of {found['cores']} cores, {found['processor_seconds']:.0f} s of processor time."
-    )
-
-
-def page(stored: dict[str, Any] | None = None) -> str:
-    """Return the page."""
-    found = kept() if stored is None else stored
-    cases = found["cases"]
-    base = sliding(cases, "far_field")
-    one, two = numbers(base, "value_one"), numbers(base, "value_two")
-    slid = [case for case in base if case["slip_one"] > 1e-3]
-    values = {
-        "DRIFT_RATIO": spread(numbers(base, "drift_ratio")),
-        "CHANGE": spread(two - one, "+.2f"),
-        "HIGHER": f"{int(np.sum(two > one + 0.005))} of {len(base)}",
-        "SLIP_RATIO": spread(numbers(slid, "slip_ratio")),
-        "LENGTH_RATIO": spread(numbers(slid, "length_ratio")),
-        "IN_SUM": f"{in_sum(slid, 'slip_ratio'):.2f}",
-        "LENGTH_IN_SUM": f"{in_sum(slid, 'length_ratio'):.2f}",
-        "CASES": str(len(base)),
-        "FAILED": failed_text(cases),
-        "TIME": time_text(found),
-        "CODES": code_table(base),
-        "FACTORS": factor_table(cases),
-        "FACTOR": f"{REDUCED_FRICTION:g}",
-        "DRIFTS": "\n\n".join(_of_suites(cases, drift_table)),
-        "SLIPS": "\n\n".join(_of_suites(cases, slip_rows)),
-        "RULES": "\n\n".join(_of_suites(cases, rule_table)),
-    }
-    text = TEXT.read_text(encoding="utf-8")
-    for name, value in values.items():
-        text = text.replace("{" + name + "}", value)
-    return text
+    return table(["factor of mu", *suites], rows)
 
 
 def paths() -> Figure:
@@ -268,15 +213,3 @@ def paths() -> Figure:
     }
     plan = FloorPlan((0.0, 0.0, 5.6, 3.4), standing, ((0.0, 1.05, 5.6, 2.1),))
     return floor_paths(response, floor=1, plan=plan)
-
-
-def _of_suites(cases: Sequence[Case], of: Callable[[Sequence[Case]], str]) -> list[str]:
-    return [f"{title}:\n\n{of(own)}" for suite, title in TITLES.items() if (own := sliding(cases, suite))]
-
-
-if __name__ == "__main__":
-    fresh = page()
-    if "--check" in sys.argv[1:]:
-        sys.exit(int(PAGE.read_text(encoding="utf-8") != fresh))
-    PAGE.write_text(fresh, encoding="utf-8")
-    save_figure(paths(), "png", ROOT / "docs" / "figures" / "two_directions_paths.png")

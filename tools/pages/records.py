@@ -1,24 +1,18 @@
-"""Write the table of docs/records.md that holds what is read against the headers' words and other readers' numbers.
-
-Usage: tools/records_page.py SHARED, a folder with `record_formats`. A test says whether the page is current.
-"""
+"""What is read of recordings, against the headers' words and other readers' numbers, and of kinds of files."""
 
 from __future__ import annotations
 
 import csv
 import re
 import runpy
-import sys
 from pathlib import Path
 
 import numpy as np
 
+from pages.parts import ROOT, Page, table
 from seismass.base.errors import RecordFormatError
 from seismass.records import Record, read_records
 
-ROOT = Path(__file__).parents[1]
-PARTS = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
-PAGE = ROOT / "docs" / "records.md"
 OTHERS = ROOT / "tests" / "data" / "other_readers.csv"
 ARGUMENTS: dict[str, dict[str, object]] = {
     "4_HECTOR000.txt": {"unit": "g"},
@@ -37,6 +31,13 @@ CLAIMS: tuple[str, ...] = (
     r"\d+ acceleration pts, approx\s+\d+ secs",
 )
 """Where headers say the number of points, the step and the peak; read apart from the readers."""
+
+
+def fill(page: Page) -> None:
+    """Put in the table of recordings, where they are at hand, and that of kinds of files, which are made."""
+    page.marked("kinds", runpy.run_path(str(ROOT / "tools" / "kinds_of_files.py"))["table"]())
+    if page.shared:
+        page.marked("readings", readings(page.shared / "record_formats"))
 
 
 def claims(text: str) -> list[str]:
@@ -63,42 +64,24 @@ def others() -> dict[tuple[str, int], dict[str, str]]:
         return {(row["file"], int(row["channel"])): row for row in csv.DictReader(file)}
 
 
-def table(shared: Path) -> str:
-    """Return the table of Markdown."""
-    folder = shared / "record_formats"
-    known = others()
-    lines = [
-        "| file | points | step (s) | peak (m/s2) | at (s) | first (m/s2) | the header says | another reader |",
-        "| --- | ---: | ---: | ---: | ---: | ---: | --- | --- |",
-    ]
+def readings(folder: Path) -> str:
+    """Return the table of recordings."""
+    known, rows = others(), []
     for file in sorted(path for path in folder.rglob("*") if path.is_file()):
         name = file.relative_to(folder).as_posix()
         said = claims(file.read_bytes().decode("latin-1"))
         try:
             records = read_records(file, **ARGUMENTS.get(file.name, {}))
         except RecordFormatError as error:
-            lines.append(f"| `{name}` | refused: {error} | | | | | {said[0]} | |")
+            rows.append([f"`{name}`", f"refused: {error}", *[""] * 4, said[0], ""])
             continue
         for number, record in enumerate(records, start=1):
             points, dt, peak, at, first = numbers(record)
             channel = f" channel {number}" if len(records) > 1 else ""
             row = known.get((name, number))
             same = f"{row['reader']}: {row['peak']} at {row['time']}" if row else ""
-            lines.append(
-                f"| `{name}`{channel} | {points} | {dt:g} | {peak:.7g} | {at:.6g} | {first:.4g} "
-                f"| {said[min(number, len(said)) - 1]} | {same} |"
-            )
-    return "\n".join(lines)
-
-
-def page(shared: Path) -> str:
-    """Return the page with its table as it is now."""
-    text = PAGE.read_text(encoding="utf-8")
-    changed: str = PARTS["with_text"](text, "readings", table(shared))
-    return changed
-
-
-if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    PAGE.write_text(page(Path(sys.argv[1])), encoding="utf-8")
+            measured = (points, f"{dt:g}", f"{peak:.7g}", f"{at:.6g}", f"{first:.4g}")
+            rows.append([f"`{name}`{channel}", *measured, said[min(number, len(said)) - 1], same])
+    heads = "file | points | step (s) | peak (m/s2) | at (s) | first (m/s2) | the header says | another reader"
+    head, _, *lines = table(heads, rows).splitlines()
+    return "\n".join([head, f"| --- |{' ---: |' * 5} --- | --- |", *lines]).replace("  |", " |")

@@ -1,30 +1,37 @@
-"""Writes the numbers and figures of docs/intensity.md.
-
-Usage: tools/intensity_page.py [SHARED], a folder with `records`, without which the table of recordings stays as it is.
-"""
+"""Medians, dispersions and probabilities by measure, method and rule."""
 
 from __future__ import annotations
 
-import runpy
-import sys
-from collections.abc import Mapping
-from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import polars as pl
 
 import seismass as sm
+from pages.effective_mass import far_field_components
+from pages.parts import Page
 from seismass.fragility import FragilityAnalysis, LimitState, cloud_analysis, incremental_dynamic_analysis
-from seismass.media.figure_file import save_figure
 
-ROOT: Final = Path(__file__).parents[1]
-PARTS: Final = runpy.run_path(str(ROOT / "tools" / "page_parts.py"))
-PAGE: Final = ROOT / "docs" / "intensity.md"
 LIMIT: Final = LimitState("drift_ratio", 0.02)
 RULES: Final = {"none": 0.0, "ASCE 7 storage": 0.25, "NBC, NZS 1170.5": 0.6, "Eurocode 8": 0.8, "all": 1.0}
 """Shares of the live load attached by rules."""
 
-example, with_block = PARTS["example"], PARTS["with_block"]
+
+def fill(page: Page) -> dict[str, list[str]]:
+    """Put in the blocks of numbers, and return them by key."""
+    names = page.example()
+    scene, suite = names["scene"], names["suite"]
+    blocks = {
+        "answer": names["answer"].text.splitlines(),
+        "choices": choices(scene, suite),
+        "rules": rules(scene, suite),
+    }
+    if page.shared:
+        blocks["far_field"] = rules(scene, far_field_components(page.records))
+    for key, lines in blocks.items():
+        page.block(key, lines)
+    page.figure("fragility", names.get, "figure")
+    page.figure("ida_models", names["answer"].plot, "demand_drift_ratio")
+    return blocks
 
 
 def choices(scene: sm.Scene, suite: sm.Suite) -> list[str]:
@@ -77,38 +84,3 @@ def interval(value: float | None, low: float | None, high: float | None, digits:
     if value is None or low is None or high is None:
         return "not known"
     return f"{value:{digits}} [{low:{digits}}, {high:{digits}}]"
-
-
-def blocks(names: Mapping[str, Any]) -> dict[str, list[str]]:
-    """Return the blocks of numbers that need no recordings, by key."""
-    scene, suite = names["scene"], names["suite"]
-    return {
-        "answer": names["answer"].text.splitlines(),
-        "choices": choices(scene, suite),
-        "rules": rules(scene, suite),
-    }
-
-
-def far_field(names: Mapping[str, Any], shared: Path) -> list[str]:
-    """Return the table of rules under 42 recorded components."""
-    suite = runpy.run_path(str(ROOT / "tools" / "effective_mass_page.py"))["far_field_components"]
-    return rules(names["scene"], suite(shared))
-
-
-def main(shared: Path | None) -> None:
-    """Write the page and its figures."""
-    page = PAGE.read_text(encoding="utf-8")
-    names = example(page)
-    for key, lines in blocks(names).items():
-        page = with_block(page, key, lines)
-    if shared is not None:
-        page = with_block(page, "far_field", far_field(names, shared))
-    PAGE.write_text(page, encoding="utf-8")
-    save_figure(names["figure"], "png", ROOT / "docs" / "figures" / "fragility.png")
-    save_figure(names["answer"].plot("demand_drift_ratio"), "png", ROOT / "docs" / "figures" / "ida_models.png")
-
-
-if __name__ == "__main__":
-    if len(sys.argv) > 2:
-        sys.exit(__doc__)
-    main(Path(sys.argv[1]) if len(sys.argv) == 2 else None)

@@ -1,15 +1,8 @@
-"""Writes docs/synthetic.md: the built-in synthetic motions, their measures and spectra, and two figures.
-
-Usage: python tools/synthetic_page.py
-"""
+"""The built-in synthetic motions, their measures and spectra."""
 
 from __future__ import annotations
 
 import re
-import sys
-import textwrap
-from collections.abc import Iterable
-from pathlib import Path
 from typing import Final
 
 import matplotlib as mpl
@@ -17,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import seismass as sm
-from seismass.media.figure_file import save_figure
+from pages.parts import Page, table
 from seismass.media.roles import BLUE, GREY, INK, VERMILION
 from seismass.media.style import STYLE
 from seismass.records.synthetic.files import ALL_RECIPES
@@ -26,17 +19,22 @@ from seismass.records.synthetic.site import SITE_RECIPES
 from seismass.study import run_study
 from seismass.study.findings import findings
 
-ROOT: Final = Path(__file__).parents[1]
-PAGE: Final = ROOT / "docs" / "synthetic.md"
 COMPARED: Final = np.geomspace(0.2, 1.5, 100)
 SHOWN: Final = (0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0)
+SHARES: Final = ("median_underestimation", "p16_underestimation", "p84_underestimation", "leave_one_out")
 
 
-def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    """Return a table in Markdown."""
-    titles = list(head)
-    lines = [titles, ["---"] * len(titles), *(list(row) for row in rows)]
-    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
+def fill(page: Page) -> None:
+    """Put in the tables of motions, of spectra, of the study and of parameters."""
+    target, suite = sm.TargetSpectrum.asce7(), sm.builtin_suite()
+    of_target, scatter = target_table(target)
+    of_study, moved = study_table(target)
+    page.tables(motions_table(suite, target), of_target, of_study, parameters_table())
+    said = "is {} to {} of the target, with a scatter of {} in ln Sa on average"
+    page.words(f"0.2 to 1.5 s the mean of the seven {said}; the mean of the eleven {said}.", *scatter)
+    page.words("its largest underestimation of drift moves by {} percentage points", moved)
+    page.figure("synthetic_histories", histories_figure, suite)
+    page.figure("synthetic_spectra", spectra_figure, suite, target)
 
 
 def motions_table(suite: sm.Suite, target: sm.TargetSpectrum) -> str:
@@ -50,84 +48,46 @@ def motions_table(suite: sm.Suite, target: sm.TargetSpectrum) -> str:
             made = None if recipe.parameters.pulse is None else recipe.parameters.pulse.period
         found = sm.pulses.baker2007(record)
         judged = "ambiguous" if found.ambiguous else f"{found.period:.2f} s" if found.is_pulse else "none"
-        rows.append(
-            (
-                f"{recipe.number}",
-                f"{recipe.seed}",
-                f"{record.dt:g}",
-                f"{record.duration:.0f}",
-                f"{record.pga_g:.3f}",
-                f"{record.pgv:.2f}",
-                f"{record.pgd:.2f}",
-                f"{record.arias:.2f}",
-                f"{record.d5_95:.1f}",
-                "none" if made is None else f"{made:g} s",
-                judged,
-                f"{np.exp(np.log(ratio).mean()):.2f}",
-                f"{ratio.min():.2f} to {ratio.max():.2f}",
-            )
-        )
-    head = "motion|seed|dt (s)|length (s)|PGA (g)|PGV (m/s)|PGD (m)|Arias (m/s)|D5-95 (s)|pulse made|found"
-    return table([*head.split("|"), "Sa over target", "range"], rows)
+        measures = f"{record.pga_g:.3f}", *(f"{one:.2f}" for one in (record.pgv, record.pgd, record.arias))
+        of = recipe.number, recipe.seed, f"{record.dt:g}", f"{record.duration:.0f}", *measures, f"{record.d5_95:.1f}"
+        spread = f"{np.exp(np.log(ratio).mean()):.2f}", f"{ratio.min():.2f} to {ratio.max():.2f}"
+        rows.append((*of, "none" if made is None else f"{made:g} s", judged, *spread))
+    heads = "motion | seed | dt (s) | length (s) | PGA (g) | PGV (m/s) | PGD (m) | Arias (m/s) | D5-95 (s)"
+    return table(f"{heads} | pulse made | found | Sa over target | range", rows)
 
 
-def target_table(target: sm.TargetSpectrum) -> tuple[str, str]:
-    """Return the mean over the target and the scatter of both suites by period, and the same in words."""
+def target_table(target: sm.TargetSpectrum) -> tuple[str, tuple[str, ...]]:
+    """Return mean over target and scatter of both suites by period; range of the mean and mean scatter of each."""
     periods = np.array(SHOWN)
-    columns, words = [], []
-    for name in ("seven", "eleven"):
-        suite = sm.builtin_suite(name)
-        spectra = sm.response_spectrum(suite, periods)
+    columns, words = [periods], []
+    for suite in map(sm.builtin_suite, ("seven", "eleven")):
+        spectra, compared = (sm.response_spectrum(suite, at) for at in (periods, COMPARED))
         columns += [spectra.mean(axis=0) / target(periods), np.log(spectra).std(axis=0, ddof=1)]
-        range_of = sm.response_spectrum(suite, COMPARED)
-        mean = range_of.mean(axis=0) / target(COMPARED)
-        scatter = float(np.log(range_of).std(axis=0, ddof=1).mean())
-        words.append(
-            f"the mean of the {name} is {mean.min():.2f} to {mean.max():.2f} of the target, with a scatter of "
-            f"{scatter:.2f} in ln Sa on average"
-        )
-    rows = [[f"{period:g}", *(f"{column[i]:.2f}" for column in columns)] for i, period in enumerate(periods)]
-    head = ("T (s)", "seven: mean over target", "scatter, ln Sa", "eleven: mean over target", "scatter, ln Sa")
-    return table(head, rows), f"From 0.2 to 1.5 s {words[0]}; {words[1]}."
+        mean = compared.mean(axis=0) / target(COMPARED)
+        words += [mean.min(), mean.max(), np.log(compared).std(axis=0, ddof=1).mean()]
+    rows = ([f"{row[0]:g}", *(f"{value:.2f}" for value in row[1:])] for row in zip(*columns, strict=True))
+    heads = "T (s) | seven: mean over target | scatter, ln Sa | eleven: mean over target | scatter, ln Sa"
+    return table(heads, rows), tuple(f"{value:.2f}" for value in words)
 
 
 def study_table(target: sm.TargetSpectrum) -> tuple[str, str]:
-    """Return what the study says with the seven and with the eleven, and what it shows in words."""
+    """Return what the study says with the seven and with the eleven, and by how much its largest numbers move."""
     rows, largest = [], []
     for name in ("seven", "eleven"):
         result = run_study(sm.builtin_suite(name), target)
         for entry in findings(result.summary, result.fractions, result.metadata["code"]["name"]):
             found = entry["largest"]
-            shares = [found[f"{key}_percent"] for key in _SHARES]
-            rows.append(
-                (
-                    entry["occupancy"],
-                    name,
-                    f"{found['underestimation_percent']:+.0f} %",
-                    f"storey {found['storey']} of {found['storeys']}, R = {found['R']:g}, alpha = {found['alpha']:g}",
-                    f"{shares[0]:+.0f} %",
-                    f"{shares[1]:+.0f} to {shares[2]:+.0f} %",
-                    f"{shares[3]:+.0f} % ({found['leave_one_out_record']})",
-                )
-            )
+            median, low, high, without = (found[f"{key}_percent"] for key in SHARES)
+            where = f"storey {found['storey']} of {found['storeys']}, R = {found['R']:g}, alpha = {found['alpha']:g}"
+            shares = f"{median:+.0f} %", f"{low:+.0f} to {high:+.0f} %"
+            most = f"{found['underestimation_percent']:+.0f} %"
+            left = f"{without:+.0f} % ({found['leave_one_out_record']})"
+            rows.append((entry["occupancy"], name, most, where, *shares, left))
             largest.append(found["underestimation_percent"])
     rows.sort(key=lambda row: row[0], reverse=True)
     moved = max(abs(largest[2] - largest[0]), abs(largest[3] - largest[1]))
-    head = ("occupancy", "suite", "largest underestimation", "where", "median", "16 to 84 %", "without one motion")
-    words = (
-        "What eleven in place of seven do to the study (`seismass study --suite eleven`): its largest underestimation "
-        f"of drift moves by {moved:.0f} percentage points at most. Each is the largest of 108 storeys, and the motion "
-        "by motion scatter beside it is wider than that."
-    )
-    return table(head, rows), words
-
-
-_SHARES: Final = (
-    "median_underestimation",
-    "p16_underestimation",
-    "p84_underestimation",
-    "leave_one_out",
-)
+    heads = "occupancy | suite | largest underestimation | where | median | 16 to 84 % | without one motion"
+    return table(heads, rows), f"{moved:.0f}"
 
 
 def parameters_table() -> str:
@@ -137,23 +97,9 @@ def parameters_table() -> str:
         chosen, pulse = recipe.parameters, recipe.parameters.pulse
         numbers = (chosen.arias, chosen.d5_95, chosen.t_mid, chosen.frequency, chosen.frequency_rate, chosen.damping)
         said = "none" if pulse is None else f"{pulse.period:g} s, {pulse.velocity:g} m/s at {pulse.centre:g} s"
-        rows.append(
-            [f"{recipe.number}", f"{recipe.seed}", *(f"{value:g}" for value in (*numbers, chosen.corner)), said]
-        )
-    head = "motion|seed|I_a (m/s)|D5-95 (s)|t_mid (s)|frequency (Hz)|rate (Hz/s)|damping|corner (Hz)|pulse"
-    return table(head.split("|"), rows)
-
-
-def page() -> str:
-    """Return the page."""
-    target, suite = sm.TargetSpectrum.asce7(), sm.builtin_suite()
-    values = {"motions": motions_table(suite, target), "parameters": parameters_table()}
-    values["target"], values["target_words"] = target_table(target)
-    values["study"], values["study_words"] = study_table(target)
-    text = (ROOT / "tools" / "pages" / "synthetic.md").read_text(encoding="utf-8")
-    for name in ("target_words", "study_words"):
-        values[name] = textwrap.fill(values[name], 118, break_on_hyphens=False)
-    return re.sub(r"\{(\w+)\}", lambda match: values[match[1]], text)
+        rows.append([recipe.number, recipe.seed, *(f"{value:g}" for value in (*numbers, chosen.corner)), said])
+    heads = "motion | seed | I_a (m/s) | D5-95 (s) | t_mid (s) | frequency (Hz) | rate (Hz/s) | damping"
+    return table(f"{heads} | corner (Hz) | pulse", rows)
 
 
 def histories_figure(suite: sm.Suite) -> Figure:
@@ -210,17 +156,3 @@ def spectra_figure(suite: sm.Suite, target: sm.TargetSpectrum) -> Figure:
         axes.set_ylabel("Sa (g), 5 % damping, unscaled")
         axes.legend(frameon=False, loc="upper right")
     return figure
-
-
-def main() -> int:
-    """Write page and figures."""
-    PAGE.write_text(page(), encoding="utf-8")
-    suite = sm.builtin_suite()
-    folder = ROOT / "docs" / "figures"
-    save_figure(histories_figure(suite), "png", folder / "synthetic_histories.png")
-    save_figure(spectra_figure(suite, sm.TargetSpectrum.asce7()), "png", folder / "synthetic_spectra.png")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
