@@ -74,8 +74,26 @@ fn a_damped_stop_parts_before_it_would_pull() {
     close(leave[0], 0.25 + t, 1e-13, "leave");
     close(response.residual_slip[0], 0.1 + e + back * (2.0 - 0.25 - t), 1e-12, "slip at the end");
     close(response.energy.unwrap().contact, 0.5 * m * (v * v - back * back), 1e-12, "energy of the contact");
-    // The force jumps to c v at the touch; its largest value is later, where c e'' + k e' = 0.
-    assert!(response.peaks.contact_force[0].value > c * v);
+    // The force jumps to c v at the touch; its largest value is later, where c e'' + k e' = 0: with e'' = -2 a e' - w^2 e
+    // there is e'/e = c w^2 / (k - 2 a c), which is wd / tan(wd t) - a.
+    let t = (wd / (a + c * w2 / (k - 2.0 * a * c))).atan() / wd;
+    let (sine, cosine) = (wd * t).sin_cos();
+    let force = v / wd * (-a * t).exp() * (k * sine + c * (wd * cosine - a * sine));
+    close(response.peaks.contact_force[0].value, force, 1e-13, "largest force");
+    close(response.peaks.contact_force[0].time, 0.25 + t, 1e-7, "time of a flat top");
+}
+
+/// With c^2 > k m the force c v of the touch is the largest: it falls by k v - c^2 v/m from there on.
+#[test]
+fn a_strong_damper_pushes_hardest_at_the_touch() {
+    let (v, m, k) = (0.4_f64, 3.0_f64, 1200.0_f64);
+    for (c, towards) in [(61.0, 1.0), (150.0, 1.0), (150.0, -1.0)] {
+        let stops = Stops { clearance: [0.1, 0.1], stiffness: k, damping: c };
+        let peaks = solve(&thrown(towards * v, m, stops), &still(1.0)).peaks;
+        close(peaks.contact_force[0].value, c * v, 1e-13, "largest force");
+        close(peaks.contact_force[0].time, 0.25, 1e-13, "its time");
+        close(peaks.contact_velocity[0].value, v, 1e-13, "velocity at contact");
+    }
 }
 
 /// A block held by friction against its stop keeps k e: it is at rest where the spring force is below mu m g.

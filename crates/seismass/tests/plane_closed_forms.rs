@@ -186,3 +186,28 @@ fn stops_of_both_directions_by_themselves() {
     assert!(touched > 8);
     assert_eq!(plane.statistics.events.of(EventKind::TouchStop), touched);
 }
+
+/// Without friction the slip is s = v t - a t^2/2. Its length turns where s v = 0 with the velocity v - a t: at the roots of
+/// |v|^2 - 3/2 (v a) t + |a|^2 t^2/2, of which the first is a peak, wherever samples lie. Between v and a are 10 degrees.
+#[test]
+fn the_length_of_a_slip_peaks_inside_a_step() {
+    let (speed, push) = (0.83, 1.9);
+    for heading in 0..24 {
+        let heading = 0.3 + 0.25 * f64::from(heading);
+        let of = |size: f64, angle: f64| [size * angle.cos(), size * angle.sin()];
+        let (v, a) = (of(speed, heading), of(push, heading + 10_f64.to_radians()));
+        let along = v[0] * a[0] + v[1] * a[1];
+        let root = (2.25 * along * along - 2.0 * (speed * push).powi(2)).sqrt();
+        let time = (1.5 * along - root) / (push * push);
+        let slip = |axis: usize| v[axis] * time - 0.5 * a[axis] * time * time;
+        let scene = on_ground(|axis| Block { velocity: Some(v[axis]), ..Block::new(0, 3.1, 0.0) }.into());
+        // The second root is at 0.83 s.
+        for samples in [2, 4, 11] {
+            let peaks = solve(&scene, &constant(a, samples, 0.6 / (samples - 1) as f64)).peaks;
+            let found = peaks.vector.slip[0];
+            assert!((found.value - slip(0).hypot(slip(1))).abs() < ROUNDING, "{heading}: {found:?}");
+            // A flat top is known to the root of rounding.
+            assert!((found.time - time).abs() < 1e-7, "{heading}: {found:?} for {time}");
+        }
+    }
+}

@@ -116,6 +116,22 @@ fn unloading_stiffness_falls_with_the_largest_drift() {
     let law = PeakOriented { unloading_exponent: 0.5, ..PeakOriented::default() };
     let storey = storey(0.0, SpringLaw::PeakOriented(law));
     forces(&storey, &[0.9, 0.63, 0.36, -0.1], &[18.0, 9.0, 0.0, -10.0]);
+    // From a little beyond the yield drift on: the force 10 + 10 (d - 0.1) is gone at d - F/k_u, if that is positive.
+    for exponent in [0.2, 0.37, 0.5, 0.8] {
+        for step in 1..60 {
+            let drift = 0.1 * 1.04_f64.powi(step);
+            let law = PeakOriented { unloading_exponent: exponent, ..PeakOriented::default() };
+            let force = 9.0 + 10.0 * drift;
+            let stiffness = (100.0 * (0.1 / drift).powf(exponent)).max(force / drift);
+            let half = drift - 0.5 * force / stiffness;
+            let drifts = [drift, half, drift - force / stiffness, -0.1];
+            forces(
+                &Storey { law: SpringLaw::PeakOriented(law), ..storey.clone() },
+                &drifts,
+                &[force, 0.5 * force, 0.0, -10.0],
+            );
+        }
+    }
 }
 
 /// Unloading is not softer than the line from the origin: from (0.4, 37) with 92.5 N/m, where Takeda's is 50, to the origin,
