@@ -81,7 +81,6 @@ impl SlideSeries {
             self.length[k] = dot(self.direction[0], r);
             return;
         }
-        let mut squares = dot(self.relative[0], r);
         let product = |i: usize, j: usize| dot(self.relative[i], self.relative[j]) - self.length[i] * self.length[j];
         let mut squares = dot(self.relative[0], r) + (1..k.div_ceil(2)).map(|i| product(i, k - i)).sum::<f64>();
         if k % 2 == 0 {
