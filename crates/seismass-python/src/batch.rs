@@ -321,119 +321,47 @@ fn column<T: Copy>(values: &[T]) -> Output<T> {
     Output::new(values.iter().copied())
 }
 
-#[pymethods]
-impl Batch {
+getters! { Batch
     /// Status of each run, as index of `status_names`.
-    #[getter]
-    fn status(&self) -> Output<u8> {
-        column(&self.status)
-    }
-
+    status(self) -> Output<u8> = column(&self.status);
+    /// Runs that failed: index and reason.
+    failures(self) -> Vec<(usize, String)> = self.failures.clone();
+    /// Time reached by each run (s).
+    end_time(self) -> Output<f64> = column(&self.end_time);
+    /// Storey that collapsed in each run, counted from 1; 0: none.
+    collapsed_storey(self) -> Output<u32> = column(&self.collapsed_storey);
+    /// Number of storeys of each run.
+    storeys(self) -> Output<u32> = column(&self.storeys);
+    /// Number of blocks of each run.
+    blocks(self) -> Output<u32> = column(&self.blocks);
+    /// Peak drift (m), flat over runs and storeys.
+    peak_drift(self) -> Output<f64> = values(&self.peak_drift);
+    /// Time of the peak drift (s), flat over runs and storeys.
+    peak_drift_time(self) -> Output<f64> = times(&self.peak_drift);
+    /// Drift at the end (m), flat over runs and storeys.
+    residual_drift(self) -> Output<f64> = column(&self.residual_drift);
+    /// Peak absolute floor acceleration (m/s2), flat over runs and floors.
+    peak_floor_acceleration(self) -> Output<f64> = column(&self.peak_floor_acceleration);
+    /// Peak storey shear (N), flat over runs and storeys.
+    peak_storey_shear(self) -> Output<f64> = column(&self.peak_storey_shear);
+    /// Peak slip (m), flat over runs and blocks.
+    peak_slip(self) -> Output<f64> = values(&self.peak_slip);
+    /// Time of the peak slip (s), flat over runs and blocks.
+    peak_slip_time(self) -> Output<f64> = times(&self.peak_slip);
+    /// Slip at the end (m), flat over runs and blocks.
+    residual_slip(self) -> Output<f64> = column(&self.residual_slip);
+    /// Path slipped (m), flat over runs and blocks.
+    slip_path(self) -> Output<f64> = column(&self.slip_path);
+    /// Number of events of each run.
+    events(self) -> Output<u32> = column(&self.events);
+    /// Number of yields of each run.
+    yields(self) -> Output<u32> = column(&self.yields);
+    /// Number of breakaways of each run.
+    slips(self) -> Output<u32> = column(&self.slips);
+    ;
     /// Names of the statuses.
     #[staticmethod]
     fn status_names() -> Vec<&'static str> {
         STATUS_NAMES.to_vec()
-    }
-
-    /// Runs that failed: index and reason.
-    #[getter]
-    fn failures(&self) -> Vec<(usize, String)> {
-        self.failures.clone()
-    }
-
-    /// Time reached by each run (s).
-    #[getter]
-    fn end_time(&self) -> Output<f64> {
-        column(&self.end_time)
-    }
-
-    /// Storey that collapsed in each run, counted from 1; 0: none.
-    #[getter]
-    fn collapsed_storey(&self) -> Output<u32> {
-        column(&self.collapsed_storey)
-    }
-
-    /// Number of storeys of each run.
-    #[getter]
-    fn storeys(&self) -> Output<u32> {
-        column(&self.storeys)
-    }
-
-    /// Number of blocks of each run.
-    #[getter]
-    fn blocks(&self) -> Output<u32> {
-        column(&self.blocks)
-    }
-
-    /// Peak drift (m), flat over runs and storeys.
-    #[getter]
-    fn peak_drift(&self) -> Output<f64> {
-        values(&self.peak_drift)
-    }
-
-    /// Time of the peak drift (s), flat over runs and storeys.
-    #[getter]
-    fn peak_drift_time(&self) -> Output<f64> {
-        times(&self.peak_drift)
-    }
-
-    /// Drift at the end (m), flat over runs and storeys.
-    #[getter]
-    fn residual_drift(&self) -> Output<f64> {
-        column(&self.residual_drift)
-    }
-
-    /// Peak absolute floor acceleration (m/s2), flat over runs and floors.
-    #[getter]
-    fn peak_floor_acceleration(&self) -> Output<f64> {
-        column(&self.peak_floor_acceleration)
-    }
-
-    /// Peak storey shear (N), flat over runs and storeys.
-    #[getter]
-    fn peak_storey_shear(&self) -> Output<f64> {
-        column(&self.peak_storey_shear)
-    }
-
-    /// Peak slip (m), flat over runs and blocks.
-    #[getter]
-    fn peak_slip(&self) -> Output<f64> {
-        values(&self.peak_slip)
-    }
-
-    /// Time of the peak slip (s), flat over runs and blocks.
-    #[getter]
-    fn peak_slip_time(&self) -> Output<f64> {
-        times(&self.peak_slip)
-    }
-
-    /// Slip at the end (m), flat over runs and blocks.
-    #[getter]
-    fn residual_slip(&self) -> Output<f64> {
-        column(&self.residual_slip)
-    }
-
-    /// Path slipped (m), flat over runs and blocks.
-    #[getter]
-    fn slip_path(&self) -> Output<f64> {
-        column(&self.slip_path)
-    }
-
-    /// Number of events of each run.
-    #[getter]
-    fn events(&self) -> Output<u32> {
-        column(&self.events)
-    }
-
-    /// Number of yields of each run.
-    #[getter]
-    fn yields(&self) -> Output<u32> {
-        column(&self.yields)
-    }
-
-    /// Number of breakaways of each run.
-    #[getter]
-    fn slips(&self) -> Output<u32> {
-        column(&self.slips)
     }
 }

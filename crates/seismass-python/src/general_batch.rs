@@ -165,77 +165,29 @@ fn column(values: &[f64]) -> Output<f64> {
     Output::new(values.iter().copied())
 }
 
-#[pymethods]
-impl RackColumns {
+getters! { RackColumns
     /// Number of rack levels of each run.
-    #[getter]
-    fn levels(&self) -> Output<u32> {
-        Output::new(self.count.iter().copied())
-    }
-
+    levels(self) -> Output<u32> = Output::new(self.count.iter().copied());
     /// Peak base shear, the share of an elastic matrix included (N), of each run; NaN without a building.
-    #[getter]
-    fn peak_base_shear(&self) -> Output<f64> {
-        column(&self.base_shear)
-    }
-
+    peak_base_shear(self) -> Output<f64> = column(&self.base_shear);
     /// Peak drift of rack levels (m), flat over runs and levels.
-    #[getter]
-    fn peak_rack_drift(&self) -> Output<f64> {
-        column(&self.levels[0])
-    }
-
+    peak_rack_drift(self) -> Output<f64> = column(&self.levels[0]);
     /// Peak absolute acceleration of rack levels (m/s2), flat over runs and levels.
-    #[getter]
-    fn peak_rack_acceleration(&self) -> Output<f64> {
-        column(&self.levels[1])
-    }
-
+    peak_rack_acceleration(self) -> Output<f64> = column(&self.levels[1]);
     /// Peak spring force of rack levels (N), flat over runs and levels.
-    #[getter]
-    fn peak_rack_shear(&self) -> Output<f64> {
-        column(&self.levels[2])
-    }
-
+    peak_rack_shear(self) -> Output<f64> = column(&self.levels[2]);
     /// Drift of rack levels at the end (m), flat over runs and levels.
-    #[getter]
-    fn residual_rack_drift(&self) -> Output<f64> {
-        column(&self.levels[3])
-    }
-
+    residual_rack_drift(self) -> Output<f64> = column(&self.levels[3]);
     /// Peak force of blocks on their stops (N), flat over runs and blocks.
-    #[getter]
-    fn peak_contact_force(&self) -> Output<f64> {
-        column(&self.contact[0])
-    }
-
+    peak_contact_force(self) -> Output<f64> = column(&self.contact[0]);
     /// Peak relative velocity at which blocks come to their stops (m/s), flat over runs and blocks.
-    #[getter]
-    fn peak_contact_velocity(&self) -> Output<f64> {
-        column(&self.contact[1])
-    }
-
+    peak_contact_velocity(self) -> Output<f64> = column(&self.contact[1]);
     /// Peak slip of the sliding base (m) of each run; NaN without one.
-    #[getter]
-    fn peak_base_slip(&self) -> Output<f64> {
-        column(&self.base[0])
-    }
-
+    peak_base_slip(self) -> Output<f64> = column(&self.base[0]);
     /// Peak absolute acceleration of the slab of the sliding base (m/s2) of each run; NaN without one.
-    #[getter]
-    fn peak_base_acceleration(&self) -> Output<f64> {
-        column(&self.base[1])
-    }
-
+    peak_base_acceleration(self) -> Output<f64> = column(&self.base[1]);
     /// Slip of the sliding base at the end (m) of each run; NaN without one.
-    #[getter]
-    fn residual_base_slip(&self) -> Output<f64> {
-        column(&self.base[2])
-    }
-
+    residual_base_slip(self) -> Output<f64> = column(&self.base[2]);
     /// Path slipped by the sliding base (m) of each run; NaN without one.
-    #[getter]
-    fn base_slip_path(&self) -> Output<f64> {
-        column(&self.base[3])
-    }
+    base_slip_path(self) -> Output<f64> = column(&self.base[3]);
 }

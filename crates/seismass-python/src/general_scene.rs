@@ -16,8 +16,18 @@ use crate::springs::{self, SpringPath};
 #[pyclass(frozen, module = "seismass._kernel")]
 pub(crate) struct GeneralBuilding(Arc<seismass::GeneralBuilding>);
 
-#[pymethods]
-impl GeneralBuilding {
+getters! { GeneralBuilding
+    /// Natural periods of the bare building without P-Delta (s), longest first.
+    periods(self, py) -> PyResult<Output<f64>> = {
+        let building = Arc::clone(&self.0);
+        find_frequencies(py, self.0.mass().len(), move || Ok(building.periods())).map(Output::new)
+    };
+    /// Damping matrix C in floor coordinates (N s/m).
+    damping_matrix(self) -> Output<f64> = {
+        let matrix = self.0.damping_matrix();
+        Output::shaped(&[matrix.nrows(), matrix.ncols()], matrix.transpose().as_slice().to_vec())
+    };
+    ;
     /// As `Building`, with an elastic matrix over the floors (N/m); storeys may have a spring of stiffness 0.
     #[new]
     #[pyo3(signature = (mass, springs, *, stiffness_matrix, backbones=None, hysteresis=None, damping_ratio=None, rayleigh_modes=None,
@@ -55,20 +65,6 @@ impl GeneralBuilding {
             None => Err(refuse("storey", "one of those of the building", &storey.to_string())),
         };
         path.map_err(|error| from_kernel(py, &error))
-    }
-
-    /// Natural periods of the bare building without P-Delta (s), longest first.
-    #[getter]
-    fn periods(&self, py: Python<'_>) -> PyResult<Output<f64>> {
-        let building = Arc::clone(&self.0);
-        find_frequencies(py, self.0.mass().len(), move || Ok(building.periods())).map(Output::new)
-    }
-
-    /// Damping matrix C in floor coordinates (N s/m).
-    #[getter]
-    fn damping_matrix(&self) -> Output<f64> {
-        let matrix = self.0.damping_matrix();
-        Output::shaped(&[matrix.nrows(), matrix.ncols()], matrix.transpose().as_slice().to_vec())
     }
 }
 
@@ -137,8 +133,10 @@ enum AnyBuilding<'py> {
 #[pyclass(frozen, module = "seismass._kernel")]
 pub(crate) struct GeneralScene(pub(crate) seismass::GeneralScene);
 
-#[pymethods]
-impl GeneralScene {
+getters! { GeneralScene
+    /// P/h of each storey (N/m), the weight of goods and racks included; zero without P-Delta.
+    geometric_stiffness(self) -> Output<f64> = Output::new(self.0.geometric_stiffness().iter().copied());
+    ;
     /// As `Scene`; blocks have stops or None at the end of their tuples. A sliding base has the mass of its slab (kg),
     /// mu_s, mu_k and the radius of its pendulum (m; infinite: flat).
     #[new]
@@ -175,11 +173,5 @@ impl GeneralScene {
             }
         };
         build().map(Self).map_err(|error| from_kernel(py, &error))
-    }
-
-    /// P/h of each storey (N/m), the weight of goods and racks included; zero without P-Delta.
-    #[getter]
-    fn geometric_stiffness(&self) -> Output<f64> {
-        Output::new(self.0.geometric_stiffness().iter().copied())
     }
 }

@@ -1,6 +1,9 @@
 //! Extension module `seismass._kernel`: converts between Python and the kernel, releases the interpreter while the
 //! kernel works, listens for Ctrl-C and maps errors. It holds no engineering and no numerics.
 
+#[macro_use]
+mod getters;
+
 mod arrays;
 mod batch;
 mod errors;

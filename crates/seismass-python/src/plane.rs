@@ -67,126 +67,50 @@ impl PlaneResponse {
     }
 }
 
-#[pymethods]
-impl PlaneResponse {
+getters! { PlaneResponse
     /// The responses in x and in y; path and statistics are of the run.
-    #[getter]
-    fn directions(&self) -> (GeneralResponse, GeneralResponse) {
-        (GeneralResponse(self.0.direction(Axis::X)), GeneralResponse(self.0.direction(Axis::Y)))
-    }
-
+    directions(self) -> (GeneralResponse, GeneralResponse) = (GeneralResponse(self.0.direction(Axis::X)), GeneralResponse(self.0.direction(Axis::Y)));
     /// "completed" or "collapsed".
-    #[getter]
-    fn status(&self) -> &'static str {
-        match self.0.status {
-            GeneralStatus::Completed => "completed",
-            GeneralStatus::Collapsed { .. } => "collapsed",
-        }
-    }
-
+    status(self) -> &'static str = match self.0.status {
+        GeneralStatus::Completed => "completed",
+        GeneralStatus::Collapsed { .. } => "collapsed",
+    };
     /// Peak length of the drift vector of each storey (m).
-    #[getter]
-    fn peak_drift(&self) -> Output<f64> {
-        self.part(&self.0.peaks.vector.drift, false)
-    }
-
+    peak_drift(self) -> Output<f64> = self.part(&self.0.peaks.vector.drift, false);
     /// Peak length of the drift vector of rack levels (m).
-    #[getter]
-    fn peak_rack_drift(&self) -> Output<f64> {
-        self.part(&self.0.peaks.vector.drift, true)
-    }
-
+    peak_rack_drift(self) -> Output<f64> = self.part(&self.0.peaks.vector.drift, true);
     /// Peak length of the absolute acceleration of each floor (m/s2).
-    #[getter]
-    fn peak_floor_acceleration(&self) -> Output<f64> {
-        self.part(&self.0.peaks.vector.acceleration, false)
-    }
-
+    peak_floor_acceleration(self) -> Output<f64> = self.part(&self.0.peaks.vector.acceleration, false);
     /// Peak length of the absolute acceleration of rack levels (m/s2).
-    #[getter]
-    fn peak_rack_acceleration(&self) -> Output<f64> {
-        self.part(&self.0.peaks.vector.acceleration, true)
-    }
-
+    peak_rack_acceleration(self) -> Output<f64> = self.part(&self.0.peaks.vector.acceleration, true);
     /// Peak length of the shear vector of each storey, the spring force alone (N).
-    #[getter]
-    fn peak_storey_shear(&self) -> Output<f64> {
-        self.part(&self.0.peaks.vector.shear, false)
-    }
-
+    peak_storey_shear(self) -> Output<f64> = self.part(&self.0.peaks.vector.shear, false);
     /// Peak length of the shear vector of rack levels, the spring force alone (N).
-    #[getter]
-    fn peak_rack_shear(&self) -> Output<f64> {
-        self.part(&self.0.peaks.vector.shear, true)
-    }
-
+    peak_rack_shear(self) -> Output<f64> = self.part(&self.0.peaks.vector.shear, true);
     /// Peak length of the base shear vector, with the share of matrices (N); NaN without a building.
-    #[getter]
-    fn peak_base_shear(&self) -> f64 {
-        if self.0.storeys > 0 { self.0.peaks.vector.base_shear.value } else { f64::NAN }
-    }
-
+    peak_base_shear(self) -> f64 = if self.0.storeys > 0 { self.0.peaks.vector.base_shear.value } else { f64::NAN };
     /// Peak length of the slip of each block (m).
-    #[getter]
-    fn peak_slip(&self) -> Output<f64> {
-        Output::new(self.0.peaks.vector.slip.iter().map(|peak| peak.value))
-    }
-
+    peak_slip(self) -> Output<f64> = Output::new(self.0.peaks.vector.slip.iter().map(|peak| peak.value));
     /// Path slipped in contact with what carries the block (m).
-    #[getter]
-    fn slip_path(&self) -> Output<f64> {
-        Output::new(self.0.slip_path.iter().copied())
-    }
-
+    slip_path(self) -> Output<f64> = Output::new(self.0.slip_path.iter().copied());
     /// Times of the events (s).
-    #[getter]
-    fn event_time(&self) -> Option<Output<f64>> {
-        self.event_column(|entry| entry.event.event.time)
-    }
-
+    event_time(self) -> Option<Output<f64>> = self.event_column(|entry| entry.event.event.time);
     /// Kinds of the events, as indices of `Response.event_kinds`.
-    #[getter]
-    fn event_kind(&self) -> Option<Output<u8>> {
-        self.event_column(|entry| entry.event.event.kind as u8)
-    }
-
+    event_kind(self) -> Option<Output<u8>> = self.event_column(|entry| entry.event.event.kind as u8);
     /// Storey (levels of racks count on) or block of each event, counted from 1.
-    #[getter]
-    fn event_number(&self) -> Option<Output<u32>> {
-        self.event_column(|entry| u32::try_from(entry.event.event.number).unwrap_or(u32::MAX))
-    }
-
+    event_number(self) -> Option<Output<u32>> = self.event_column(|entry| u32::try_from(entry.event.event.number).unwrap_or(u32::MAX));
     /// Direction of each event: 1 in x, 2 in y; 0: it is of a vector.
-    #[getter]
-    fn event_direction(&self) -> Option<Output<u8>> {
-        self.event_column(|entry| match entry.axis {
-            None => 0,
-            Some(Axis::X) => 1,
-            Some(Axis::Y) => 2,
-        })
-    }
-
+    event_direction(self) -> Option<Output<u8>> = self.event_column(|entry| match entry.axis {
+        None => 0,
+        Some(Axis::X) => 1,
+        Some(Axis::Y) => 2,
+    });
     /// Sign of each event of a direction; 0 for one of a vector.
-    #[getter]
-    fn event_sign(&self) -> Option<Output<i8>> {
-        self.event_column(|entry| entry.event.event.sign)
-    }
-
+    event_sign(self) -> Option<Output<i8>> = self.event_column(|entry| entry.event.event.sign);
     /// Angle of each event of a vector, from x towards y (rad); NaN for others.
-    #[getter]
-    fn event_angle(&self) -> Option<Output<f64>> {
-        self.event_column(|entry| entry.angle)
-    }
-
+    event_angle(self) -> Option<Output<f64>> = self.event_column(|entry| entry.angle);
     /// Segments of the backbone left at each yield, 1 at the first; stage of wear that begins; otherwise 0.
-    #[getter]
-    fn event_element(&self) -> Option<Output<u8>> {
-        self.event_column(|entry| entry.event.event.element)
-    }
-
+    event_element(self) -> Option<Output<u8>> = self.event_column(|entry| entry.event.event.element);
     /// Energies of both directions together (J) and their relative residual, if asked for.
-    #[getter]
-    fn energy(&self) -> Option<Named<f64, 9>> {
-        self.0.energy.map(|energy| energies(&energy.total))
-    }
+    energy(self) -> Option<Named<f64, 9>> = self.0.energy.map(|energy| energies(&energy.total));
 }

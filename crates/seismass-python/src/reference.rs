@@ -17,49 +17,21 @@ pub(crate) struct ReferenceRun {
     blocks: usize,
 }
 
-#[pymethods]
-impl ReferenceRun {
+getters! { ReferenceRun
     /// Whether the run reached the last sample; otherwise a storey collapsed.
-    #[getter]
-    fn completed(&self) -> bool {
-        matches!(self.history.status, Status::Completed)
-    }
-
+    completed(self) -> bool = matches!(self.history.status, Status::Completed);
     /// Storey drift (m) at the samples, samples x storeys.
-    #[getter]
-    fn drift(&self) -> Output<f64> {
-        Output::shaped(&[self.history.rows, self.storeys], self.history.drift.clone())
-    }
-
+    drift(self) -> Output<f64> = Output::shaped(&[self.history.rows, self.storeys], self.history.drift.clone());
     /// Slip (m) at the samples, samples x blocks.
-    #[getter]
-    fn slip(&self) -> Output<f64> {
-        Output::shaped(&[self.history.rows, self.blocks], self.history.slip.clone())
-    }
-
+    slip(self) -> Output<f64> = Output::shaped(&[self.history.rows, self.blocks], self.history.slip.clone());
     /// Largest absolute drift of each storey at the ends of steps (m).
-    #[getter]
-    fn peak_drift(&self) -> Output<f64> {
-        Output::new(self.history.peak_drift.iter().copied())
-    }
-
+    peak_drift(self) -> Output<f64> = Output::new(self.history.peak_drift.iter().copied());
     /// Largest absolute slip of each block at the ends of steps (m).
-    #[getter]
-    fn peak_slip(&self) -> Output<f64> {
-        Output::new(self.history.peak_slip.iter().copied())
-    }
-
+    peak_slip(self) -> Output<f64> = Output::new(self.history.peak_slip.iter().copied());
     /// Steps taken, those tried while locating events and Newton iterations included.
-    #[getter]
-    fn steps(&self) -> usize {
-        self.history.steps
-    }
-
+    steps(self) -> usize = self.history.steps;
     /// Changes of state; 0 for methods without events.
-    #[getter]
-    fn events(&self) -> usize {
-        self.history.events
-    }
+    events(self) -> usize = self.history.events;
 }
 
 /// Newton of the friction springs has converged at this residual, over the largest force; and gives up after so many

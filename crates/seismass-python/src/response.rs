@@ -127,203 +127,83 @@ impl Response {
     }
 }
 
-#[pymethods]
-impl Response {
+getters! { Response
     /// "completed" or "collapsed".
-    #[getter]
-    fn status(&self) -> &'static str {
-        status_name(self.run.status)
-    }
-
+    status(self) -> &'static str = status_name(self.run.status);
     /// Time reached (s).
-    #[getter]
-    fn end_time(&self) -> f64 {
-        self.run.end_time
-    }
-
+    end_time(self) -> f64 = self.run.end_time;
     /// Storey that collapsed, counted from 1.
-    #[getter]
-    fn collapsed_storey(&self) -> Option<usize> {
-        collapsed_storey(self.run.status)
-    }
-
+    collapsed_storey(self) -> Option<usize> = collapsed_storey(self.run.status);
     /// Peak storey drift (m).
-    #[getter]
-    fn peak_drift(&self) -> Output<f64> {
-        values(&self.run.peaks.drift)
-    }
-
+    peak_drift(self) -> Output<f64> = values(&self.run.peaks.drift);
     /// Time of the peak drift (s).
-    #[getter]
-    fn peak_drift_time(&self) -> Output<f64> {
-        times(&self.run.peaks.drift)
-    }
-
+    peak_drift_time(self) -> Output<f64> = times(&self.run.peaks.drift);
     /// Peak slip of each block (m).
-    #[getter]
-    fn peak_slip(&self) -> Output<f64> {
-        values(&self.run.peaks.slip)
-    }
-
+    peak_slip(self) -> Output<f64> = values(&self.run.peaks.slip);
     /// Time of the peak slip (s).
-    #[getter]
-    fn peak_slip_time(&self) -> Output<f64> {
-        times(&self.run.peaks.slip)
-    }
-
+    peak_slip_time(self) -> Output<f64> = times(&self.run.peaks.slip);
     /// Peak absolute floor acceleration (m/s2).
-    #[getter]
-    fn peak_floor_acceleration(&self) -> Output<f64> {
-        values(&self.run.peaks.floor_acceleration)
-    }
-
+    peak_floor_acceleration(self) -> Output<f64> = values(&self.run.peaks.floor_acceleration);
     /// Time of the peak floor acceleration (s).
-    #[getter]
-    fn peak_floor_acceleration_time(&self) -> Output<f64> {
-        times(&self.run.peaks.floor_acceleration)
-    }
-
+    peak_floor_acceleration_time(self) -> Output<f64> = times(&self.run.peaks.floor_acceleration);
     /// Peak storey shear, the spring force alone (N).
-    #[getter]
-    fn peak_storey_shear(&self) -> Output<f64> {
-        values(&self.run.peaks.storey_shear)
-    }
-
+    peak_storey_shear(self) -> Output<f64> = values(&self.run.peaks.storey_shear);
     /// Time of the peak storey shear (s).
-    #[getter]
-    fn peak_storey_shear_time(&self) -> Output<f64> {
-        times(&self.run.peaks.storey_shear)
-    }
-
+    peak_storey_shear_time(self) -> Output<f64> = times(&self.run.peaks.storey_shear);
     /// Drift at the end (m).
-    #[getter]
-    fn residual_drift(&self) -> Output<f64> {
-        Output::new(self.run.residual_drift.iter().copied())
-    }
-
+    residual_drift(self) -> Output<f64> = Output::new(self.run.residual_drift.iter().copied());
     /// Slip at the end (m).
-    #[getter]
-    fn residual_slip(&self) -> Output<f64> {
-        Output::new(self.run.residual_slip.iter().copied())
-    }
-
+    residual_slip(self) -> Output<f64> = Output::new(self.run.residual_slip.iter().copied());
     /// Path slipped (m).
-    #[getter]
-    fn slip_path(&self) -> Output<f64> {
-        Output::new(self.run.slip_path.iter().copied())
-    }
-
+    slip_path(self) -> Output<f64> = Output::new(self.run.slip_path.iter().copied());
     /// Samples per row of the histories; None without histories.
-    #[getter]
-    fn every(&self) -> Option<usize> {
-        self.histories.as_ref().map(|histories| histories.every)
-    }
-
+    every(self) -> Option<usize> = self.histories.as_ref().map(|histories| histories.every);
     /// Drift history (m), rows x storeys.
-    #[getter]
-    fn drift(&self, py: Python<'_>) -> Option<Kept<f64>> {
-        self.history(py, |h| &h.drift)
-    }
-
+    drift(self, py) -> Option<Kept<f64>> = self.history(py, |h| &h.drift);
     /// Slip history (m), rows x blocks.
-    #[getter]
-    fn slip(&self, py: Python<'_>) -> Option<Kept<f64>> {
-        self.history(py, |h| &h.slip)
-    }
-
+    slip(self, py) -> Option<Kept<f64>> = self.history(py, |h| &h.slip);
     /// Floor velocity relative to the ground (m/s), rows x storeys.
-    #[getter]
-    fn floor_velocity(&self, py: Python<'_>) -> Option<Kept<f64>> {
-        self.history(py, |h| &h.floor_velocity)
-    }
-
+    floor_velocity(self, py) -> Option<Kept<f64>> = self.history(py, |h| &h.floor_velocity);
     /// Block velocity relative to the ground (m/s), rows x blocks.
-    #[getter]
-    fn block_velocity(&self, py: Python<'_>) -> Option<Kept<f64>> {
-        self.history(py, |h| &h.block_velocity)
-    }
-
+    block_velocity(self, py) -> Option<Kept<f64>> = self.history(py, |h| &h.block_velocity);
     /// Absolute floor acceleration (m/s2), rows x storeys.
-    #[getter]
-    fn floor_acceleration(&self, py: Python<'_>) -> Option<Kept<f64>> {
-        self.history(py, |h| &h.floor_acceleration)
-    }
-
+    floor_acceleration(self, py) -> Option<Kept<f64>> = self.history(py, |h| &h.floor_acceleration);
     /// Spring force (N), rows x storeys.
-    #[getter]
-    fn storey_force(&self, py: Python<'_>) -> Option<Kept<f64>> {
-        self.history(py, |h| &h.storey_force)
-    }
-
+    storey_force(self, py) -> Option<Kept<f64>> = self.history(py, |h| &h.storey_force);
     /// Times of the events (s).
-    #[getter]
-    fn event_time(&self) -> Option<Output<f64>> {
-        self.event_column(|event| event.time)
-    }
-
+    event_time(self) -> Option<Output<f64>> = self.event_column(|event| event.time);
     /// Kinds of the events, as indices of `event_kinds`.
-    #[getter]
-    fn event_kind(&self) -> Option<Output<u8>> {
-        self.event_column(|event| event.kind as u8)
-    }
-
+    event_kind(self) -> Option<Output<u8>> = self.event_column(|event| event.kind as u8);
     /// Storey or block of each event, counted from 1.
-    #[getter]
-    fn event_number(&self) -> Option<Output<u32>> {
-        self.event_column(|event| u32::try_from(event.number).unwrap_or(u32::MAX))
-    }
-
+    event_number(self) -> Option<Output<u32>> = self.event_column(|event| u32::try_from(event.number).unwrap_or(u32::MAX));
     /// Sign of each event.
-    #[getter]
-    fn event_sign(&self) -> Option<Output<i8>> {
-        self.event_column(|event| event.sign)
-    }
-
+    event_sign(self) -> Option<Output<i8>> = self.event_column(|event| event.sign);
     /// Segments of the backbone left at each yield, 1 at the first; stage of wear that begins; otherwise 0.
-    #[getter]
-    fn event_element(&self) -> Option<Output<u8>> {
-        self.event_column(|event| event.element)
-    }
-
+    event_element(self) -> Option<Output<u8>> = self.event_column(|event| event.element);
+    /// Number of events of each kind, in the order of `event_kinds`.
+    event_counts(self) -> Vec<usize> = self.run.statistics.events.0.to_vec();
+    /// Energies (J) and their relative residual, if asked for.
+    energy(self) -> Option<Named<f64, 8>> = self.run.energy.map(|energy| {
+        Named([
+            ("initial", energy.initial),
+            ("input", energy.input),
+            ("kinetic", energy.kinetic),
+            ("viscous", energy.viscous),
+            ("elastic", energy.elastic),
+            ("hysteretic", energy.hysteretic),
+            ("friction", energy.friction),
+            ("relative_residual", energy.relative_residual),
+        ])
+    });
+    /// Name of the instruction set that solved it.
+    instructions(self) -> &'static str = instruction_set();
+    /// Work done and skipped.
+    statistics(self) -> Named<usize, 12> = statistics(&self.run.statistics);
+    ;
     /// Names of the kinds of events.
     #[staticmethod]
     fn event_kinds() -> Vec<&'static str> {
         EventKind::ALL.iter().map(|kind| kind.name()).collect()
-    }
-
-    /// Number of events of each kind, in the order of `event_kinds`.
-    #[getter]
-    fn event_counts(&self) -> Vec<usize> {
-        self.run.statistics.events.0.to_vec()
-    }
-
-    /// Energies (J) and their relative residual, if asked for.
-    #[getter]
-    fn energy(&self) -> Option<Named<f64, 8>> {
-        self.run.energy.map(|energy| {
-            Named([
-                ("initial", energy.initial),
-                ("input", energy.input),
-                ("kinetic", energy.kinetic),
-                ("viscous", energy.viscous),
-                ("elastic", energy.elastic),
-                ("hysteretic", energy.hysteretic),
-                ("friction", energy.friction),
-                ("relative_residual", energy.relative_residual),
-            ])
-        })
-    }
-
-    /// Name of the instruction set that solved it.
-    #[getter]
-    fn instructions(&self) -> &'static str {
-        instruction_set()
-    }
-
-    /// Work done and skipped.
-    #[getter]
-    fn statistics(&self) -> Named<usize, 12> {
-        statistics(&self.run.statistics)
     }
 }
 

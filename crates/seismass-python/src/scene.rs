@@ -27,8 +27,18 @@ pub(crate) fn find_frequencies<T: Send + 'static>(
 #[pyclass(frozen, module = "seismass._kernel")]
 pub(crate) struct Building(pub(crate) Arc<seismass::Building>);
 
-#[pymethods]
-impl Building {
+getters! { Building
+    /// Natural periods of the bare building without P-Delta (s), longest first.
+    periods(self, py) -> PyResult<Output<f64>> = {
+        let building = Arc::clone(&self.0);
+        find_frequencies(py, self.0.mass().len(), move || Ok(building.periods())).map(Output::new)
+    };
+    /// Damping matrix C in floor coordinates (N s/m).
+    damping_matrix(self) -> Output<f64> = {
+        let matrix = self.0.damping_matrix();
+        Output::shaped(&[matrix.nrows(), matrix.ncols()], matrix.transpose().as_slice().to_vec())
+    };
+    ;
     /// Lists have one value per storey; `springs` has one by the name of each of a spring's numbers that is not the
     /// default. A backbone is a table of drift (m) and force (N); a storey without one is trilinear. `hysteresis` names
     /// that of each storey, Masing's without it. Damping is
@@ -65,20 +75,6 @@ impl Building {
             None => Err(refuse("storey", "one of those of the building", &storey.to_string())),
         };
         path.map_err(|error| from_kernel(py, &error))
-    }
-
-    /// Natural periods of the bare building without P-Delta (s), longest first.
-    #[getter]
-    fn periods(&self, py: Python<'_>) -> PyResult<Output<f64>> {
-        let building = Arc::clone(&self.0);
-        find_frequencies(py, self.0.mass().len(), move || Ok(building.periods())).map(Output::new)
-    }
-
-    /// Damping matrix C in floor coordinates (N s/m).
-    #[getter]
-    fn damping_matrix(&self) -> Output<f64> {
-        let matrix = self.0.damping_matrix();
-        Output::shaped(&[matrix.nrows(), matrix.ncols()], matrix.transpose().as_slice().to_vec())
     }
 }
 
@@ -130,8 +126,10 @@ fn block((floor, mass, mu_s, mu_k, velocity, wear): BlockTuple) -> seismass::Blo
     seismass::Block { floor, mass, mu_s, mu_k, velocity, wear }
 }
 
-#[pymethods]
-impl Scene {
+getters! { Scene
+    /// P/h of each storey (N/m), the weight of the blocks included; zero without P-Delta.
+    geometric_stiffness(self) -> Output<f64> = Output::new(self.0.geometric_stiffness().iter().copied());
+    ;
     /// Blocks are tuples of floor, mass, mu_s, mu_k, initial velocity (None: that of the floor), and
     /// stages of wear, tuples of slip path, mu_s and mu_k.
     #[new]
@@ -160,20 +158,20 @@ impl Scene {
         };
         build().map(Self).map_err(|error| from_kernel(py, &error))
     }
-
-    /// P/h of each storey (N/m), the weight of the blocks included; zero without P-Delta.
-    #[getter]
-    fn geometric_stiffness(&self) -> Output<f64> {
-        Output::new(self.0.geometric_stiffness().iter().copied())
-    }
 }
 
 /// Ground motion held by the kernel.
 #[pyclass(frozen, module = "seismass._kernel")]
 pub(crate) struct Motion(pub(crate) seismass::Motion);
 
-#[pymethods]
-impl Motion {
+getters! { Motion
+    /// Horizontal samples (m/s2).
+    acceleration(self) -> Output<f64> = Output::new(self.0.acceleration().iter().copied());
+    /// Vertical samples (m/s2), up positive.
+    vertical(self) -> Option<Output<f64>> = self.0.vertical().map(|samples| Output::new(samples.iter().copied()));
+    /// Time step (s).
+    dt(self) -> f64 = self.0.dt();
+    ;
     /// Samples in m/s2 at step dt (s); vertical samples (up positive) are as many.
     #[new]
     #[pyo3(signature = (acceleration, dt, vertical=None))]
@@ -191,24 +189,6 @@ impl Motion {
     /// The motion with both components multiplied by `factor`.
     fn scaled(&self, py: Python<'_>, factor: f64) -> PyResult<Self> {
         self.0.scaled(factor).map(Self).map_err(|error| from_kernel(py, &error))
-    }
-
-    /// Horizontal samples (m/s2).
-    #[getter]
-    fn acceleration(&self) -> Output<f64> {
-        Output::new(self.0.acceleration().iter().copied())
-    }
-
-    /// Vertical samples (m/s2), up positive.
-    #[getter]
-    fn vertical(&self) -> Option<Output<f64>> {
-        self.0.vertical().map(|samples| Output::new(samples.iter().copied()))
-    }
-
-    /// Time step (s).
-    #[getter]
-    fn dt(&self) -> f64 {
-        self.0.dt()
     }
 }
 

@@ -142,59 +142,23 @@ impl SpringPath {
     }
 }
 
-#[pymethods]
-impl SpringPath {
+getters! { SpringPath
     /// Force at each drift (N).
-    #[getter]
-    fn force(&self) -> Output<f64> {
-        Output::new(self.0.force.iter().copied())
-    }
-
+    force(self) -> Output<f64> = Output::new(self.0.force.iter().copied());
     /// Energy dissipated up to each drift (J).
-    #[getter]
-    fn dissipated(&self) -> Output<f64> {
-        Output::new(self.0.dissipated.iter().copied())
-    }
-
+    dissipated(self) -> Output<f64> = Output::new(self.0.dissipated.iter().copied());
     /// Energy stored at each drift (J).
-    #[getter]
-    fn stored(&self) -> Output<f64> {
-        Output::new(self.0.stored.iter().copied())
-    }
-
+    stored(self) -> Output<f64> = Output::new(self.0.stored.iter().copied());
     /// Index of the drift on the way to which each event happened.
-    #[getter]
-    fn event_leg(&self) -> Output<u32> {
-        self.event_column(|event| u32::try_from(event.leg).unwrap_or(u32::MAX))
-    }
-
+    event_leg(self) -> Output<u32> = self.event_column(|event| u32::try_from(event.leg).unwrap_or(u32::MAX));
     /// Drift at each event (m).
-    #[getter]
-    fn event_drift(&self) -> Output<f64> {
-        self.event_column(|event| event.drift)
-    }
-
+    event_drift(self) -> Output<f64> = self.event_column(|event| event.drift);
     /// Force at each event (N).
-    #[getter]
-    fn event_force(&self) -> Output<f64> {
-        self.event_column(|event| event.force)
-    }
-
+    event_force(self) -> Output<f64> = self.event_column(|event| event.force);
     /// Kinds of the events, as indices of `Response.event_kinds`.
-    #[getter]
-    fn event_kind(&self) -> Output<u8> {
-        self.event_column(|event| event.kind as u8)
-    }
-
+    event_kind(self) -> Output<u8> = self.event_column(|event| event.kind as u8);
     /// Sign of each event.
-    #[getter]
-    fn event_sign(&self) -> Output<i8> {
-        self.event_column(|event| event.sign)
-    }
-
+    event_sign(self) -> Output<i8> = self.event_column(|event| event.sign);
     /// Number of segments left at each yield, from 1; otherwise 0.
-    #[getter]
-    fn event_element(&self) -> Output<u8> {
-        self.event_column(|event| event.element)
-    }
+    event_element(self) -> Output<u8> = self.event_column(|event| event.element);
 }
