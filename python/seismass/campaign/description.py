@@ -24,7 +24,7 @@ SCALINGS: Final = ("none", "asce7-10", "asce7-16")
 """How a campaign file may scale its motions."""
 
 _SETTINGS: Final = ("floors", "roof", "damping", "attached_of", "collapse_drift")
-KEYS: Final = {
+TABLES: Final = {
     "": ("name", "note", "part_runs", "peaks_only", "columns", "single", "motions", "building", "grid", "sample"),
     "motions": ("builtin", "records", "scaling", "target", "period"),
     "grid": (*SAMPLED, *_SETTINGS, "design"),
@@ -74,7 +74,7 @@ def read_campaign(source: str | os.PathLike[str] | Mapping[str, Any]) -> Campaig
         path = as_path(source, "campaign file", InvalidCampaignFile)
         folder, top = path.parent, load_table(path, "campaign file", InvalidCampaignFile)
     refuse_other_kind(top, CAMPAIGN_FILE)
-    top.known(KEYS[""])
+    top.known(TABLES[""])
     top.text("note")
     top.needed("grid")
     suite = _suite(top.table("motions") if "motions" in top.values else None, folder, top)
@@ -94,7 +94,7 @@ def _suite(table: Table | None, folder: Path, top: Table) -> list[Record]:
 
     if table is None:
         top.refuse("motions", "given, with builtin or records", "nothing")
-    table.known(KEYS["motions"])
+    table.known(TABLES["motions"])
     table.needed("builtin", "records")
     table.excluded("records", "builtin")
     suite: Suite
@@ -123,7 +123,7 @@ def _target(table: Table, folder: Path) -> TargetSpectrum:
 
 def _grid(top: Table, folder: Path, motions: int) -> Grid:
     table = top.table("grid")
-    table.known(KEYS["grid"])
+    table.known(TABLES["grid"])
     building = None
     if "building" in top.values:
         table.excluded("storeys", "building")
@@ -140,7 +140,7 @@ def _grid(top: Table, folder: Path, motions: int) -> Grid:
     if not sampled:
         return Grid.product(building, **given)
     sample = top.table("sample")
-    sample.known(KEYS["sample"])
+    sample.known(TABLES["sample"])
     sample.needed("samples")
     options: dict[str, Any] = {"samples": sample.count("samples")}
     if "method" in sample.values:
@@ -155,6 +155,6 @@ def _grid(top: Table, folder: Path, motions: int) -> Grid:
 def _design(table: Table, folder: Path) -> Any:
     from seismass.runs.grid.design import StrengthDesign
 
-    table.known(KEYS["grid.design"])
+    table.known(TABLES["grid.design"])
     table.needed("target")
-    return StrengthDesign(_target(table, folder), **table.given(*KEYS["grid.design"][1:]))
+    return StrengthDesign(_target(table, folder), **table.given(*TABLES["grid.design"][1:]))

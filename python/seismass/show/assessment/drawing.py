@@ -10,7 +10,8 @@ from markupsafe import Markup, escape
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import counted
 from seismass.media.isolate import apart
-from seismass.media.roles import BARE, MU, SLIDE
+from seismass.media.roles import BARE as BARE_ROLE
+from seismass.media.roles import MU, SLIDE
 from seismass.media.style import shortened
 from seismass.show.assessment.tables import AssessmentTables
 
@@ -95,7 +96,7 @@ def _goods(result: AssessmentTables, levels: np.ndarray[Any, np.dtype[np.float64
             side = float(np.sqrt(min(kind["mass"] / mass[floor], 2.0) / 2.0))
             high, wide = max(0.7 * above * side, 2.0), max(room / len(kinds) * side - 5.0, 4.0)
             middle = LEFT + 17.0 + room * (place + 0.5) / len(kinds)
-            role = BARE if kind["attached"] else SLIDE
+            role = BARE_ROLE if kind["attached"] else SLIDE
             parts.append(
                 Markup(
                     '<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="{}" fill-opacity="0.5" '

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from seismass.model.building import Building
     from seismass.model.scene import Scene
 
-WIDTH: Final = 420.0
+BUILDING_WIDTH: Final = 420.0
 BAY: Final = 150.0
 """Width of the building (px)."""
 LEFT: Final = 40.0
@@ -59,7 +59,7 @@ def building_sketch(building: Building | None, blocks: tuple[Block, ...]) -> str
         parts += _labels(building, levels)
     parts += _goods(building, blocks, levels)
     said = "ground" if building is None else counted(storeys, "storey")
-    return svg(WIDTH, levels[0] + 6.0, f"{said} with {counted(len(blocks), 'block')}" if blocks else said, *parts)
+    return svg(BUILDING_WIDTH, levels[0] + 6.0, f"{said} with {counted(len(blocks), 'block')}" if blocks else said, *parts)
 
 
 def _labels(building: Building, levels: FloatArray) -> list[str]:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 MOST_ROWS: Final = 12
 """Most records that are listed."""
-LONGEST: Final = 4.0
+LONGEST_PERIOD: Final = 4.0
 """Period up to which a spectrum is drawn (s)."""
 
 
@@ -55,7 +55,7 @@ def _curve(record: Record) -> str:
 
 def target_html(target: TargetSpectrum) -> str:
     """Return a card of a target spectrum: its ordinates over the period."""
-    longest = min(target.longest, LONGEST)
+    longest = min(target.longest, LONGEST_PERIOD)
     periods = np.linspace(target.shortest, longest, 201)
     ordinates = target(periods) / STANDARD_GRAVITY
     left, right, top, bottom = 46.0, 440.0, 10.0, 130.0

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from seismass.records.record import Record
 
 WIDTH: Final = 600
-HEIGHT: Final = 110
+RECORD_HEIGHT: Final = 110
 
 
 def record_html(record: Record) -> str:
@@ -38,10 +38,10 @@ def record_html(record: Record) -> str:
 def _sketch(record: Record) -> str:
     """The accelerations with their peak marked."""
     peak = record.pga or 1.0
-    middle, reach = 0.5 * HEIGHT, 0.5 * HEIGHT - 6.0
+    middle, reach = 0.5 * RECORD_HEIGHT, 0.5 * RECORD_HEIGHT - 6.0
     y = middle - reach / peak * record.acceleration
     where = int(np.argmax(np.abs(record.acceleration)))
     label = f"accelerations, peak {record.pga_g:.4f} g at {where * record.dt:.2f} s"
     mark = f'<circle cx="{(where + 0.5) * WIDTH / record.samples:.1f}" cy="{y[where]:.1f}" r="3.5" '
     mark += 'fill="none" stroke="currentColor"/>'
-    return svg(WIDTH, HEIGHT, label, stroke(0.0, middle, WIDTH, middle, opacity=0.4), history(y, WIDTH), mark)
+    return svg(WIDTH, RECORD_HEIGHT, label, stroke(0.0, middle, WIDTH, middle, opacity=0.4), history(y, WIDTH), mark)

@@ -24,7 +24,7 @@ MOST_VALUES: Final = 6
 """Longest list whose numbers are shown one by one."""
 MOST_LETTERS: Final = 300
 """Most letters of what a value says of itself."""
-LONGEST: Final = 60
+LONGEST_TEXT: Final = 60
 """Longest text of a fact."""
 
 
@@ -56,7 +56,7 @@ def frame_html(frame: pl.DataFrame) -> str:
         if frame[name].dtype.is_float():
             columns.append(column_texts(values, digits=4))
         else:
-            columns.append(["" if one is None else _fact(one)[:LONGEST] for one in values])
+            columns.append(["" if one is None else _fact(one)[:LONGEST_TEXT] for one in values])
     whole = frame.height <= MOST_ROWS and frame.width <= MOST_COLUMNS
     size = f"of {counted(frame.height, 'row')} and {counted(frame.width, 'column')}"
     return rows(names, list(zip(*columns, strict=True))) + ("" if whole else line(size))
@@ -64,7 +64,7 @@ def frame_html(frame: pl.DataFrame) -> str:
 
 def _about(value: Any) -> str:
     found = [getattr(value, name, "") for name in ("name", "label")]
-    return next((text[:LONGEST] for text in found if isinstance(text, str) and text), "")
+    return next((text[:LONGEST_TEXT] for text in found if isinstance(text, str) and text), "")
 
 
 def _items(value: Any) -> Iterator[tuple[str, Any]]:
@@ -100,7 +100,7 @@ def _fact(item: Any) -> str:
     if isinstance(item, numbers.Real):
         return f"{float(item):.4g}"
     if isinstance(item, str):
-        return item if len(item) <= LONGEST else item[: LONGEST - 3] + "..."
+        return item if len(item) <= LONGEST_TEXT else item[: LONGEST_TEXT - 3] + "..."
     if isinstance(item, Path):
         return _fact(item.name)
     if isinstance(item, np.ndarray):
@@ -110,7 +110,7 @@ def _fact(item: Any) -> str:
     if is_dataclass(item) or isinstance(item, Card):
         return type(item).__name__
     if isinstance(item, Mapping):
-        return f"{counted(len(item), 'entry', 'entries')}: {', '.join(map(str, item))}"[:LONGEST]
+        return f"{counted(len(item), 'entry', 'entries')}: {', '.join(map(str, item))}"[:LONGEST_TEXT]
     if isinstance(item, tuple | list):
         if item and len(item) <= MOST_VALUES and all(isinstance(one, numbers.Real) for one in item):
             return ", ".join(f"{float(one):.4g}" for one in item)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Final
 
 from seismass.media.result import named_figure
 from seismass.media.text_table import text_line
-from seismass.validation import Claim, Section4, Validation
+from seismass.validation import Claim, Validation
+from seismass.validation.three_storeys import Section4
 from seismass.validation.three_storeys import COMPARED_SLOPES
 
 if TYPE_CHECKING:
