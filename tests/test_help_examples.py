@@ -16,9 +16,9 @@ import pytest
 
 from seismass.cli import main
 from seismass.commands.parser import COMMANDS
-from seismass.explore import compiled
-from seismass.matching.files import write_record
-from seismass.records.builtin import builtin_record, data_directory
+from seismass.motions.matching.result import write_record
+from seismass.motions.records.builtin import builtin_record, data_directory
+from seismass.show.explore import page as compiled
 
 RUN = [
     "new own.toml --from storeys.csv --area 1200 --sds 1.0 --sd1 0.6 --live-load 7.2 --friction 0.3",

@@ -11,7 +11,7 @@ import pytest
 
 import seismass as sm
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.fragility import (
+from seismass.studies.fragility import (
     FragilityAnalysis,
     HuntAndFill,
     IntensityMeasure,

@@ -13,7 +13,7 @@ from polars.testing import assert_frame_equal
 
 import seismass as sm
 from seismass.base.kept import KeptResults, digest_of, kept_folder
-from seismass.study import StudyParameters, run_study
+from seismass.studies.study import StudyParameters, run_study
 
 TABLE = pl.DataFrame({"numbers": [1.0, 2.0], "words": ["a", None]})
 
@@ -144,7 +144,7 @@ def test_a_study_takes_what_an_interrupted_one_has_left(tmp_path: Path, monkeypa
         run_study(suite, target, parameters, effective=True, progress=interrupt, kept=KeptResults(tmp_path))
     left = {path.name for path in tmp_path.iterdir()}
     assert left == {f"part-{name}.parquet" for name in ("runs", "effective-1", "effective-2", "effective-3")}
-    monkeypatch.setattr("seismass.study.run.solve_many", None)
+    monkeypatch.setattr("seismass.studies.study.run.solve_many", None)
     again = run_study(suite, target, parameters, effective=True, kept=KeptResults(tmp_path))
     assert_frame_equal(again.responses, whole.responses, check_exact=True)
     assert_frame_equal(again.fractions, whole.fractions, check_exact=True)

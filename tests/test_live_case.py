@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 
 import seismass as sm
-from seismass import explore
 from seismass.assessment.building_file import example_file
-from seismass.media.live_address import LIMITS, MOST_STOREYS
-from seismass.show.assessment.live import OwnCase, own_case
+from seismass.media.page import LIMITS, MOST_STOREYS
+from seismass.show import explore
+from seismass.show.assessment.page_input import OwnCase, own_case
 from seismass.show.assessment.tables import assessment_tables
 
 SCRIPT = (Path(explore.__file__).parent / "templates" / "case.js").read_text(encoding="utf-8")

@@ -12,10 +12,18 @@ import pytest
 import seismass as sm
 from pages.matching import misfit_row, motion_row
 from seismass.cli import main
-from seismass.matching.files import write_record
-from seismass.matching.linear import coarse, exact_product, halves, product, solved
-from seismass.matching.oscillators import Extrema, Oscillators
-from seismass.matching.wavelets import half_width, place
+from seismass.motions.matching.linear import (
+    Extrema,
+    Oscillators,
+    coarse,
+    exact_product,
+    half_width,
+    halves,
+    place,
+    product,
+    solved,
+)
+from seismass.motions.matching.result import write_record
 
 ROOT = Path(__file__).parents[1]
 TARGET = sm.TargetSpectrum.asce7()
@@ -435,7 +443,7 @@ def test_outputs_are_judged_before_records_are_matched(
     record: sm.Record, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Nothing replaces a recording or stands among recordings, and no time is spent on what cannot be written."""
-    monkeypatch.setattr("seismass.matching.match_suite", lambda *_, **__: pytest.fail("matched"))
+    monkeypatch.setattr("seismass.motions.matching.match_suite", lambda *_, **__: pytest.fail("matched"))
     folder = tmp_path / "records"
     folder.mkdir()
     for number in (1, 2):

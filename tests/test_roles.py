@@ -11,9 +11,9 @@ import pytest
 
 import seismass
 from seismass.assessment import models
-from seismass.media import roles
+from seismass.media import style as roles
 from seismass.media.page import templates
-from seismass.media.roles import (
+from seismass.media.style import (
     ALPHA,
     BLOCK_COLOURS,
     CSS_NAMES,
@@ -21,12 +21,12 @@ from seismass.media.roles import (
     LAMBDA,
     MODELS,
     MU,
+    SERIES,
     Role,
     css,
     lettered,
     model_name,
 )
-from seismass.media.style import SERIES
 
 PACKAGE = Path(seismass.__file__).parent
 SHOWN = [path for part in ("show", "plots", "explore", "animation") for path in sorted((PACKAGE / part).rglob("*.py"))]
