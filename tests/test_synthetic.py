@@ -15,8 +15,8 @@ from seismass.base.units import STANDARD_GRAVITY
 from seismass.cli import main
 from seismass.motions.records import Record, builtin_record, builtin_suite
 from seismass.motions.records.builtin import data_directory
-from seismass.motions.synthetic.process import asce7_shape, end_state, pulse, spectrum
-from seismass.motions.synthetic.seven import (
+from seismass.motions.records.synthetic.process import asce7_shape, end_state, pulse, spectrum
+from seismass.motions.records.synthetic.seven import (
     ALL_RECIPES,
     LISTS,
     RECIPES,
@@ -28,7 +28,7 @@ from seismass.motions.synthetic.seven import (
     write_list,
     write_motion,
 )
-from seismass.motions.synthetic.site import SITE_RECIPES, SiteRecipe, generate_site
+from seismass.motions.records.synthetic.site import SITE_RECIPES, SiteRecipe, generate_site
 
 STORED = data_directory() / "synthetic"
 
@@ -103,8 +103,8 @@ def test_site_motions_are_the_same_with_other_instructions(tmp_path: Path) -> No
     code = (
         "import sys; import numpy as np\n"
         "from pathlib import Path\n"
-        "from seismass.motions.synthetic.seven import at2_text\n"
-        "from seismass.motions.synthetic.site import SITE_RECIPES, generate_site\n"
+        "from seismass.motions.records.synthetic.seven import at2_text\n"
+        "from seismass.motions.records.synthetic.site import SITE_RECIPES, generate_site\n"
         "for recipe in SITE_RECIPES:\n"
         "    record = generate_site(recipe)\n"
         "    np.save(Path(sys.argv[1]) / recipe.name, record.acceleration)\n"

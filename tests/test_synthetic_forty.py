@@ -8,10 +8,10 @@ import pytest
 
 import seismass as sm
 from seismass.motions.records.builtin import MICRO, data_directory
+from seismass.motions.records.synthetic.process import end_state
+from seismass.motions.records.synthetic.scenarios import SCENARIOS, generate_scenario, two_period_shape
+from seismass.motions.records.synthetic.second import generate_second
 from seismass.motions.spectra import corner_period, mean_spectrum, response_spectrum
-from seismass.motions.synthetic.process import end_state
-from seismass.motions.synthetic.scenarios import SCENARIOS, generate_scenario, two_period_shape
-from seismass.motions.synthetic.second import generate_second
 
 SUITE = sm.builtin_suite("forty")
 TARGET = sm.TargetSpectrum.asce7()

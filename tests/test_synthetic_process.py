@@ -10,7 +10,7 @@ import pytest
 from scipy import signal
 
 import seismass as sm
-from seismass.motions.synthetic.process import LEAST_FREQUENCY, end_state, filtered_noise, high_passed, normals
+from seismass.motions.records.synthetic.process import LEAST_FREQUENCY, end_state, filtered_noise, high_passed, normals
 
 G = sm.STANDARD_GRAVITY
 USUAL = sm.records.SyntheticParameters(

@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 import seismass as sm
 from pages.parts import Page, table
 from seismass.media.style import BLUE, GREY, INK, STYLE, VERMILION
-from seismass.motions.synthetic.seven import ALL_RECIPES, Recipe
-from seismass.motions.synthetic.site import SITE_RECIPES
+from seismass.motions.records.synthetic.seven import ALL_RECIPES, Recipe
+from seismass.motions.records.synthetic.site import SITE_RECIPES
 from seismass.studies.study import run_study
 from seismass.studies.study.tables import findings
 

@@ -1,4 +1,4 @@
-"""Ground motions: records, spectra, scaling to a target, matching, pulses, synthetic ones. No building, no goods."""
+"""Ground motions: records, spectra, scaling to a target, matching, pulses. No building, no goods."""
 
 import lazy_loader
 

@@ -10,7 +10,7 @@ from seismass.motions.records.read import read_record, read_records
 from seismass.motions.records.record import Record
 from seismass.motions.records.rotd import RotD, rotd
 from seismass.motions.records.suite import Excluded, Suite, read_suite
-from seismass.motions.synthetic import NearFaultPulse, SyntheticParameters, synthetic_motion
+from seismass.motions.records.synthetic import NearFaultPulse, SyntheticParameters, synthetic_motion
 
 __all__ = [
     "CatalogueSearch",

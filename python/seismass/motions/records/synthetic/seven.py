@@ -29,7 +29,7 @@ from seismass.base.files import written_whole
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.motions.records.builtin import MICRO
 from seismass.motions.records.record import Record
-from seismass.motions.synthetic.process import (
+from seismass.motions.records.synthetic.process import (
     HIGH_PASS,
     LEVEL,
     LEVEL_SPREAD,
@@ -47,9 +47,9 @@ from seismass.motions.synthetic.process import (
     spectrum,
     tapered,
 )
-from seismass.motions.synthetic.scenarios import SCENARIOS, generate_scenario
-from seismass.motions.synthetic.second import generate_second, seed_of
-from seismass.motions.synthetic.site import SITE_RECIPES, SiteRecipe, generate_site
+from seismass.motions.records.synthetic.scenarios import SCENARIOS, generate_scenario
+from seismass.motions.records.synthetic.second import generate_second, seed_of
+from seismass.motions.records.synthetic.site import SITE_RECIPES, SiteRecipe, generate_site
 
 if TYPE_CHECKING:
     import polars as pl

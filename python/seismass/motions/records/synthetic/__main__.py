@@ -1,11 +1,11 @@
-"""`python -m seismass.motions.synthetic DIRECTORY` writes the files of the built-in suite again."""
+"""`python -m seismass.motions.records.synthetic DIRECTORY` writes the files of the built-in suite again."""
 
 from __future__ import annotations
 
 import sys
 from pathlib import Path
 
-from seismass.motions.synthetic.seven import write_suite
+from seismass.motions.records.synthetic.seven import write_suite
 
 if __name__ == "__main__":
     if len(sys.argv) != 2:

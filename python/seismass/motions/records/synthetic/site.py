@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass.motions.records.record import Record
-from seismass.motions.synthetic.process import (
+from seismass.motions.records.synthetic.process import (
     LEVEL,
     LEVEL_SPREAD,
     MATCHED_PERIODS,

@@ -24,8 +24,8 @@ from typing import Final
 import numpy as np
 
 from seismass.motions.records.record import Record
-from seismass.motions.synthetic.process import MATCHED_PERIODS, normals
-from seismass.motions.synthetic.scenarios import Scenario, made_of, noise_of, wander_of
+from seismass.motions.records.synthetic.process import MATCHED_PERIODS, normals
+from seismass.motions.records.synthetic.scenarios import Scenario, made_of, noise_of, wander_of
 
 FIRST_SEED: Final = 5000
 CORRELATION_SPREAD: Final = 0.20

@@ -31,7 +31,7 @@ from numpy.typing import NDArray
 
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.motions.records.record import Record
-from seismass.motions.synthetic.process import (
+from seismass.motions.records.synthetic.process import (
     MATCHED_PERIODS,
     SDS_G,
     SyntheticParameters,
