@@ -265,9 +265,8 @@ def _median(drift: FloatArray, among: NDArray[np.int64]) -> int:
 
 
 def shown_motion(scene: Scene, scaled: list[Any], factors: FloatArray) -> Shown:
-    """Return a motion for the scene of a building: the median by largest drift of those under which goods slide.
-
-    Where none slide it is the median of all. `factors` are those by which the motions are scaled already.
+    """Return the motion of median largest drift of those under which goods slide, else of all. `factors` are those by which
+    the motions are scaled already.
     """
     peaks = solve([scene], named_motions(scaled, "animation", scene))
     among = np.flatnonzero(peaks.slides[0]) if peaks.slides.any() else np.arange(len(scaled))
@@ -283,10 +282,8 @@ def scaled_to_site(
     *,
     threads: int | None = None,
 ) -> ScalingResult:
-    """Return the factors of `scale_asce7_10` for the period T (s) that is given, else stated in the building file.
-
-    Without either T is the first period with the goods present attached; in two directions motions are then scaled from
-    0.2 of the shorter to 1.5 of the longer one. `target` stands in place of the building's site.
+    """Return the factors of `scale_asce7_10` for the period T (s) that is given, else that of the file, else the first with
+    the goods attached (in two directions from 0.2 of the shorter to 1.5 of the longer one). `target` replaces the site's.
     """
     stated = building.scaling_period
     if period is not None:

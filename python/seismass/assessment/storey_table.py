@@ -275,13 +275,7 @@ def is_base(name: str) -> bool:
 
 
 def refuse_summaries(names: Sequence[str], file: str) -> None:
-    """Refuse rows whose names are those of totals, means, extremes and notes.
-
-    Raises
-    ------
-    InvalidBuildingFile
-        There is one.
-    """
+    """Refuse rows whose names are those of totals, means, extremes and notes."""
     for name in names:
         words = _words(name)
         if not _SUMMARY.isdisjoint(words) or (len(words) == 1 and words[0] in _SUMMARY_ALONE):
@@ -289,13 +283,7 @@ def refuse_summaries(names: Sequence[str], file: str) -> None:
 
 
 def refuse_sums(names: Sequence[str], masses: Sequence[float], file: str) -> None:
-    """Refuse a row without a number in its name whose mass (or weight) is the sum of all others.
-
-    Raises
-    ------
-    InvalidBuildingFile
-        There is one.
-    """
+    """Refuse a row without a number in its name whose mass (or weight) is the sum of all others."""
     # With the base or without it.
     storeys = {name: mass for name, mass in zip(names, masses, strict=True) if not is_base(name)}
     whole, base = sum(storeys.values()), sum(masses) - sum(storeys.values())

@@ -64,17 +64,7 @@ def add_scaling_options(group: argparse._ActionsContainer) -> None:
 
 
 class FileMotions(NamedTuple):
-    """Motions with which a scene or a building is run.
-
-    Attributes
-    ----------
-    suite : Suite or Pairs
-        As they were read.
-    factors : sequence of float
-        By which they are multiplied.
-    scaling : str
-        How, in words.
-    """
+    """Motions as they were read, the factors by which they are multiplied, and how they are scaled, in words."""
 
     suite: Suite | Pairs
     factors: FloatArray
@@ -94,15 +84,8 @@ def motions_of_file(
     building: OwnBuilding | None,
     target: TargetSpectrum | None,
 ) -> FileMotions:
-    """Return the motions of a command, those of a building file scaled to its site as `assess` does.
-
-    Those of a scene file are scaled to `target` where one is given, and --factor stands in place of any scaling.
-    Scenes in two directions take pairs.
-
-    Raises
-    ------
-    InvalidOption
-        --factor is given beside a target, --period where nothing is scaled, or the building has no site.
+    """Return the motions of a command: those of a building file scaled to its site as in `assess`, those of a scene file to
+    `target` where one is given, or all times --factor. Scenes in two directions take pairs.
     """
     import numpy as np
 

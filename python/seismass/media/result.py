@@ -113,21 +113,8 @@ def write_folder(
 
 
 def edited_files(folder: Path, read: Sequence[str], *, force: bool = False) -> tuple[str, ...]:
-    """Return which files of a folder that are read are not as files.json has them, and how they differ.
-
-    Parameters
-    ----------
-    folder : Path
-        The folder.
-    read : sequence of str
-        Names of all files that may be read, that by which the folder is known first.
-    force : bool
-        Return them; else the first is refused.
-
-    Raises
-    ------
-    InvalidOption
-        A file differs, is missing, or is not listed, or the list itself is not as it was written.
+    """Return which files of a folder that may be read differ from its files.json, and how; without `force` the first is
+    refused. The file by which the folder is known stands first in `read`.
     """
     if not (folder / read[0]).exists():
         return ()  # what the reader says of a folder of another kind says more

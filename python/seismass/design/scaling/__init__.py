@@ -20,3 +20,8 @@ __all__ = [
     "scale_sa_t1",
     "select_records",
 ]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)
