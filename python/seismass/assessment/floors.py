@@ -203,8 +203,8 @@ def counted_fractions(
     kinds: tuple[FloorGoods, ...],
     area: FloatArray,
 ) -> tuple[CountedFraction, ...]:
-    """Return what counts of the design live load of each floor. Storage that adds at most 5 % to the weight of its level is
-    exempt (ASCE 7, 12.7.2); goods or a live load of a use with a larger fraction take that fraction.
+    """Return what counts of the design live load of each floor. Storage that adds at most 5 % to the weight of its
+    level is exempt (ASCE 7, 12.7.2); goods or a live load of a use with a larger fraction take that fraction.
     """
     found = []
     for index, one in enumerate(floors):

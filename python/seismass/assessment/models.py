@@ -265,8 +265,8 @@ def _median(drift: FloatArray, among: NDArray[np.int64]) -> int:
 
 
 def shown_motion(scene: Scene, scaled: list[Any], factors: FloatArray) -> Shown:
-    """Return the motion of median largest drift of those under which goods slide, else of all. `factors` are those by which
-    the motions are scaled already.
+    """Return the motion of median largest drift of those under which goods slide, else of all; motions are scaled by
+    `factors` already.
     """
     peaks = solve([scene], named_motions(scaled, "animation", scene))
     among = np.flatnonzero(peaks.slides[0]) if peaks.slides.any() else np.arange(len(scaled))
@@ -282,8 +282,8 @@ def scaled_to_site(
     *,
     threads: int | None = None,
 ) -> ScalingResult:
-    """Return the factors of `scale_asce7_10` for the period T (s) that is given, else that of the file, else the first with
-    the goods attached (in two directions from 0.2 of the shorter to 1.5 of the longer one). `target` replaces the site's.
+    """Return the factors of `scale_asce7_10` for the period T (s) that is given, else that of the file, else the first
+    with the goods attached (in two directions from 0.2 of the shorter to 1.5 of the longer). `target` replaces that.
     """
     stated = building.scaling_period
     if period is not None:

@@ -84,8 +84,8 @@ def motions_of_file(
     building: OwnBuilding | None,
     target: TargetSpectrum | None,
 ) -> FileMotions:
-    """Return the motions of a command: those of a building file scaled to its site as in `assess`, those of a scene file to
-    `target` where one is given, or all times --factor. Scenes in two directions take pairs.
+    """Return the motions of a command: those of a building file scaled to its site as in `assess`, those of a scene
+    file to `target` where one is given, or all times --factor. Scenes in two directions take pairs.
     """
     import numpy as np
 

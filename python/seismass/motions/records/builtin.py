@@ -49,7 +49,7 @@ def builtin_suite(suite: BuiltinName = "eleven") -> Suite:
     Parameters
     ----------
     suite : {"eleven", "seven", "forty"}
-        "forty": those of `seismass.motions.records.synthetic.scenarios`, whose scatter is that of recordings; what `assess` and
+        "forty": those of `records.synthetic.scenarios`, whose scatter is that of recordings; what `assess` and
         the commands that give an answer take by default. "eleven": as many as ASCE 7-16 asks for. "seven": the first
         seven of those, as many as ASCE 7-10 asks for, with which the study of the paper is.
 
@@ -70,7 +70,7 @@ def builtin_suite(suite: BuiltinName = "eleven") -> Suite:
 def builtin_pairs() -> Pairs:
     """Return the forty synthetic motions with their second horizontal components, which none recorded either.
 
-    The second ones are those of `seismass.motions.records.synthetic.second`: of the duration and content of the first, with a
+    The second ones are those of `records.synthetic.second`: of the duration and content of the first, with a
     correlation and spectra that scatter as those of recorded pairs.
     """
     name, _ = _SUITES["forty"]
