@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from typing import Final
 
 from seismass._kernel import VERSION
-from seismass.commands.frame import Command, HelpText, grouped
+from seismass.commands.frame import HelpText, grouped
 
 COMMANDS: Final = {
     "building": ("building", "your own building: how much of its live load to count as mass"),
@@ -106,30 +106,3 @@ def _is_numbers(text: str) -> bool:
         return bool([float(piece) for piece in pieces])
     except ValueError:
         return False
-
-
-def options(parser: argparse.ArgumentParser) -> None:
-    """Add the options."""
-    parser.add_argument("shell", choices=("bash", "zsh"), help="the shell")
-
-
-def run(args: argparse.Namespace) -> int:
-    """Print the script; return the exit code."""
-    import shtab
-
-    print(shtab.complete(build_parser(), shell=args.shell))
-    return 0
-
-
-COMMAND = Command(
-    description="Print the script by which a shell completes commands, options and choices of `seismass`.",
-    examples="""
-completion bash > ~/.local/share/bash-completion/completions/seismass
-completion zsh > ~/.zfunc/_seismass
-""",
-    options=options,
-    run=run,
-    note="""
-A folder of zsh has to be in fpath. A new shell completes then.
-""",
-)
