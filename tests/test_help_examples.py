@@ -55,7 +55,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory, take_few: Callable[[pytest.
     """Files of the names that the examples use, and the folder of an assessment."""
     made, data = tmp_path_factory.mktemp("examples"), data_directory()
     whole = [builtin_record(f"synthetic-{number}") for number in (1, 2, 3)]
-    motions = [motion.replace(acceleration=motion.acceleration[:1500]) for motion in whole]
+    motions = [motion.with_duration(15.0) for motion in whole]
     for name in ("records", "recordings"):
         (made / name).mkdir()
         for motion in motions:

@@ -24,7 +24,7 @@ def case_of(**changes: Any) -> OwnCase:
     tables = tomllib.loads(example_file().read_text(encoding="utf-8"))
     for table, values in changes.items():
         tables[table] = values if table == "storeys" else {**tables[table], **values}
-    motions = [record.replace(acceleration=record.acceleration[:400]) for record in sm.builtin_suite("forty")[:3]]
+    motions = [record.with_duration(4.0) for record in sm.builtin_suite("forty")[:3]]
     return own_case(assessment_tables(sm.assess(tables, motions, mu_factors=(1.0, 1.0), resamples=2)))
 
 

@@ -277,10 +277,10 @@ def test_what_is_not_reached_is_said(record: sm.Record) -> None:
     scaled = sm.matching.match_spectrum(record, TARGET, max_iterations=0)
     assert scaled.record.acceleration.tobytes() == record.scaled(scaled.factor).acceleration.tobytes()
     # Ordinates that no wavelet can reach end in a remark, not in an error.
-    rising = sm.matching.match_spectrum(noise(800), lambda periods: 0.5 * periods**2, max_iterations=4)
+    rising = sm.matching.match_spectrum(noise(800), lambda periods: 0.5 * periods**2, points=60, max_iterations=4)
     assert rising.remarks[0].startswith("not matched within 3 %") or rising.converged
     # Its strongest oscillators answer after its end: no wavelet within it can do what is asked.
-    short = sm.matching.match_spectrum(noise(20), TARGET, max_iterations=4)
+    short = sm.matching.match_spectrum(noise(20), TARGET, points=60, max_iterations=4)
     assert not short.converged
     assert any("made narrower" in remark for remark in short.remarks)
 

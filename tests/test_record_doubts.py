@@ -383,7 +383,7 @@ def test_a_matched_suite_that_is_interrupted_ends_its_threads(monkeypatch: pytes
 
     monkeypatch.setattr(match, "adjust", watched)
     records = sm.builtin_suite().records
-    short = records[0].replace(acceleration=records[0].acceleration[:300])
+    short = records[0].with_duration(3.0)
     hard = {"tolerance": 1e-4, "max_iterations": 10}
     suite = [short, records[1], records[2], records[3]]
     with pytest.raises(KeyboardInterrupt):

@@ -342,7 +342,10 @@ def test_page_of_a_building_that_no_animation_shows(
         "storeys": [{}, {"live_load_kpa": 0.0}],
         **further,
     }
-    few = list(sm.records.builtin_pairs())[:3] if "other_direction" in further else list(SUITE)[:3]
+    pairs = [
+        sm.records.Pair(*(one.with_duration(10.0) for one in pair)) for pair in list(sm.records.builtin_pairs())[:3]
+    ]
+    few = pairs if "other_direction" in further else [pair.first for pair in pairs]
     sm.assess(given, few, mu_factors=(1.0, 1.0), resamples=2).write(tmp_path)
     text = analysis_text((tmp_path / "report.html").read_text(encoding="utf-8"))
     for said in (*words, "The live page cannot show this building", "Spectra of the motions"):
