@@ -33,7 +33,7 @@ DEFAULT_POINTS: Final = 200
 
 
 class ResponsePlots(Views):
-    """Figures of a response: each method is the function of `seismass.show.plots` with its name."""
+    """Figures of a response: each method is the function of `seismass.plots` with its name."""
 
     __slots__ = ()
 
@@ -230,7 +230,7 @@ class Response(RackResults, BaseResults, ResponseDocument):
 
     @property
     def plot(self) -> ResponsePlots:
-        """Figures of the response: `response.plot.drift()` and the other functions of `seismass.show.plots`."""
+        """Figures of the response: `response.plot.drift()` and the other functions of `seismass.plots`."""
         return ResponsePlots(self)
 
     @property

@@ -39,7 +39,7 @@ NOTABLE: Final = 0.01
 
 @runtime_checkable
 class Lognormal(Protocol):
-    """A lognormal fragility, as `seismass.studies.fragility` fits it."""
+    """A lognormal fragility, as `seismass.fragility` fits it."""
 
     @property
     def median(self) -> float:
