@@ -8,7 +8,7 @@ AUDIT_VENV := .venv-audit
 PYTHON := $(VENV)/bin/python
 RUST_SOURCES := Cargo.toml Cargo.lock $(shell find crates -name '*.rs' -o -name Cargo.toml)
 DATA := $(shell find data -type f)
-WEB_KERNEL := python/seismass/explore/seismass_web.wasm
+WEB_KERNEL := python/seismass/show/explore/seismass_web.wasm
 
 export PATH := $(PATH):$(HOME)/.cargo/bin
 export PIP_DISABLE_PIP_VERSION_CHECK := 1

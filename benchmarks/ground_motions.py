@@ -22,7 +22,7 @@ import numpy as np
 import seismass as sm
 from environment import page_module, summary
 from scenes import FloatArray
-from seismass.records import Record
+from seismass.motions.records import Record
 
 DAMPING: Final = 0.05
 ZEROS: Final = 60.0

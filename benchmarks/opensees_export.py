@@ -20,7 +20,7 @@ from typing import Final
 import seismass as sm
 from environment import page_module
 from seismass.assessment.building_file import example_file
-from seismass.assessment.opensees_models import write_models
+from seismass.assessment.run import write_models
 
 ROOT: Final = Path(__file__).parents[1]
 PAGE: Final = ROOT / "docs" / "opensees.md"

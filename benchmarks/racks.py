@@ -25,7 +25,7 @@ import polars as pl
 
 import seismass as sm
 from seismass.base.values import FloatArray
-from seismass.spectra import mean_spectrum
+from seismass.motions.spectra import mean_spectrum
 
 ROOT = Path(__file__).parents[1]
 RESULTS = ROOT / "benchmarks" / "results" / "racks.csv"

@@ -19,8 +19,8 @@ import polars as pl
 import seismass as sm
 from environment import page_module
 from seismass.effective_mass import EffectiveMassParameters, effective_mass_map
-from seismass.effective_mass.rules import CLOSED_FORMS
-from seismass.spectra import DEFAULT_SDS_G
+from seismass.effective_mass.estimate import CLOSED_FORMS
+from seismass.motions.spectra import DEFAULT_SDS_G
 
 ROOT = Path(__file__).parents[1]
 RESULTS = ROOT / "benchmarks" / "results" / "rules.csv"

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any, Final
 
-from seismass.campaign.campaign import MOST_PART_RUNS
-from seismass.campaign.progress import duration_text
+from seismass.studies.campaign.campaign import MOST_PART_RUNS
+from seismass.studies.campaign.engine import duration_text
 
 SIZES: Final = (10**6, 10**9, 10**12)
 CORES: Final = (2, 64, 4096)

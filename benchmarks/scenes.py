@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import seismass as sm
-from seismass.study import StudyParameters, study_buildings
+from seismass.studies.study import StudyParameters, study_buildings
 
 FloatArray = NDArray[np.float64]
 

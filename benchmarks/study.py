@@ -24,7 +24,7 @@ from environment import summary
 from scenes import FloatArray, suite
 from seismass.show.study.tables import study_tables
 from seismass.show.study.write import write_study
-from seismass.study import MODELS, StudyParameters, StudyResult, run_study, study_buildings
+from seismass.studies.study import MODELS, StudyParameters, StudyResult, run_study, study_buildings
 
 REPEATS: Final = 5
 TOTAL: Final = "total without figures"

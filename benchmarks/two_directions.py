@@ -31,15 +31,14 @@ import polars as pl
 import seismass as sm
 from environment import page_module
 from seismass.base.values import FloatArray
-from seismass.effective_mass.curve import interpolated
 from seismass.effective_mass.estimate import exponent, height_ratio
-from seismass.effective_mass.models import attached, full_weight
+from seismass.effective_mass.models import attached, full_weight, interpolated
 from seismass.effective_mass.runs import named_motions, solve
 from seismass.model.building import Building
 from seismass.model.scene import Scene
-from seismass.records import Pair
+from seismass.motions.records import Pair
+from seismass.motions.spectra import corner_period, mean_spectrum
 from seismass.runs.batch import solve_many
-from seismass.spectra import corner_period, mean_spectrum
 
 ROOT: Final = Path(__file__).parents[1]
 RESULTS: Final = ROOT / "benchmarks" / "results" / "two_directions.json"

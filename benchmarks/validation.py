@@ -20,8 +20,8 @@ import seismass as sm
 from contestants import opensees
 from contestants.opensees import Recipe
 from scenes import BenchmarkScene
-from seismass.validation.recordings import components, label
-from seismass.validation.three_storeys import COMPARED_SLOPES, KEPT, PEAK_G, samples_digest, section4_scene
+from seismass.studies.validation.shaking_table import components, label
+from seismass.studies.validation.three_storeys import COMPARED_SLOPES, KEPT, PEAK_G, samples_digest, section4_scene
 
 SUITE: Final = Path("records/paper_seven.csv")
 RECIPES: Final = (Recipe(1e4, 5, ladder=True), Recipe(1e5, 50, ladder=True))

@@ -135,7 +135,7 @@ def unequal_motions() -> tuple[sm.Record, ...]:
 @pytest.fixture(scope="session")
 def take_few() -> Callable[[pytest.MonkeyPatch], None]:
     """What makes three of the built-in forty, for whole commands of which no number is tested."""
-    from seismass.records import builtin
+    from seismass.motions.records import builtin
 
     stored = builtin._stored
     return lambda patch: patch.setattr(builtin, "_stored", lambda *of: stored(*of)[:3])

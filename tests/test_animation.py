@@ -16,10 +16,10 @@ import pytest
 from PIL import Image
 
 import seismass as sm
-from seismass.animation.shown import MOST_VALUES
 from seismass.cli import main
 from seismass.runs.response import EVENT_KINDS
 from seismass.runs.scene_file import example_scene
+from seismass.show.animation.animation import MOST_VALUES
 from seismass.show.animation.picture import Picture
 
 BUILDING = sm.Building.uniform(3, 0.6, yield_shear_over_weight=[0.24, 0.20, 0.12], heights=[3.7, 3.1, 2.9])

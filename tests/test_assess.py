@@ -14,9 +14,9 @@ from matplotlib.figure import Figure
 import seismass as sm
 from seismass.assessment.answer import rounded_up
 from seismass.assessment.building_file import example_file
-from seismass.assessment.damping import force_ratios
+from seismass.assessment.checks import drift_statistics, statistics_of
 from seismass.assessment.models import with_mass
-from seismass.assessment.tables import drift_statistics, statistics_of
+from seismass.assessment.structure import force_ratios
 from seismass.cli import main
 from seismass.show.assessment.page import building_page
 from seismass.show.assessment.tables import assessment_tables

@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from seismass.base.errors import InvalidMotion, RecordFormatError, SeismassError
-from seismass.model.motion import Motion
-from seismass.records import Record, Suite, read_record, read_suite
-from seismass.records.formats.at2 import parse_at2
-from seismass.records.formats.columns import parse_columns
+from seismass.motions.motion import Motion
+from seismass.motions.records import Record, Suite, read_record, read_suite
+from seismass.motions.records.formats.at2 import parse_at2
+from seismass.motions.records.formats.columns import parse_columns
 
 HEADER = "PEER NGA STRONG MOTION DATABASE RECORD\nQuake, 1/1/2000, Town, 90\nACCELERATION TIME SERIES IN UNITS OF G\n"
 FIVE = "  -.1000000E-03   .2000000E-03   .3000000E-03  -.4000000E-03   .5000000E-03\n"

@@ -102,7 +102,7 @@ def file(**base: Any) -> dict[str, Any]:
 def test_a_base_of_a_file() -> None:
     building = sm.read_building(file(mu_s=0.08, mu_k=0.06, radius_m=2.5, mass_kg=2e5))
     assert building.base == sm.SlidingBase(mu_s=0.08, mu_k=0.06, radius=2.5, mass=2e5)
-    motions = [record.replace(acceleration=record.acceleration[:1000]) for record in SUITE]
+    motions = [record.with_duration(10.0) for record in SUITE]
     found = sm.assess(building, motions, scale=False, mu_factors=(1, 1), resamples=2)
     told = " ".join(found.advice)
     assert "The base slips" in told

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass.assessment.racks import DEFAULT_FRAME, DEFAULT_LEVELS
+from seismass.assessment.floors import DEFAULT_FRAME, DEFAULT_LEVELS
 
 SUITE = sm.builtin_suite("seven")[:3]
 

@@ -16,8 +16,8 @@ import pytest
 from polars.testing import assert_frame_equal
 
 import seismass as sm
-from seismass.campaign.places import part_path
-from seismass.campaign.progress import duration_text
+from seismass.studies.campaign.engine import duration_text
+from seismass.studies.campaign.manifest import part_path
 
 BUILDING = sm.Building.uniform(2, 0.3, heights=[3.4, 2.7], yield_shear_over_weight=[0.2, 0.12])
 MOTIONS = [
@@ -189,7 +189,7 @@ def test_lost_workers_are_an_error_that_says_how_to_go_on(tmp_path: Path) -> Non
 
 
 def test_an_interrupt_leaves_whole_parts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("seismass.campaign.engine.SECONDS_BETWEEN_REPORTS", 0.0)
+    monkeypatch.setattr("seismass.studies.campaign.engine.SECONDS_BETWEEN_REPORTS", 0.0)
 
     def interrupt(progress: sm.campaign.CampaignProgress) -> None:
         if progress.parts_done:

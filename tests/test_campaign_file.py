@@ -14,8 +14,8 @@ from polars.testing import assert_frame_equal
 
 import seismass as sm
 from seismass import cli
-from seismass.campaign import example_description
-from seismass.campaign.places import part_path
+from seismass.studies.campaign import example_description
+from seismass.studies.campaign.manifest import part_path
 
 BASE: dict[str, Any] = {
     "name": "trial",

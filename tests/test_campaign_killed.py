@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 
 import seismass as sm
-from seismass.campaign.places import part_path
+from seismass.studies.campaign.manifest import part_path
 
 PROGRAM = """
     import sys
@@ -57,7 +57,7 @@ def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.skipif(sys.platform != "linux", reason="the start of a process is read from /proc")
 def test_a_client_killed_at_random_times_ends_in_the_same_bytes(undisturbed: Path, tmp_path: Path) -> None:
     server = multiprocessing.get_context("forkserver")
-    server.set_forkserver_preload(["numpy", "polars", "seismass", "seismass.campaign"])
+    server.set_forkserver_preload(["numpy", "polars", "seismass", "seismass.studies.campaign"])
     rng = random.Random(7)
     place = tmp_path / "a"
     total = len(list((undisturbed / "parts").iterdir()))

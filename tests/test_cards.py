@@ -14,9 +14,9 @@ import pytest
 
 import seismass as sm
 from seismass import assessment, effective_mass
-from seismass.animation import animate_plane
-from seismass.media.card import pre
+from seismass.media.result import pre
 from seismass.media.text_table import column_texts
+from seismass.show.animation import animate_plane
 
 SHORT: dict[str, str] = {
     "Block": "an input of one line",

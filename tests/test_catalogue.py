@@ -13,8 +13,8 @@ import pytest
 import seismass as sm
 from seismass.base.errors import RecordFormatError
 from seismass.cli import main
-from seismass.records import catalogue, find_catalogue
-from seismass.records.catalogue import RECORDINGS, SUBSTITUTES
+from seismass.motions.records import catalogue, find_catalogue
+from seismass.motions.records.catalogue import RECORDINGS, SUBSTITUTES
 
 TITLE = "PEER NGA STRONG MOTION DATABASE RECORD"
 

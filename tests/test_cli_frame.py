@@ -19,12 +19,10 @@ import rich.progress
 
 import seismass as sm
 from seismass import cli, commands
-from seismass.commands.command import Command
-from seismass.commands.exit_codes import BAD_INPUT, FAILED, INTERRUPTED
+from seismass.commands.frame import BAD_INPUT, FAILED, INTERRUPTED, Command, progress, seconds_left
 from seismass.commands.options import numbers_option
 from seismass.commands.parser import COMMANDS, joined_numbers, parse
-from seismass.commands.progress import progress, seconds_left
-from seismass.media.fit_text import fit_text
+from seismass.media.text_table import fit_text
 
 FOLDER = Path(commands.__file__).parent
 
@@ -88,9 +86,9 @@ def test_a_run_that_fails_ends_with_1_in_every_command(
     Path("scene.toml").write_text("[[blocks]]\nfloor = 0\nmass = 1\nmu = 0.1\n")
     module, function = {
         "map": ("seismass.effective_mass", "effective_mass_map"),
-        "validate": ("seismass.validation", "validate"),
-        "study": ("seismass.study", "run_study"),
-        "slip": ("seismass.slip", "slip_demand"),
+        "validate": ("seismass.studies.validation", "validate"),
+        "study": ("seismass.studies.study", "run_study"),
+        "slip": ("seismass.studies.slip", "slip_demand"),
     }[name]
 
     def failing(*args: object, **options: object) -> None:
@@ -301,7 +299,7 @@ def test_lines_are_folded_below_their_label() -> None:
 @pytest.mark.parametrize("wish", [{}, {"NO_COLOR": "1"}, {"TERM": "dumb"}])
 def test_answer_on_a_terminal_and_in_a_file(wish: dict[str, str]) -> None:
     """Bold on a terminal (https://no-color.org: any effect is left out where NO_COLOR is set); plain elsewhere."""
-    program = "from seismass.commands.terminal import show; show('head\\nANSWER  use 0.9\\nrow [1, 2]', 'ANSWER')"
+    program = "from seismass.commands.frame import show; show('head\\nANSWER  use 0.9\\nrow [1, 2]', 'ANSWER')"
     environment = {name: value for name, value in os.environ.items() if name not in ("NO_COLOR", "FORCE_COLOR")}
     environment |= {"TERM": "xterm-256color"} | wish
     command = [sys.executable, "-c", program]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from seismass.cli import main
-from seismass.pulses import wavelet
+from seismass.motions.pulses import wavelet
 
 DT, PERIOD = 0.01, 2.0
 TIME = np.arange(3000) * DT

@@ -12,7 +12,7 @@ import pytest
 import seismass as sm
 from seismass.assessment.models import with_mass
 from seismass.cli import main
-from seismass.records.builtin import data_directory
+from seismass.motions.records.builtin import data_directory
 
 SUITE = sm.builtin_suite("seven")
 TARGET = sm.TargetSpectrum.asce7()

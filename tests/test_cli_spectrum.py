@@ -11,7 +11,7 @@ import pytest
 
 import seismass as sm
 from seismass.cli import main
-from seismass.records.formats.headers import NO_COUNT
+from seismass.motions.records.formats.common import NO_COUNT
 
 SAMPLES = np.sin(0.3 * np.arange(400)) * np.hanning(400)
 PERIODS = (0.2, 0.5)

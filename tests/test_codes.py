@@ -9,11 +9,11 @@ import pytest
 
 import seismass as sm
 from seismass.cli import main
-from seismass.explore.page import _codes
 from seismass.model import codes
 from seismass.model.codes import CODE_IDS, VERIFIED
 from seismass.model.friction import FRICTION_IDS
-from seismass.show.effective_mass.figures import CODES_LEGEND, STORAGE_CODES
+from seismass.show.effective_mass import CODES_LEGEND, STORAGE_CODES
+from seismass.show.explore.page import _codes
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 import seismass as sm
 from seismass import design
-from seismass.scaling.oscillator import pushover_curve
+from seismass.design.scaling.oscillator import pushover_curve
 
 
 def along_the_kernel(building: sm.Building, path: design.Pushover) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass.assessment.shares import DESIGN_SHARES, design_share, fractions_by_friction
+from seismass.assessment.answer import DESIGN_SHARES, design_share, fractions_by_friction
 
 
 def building(collapse: float | None) -> sm.assessment.OwnBuilding:

@@ -13,7 +13,7 @@ import seismass as sm
 from seismass.assessment.building_file import read_building
 from seismass.base.digest import LABELS, fields_of, inputs_digest, motion_contents
 from seismass.base.values import Value
-from seismass.records.builtin import data_directory
+from seismass.motions.records.builtin import data_directory
 
 
 def changed(value: Any, where: str) -> Iterator[tuple[str, Any]]:

@@ -14,10 +14,10 @@ import pytest
 
 import seismass as sm
 from seismass.cli import main
-from seismass.media.folder import _list_sha256
+from seismass.media.result import _list_sha256
 from seismass.show.study.tables import study_tables
 from seismass.show.study.write import write_study
-from seismass.study import StudyParameters, run_study
+from seismass.studies.study import StudyParameters, run_study
 
 SUITE = sm.builtin_suite("seven")
 KINDS = ("building", "study")

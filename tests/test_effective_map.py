@@ -13,8 +13,8 @@ import pytest
 import seismass as sm
 from seismass.cli import main
 from seismass.design import response_spectrum_analysis
-from seismass.effective_mass.rules import RULES
-from seismass.spectra import mean_spectrum
+from seismass.effective_mass.estimate import RULES
+from seismass.motions.spectra import mean_spectrum
 
 SUITE = sm.builtin_suite("seven")
 TARGET = sm.TargetSpectrum.asce7()

@@ -15,8 +15,8 @@ import pytest
 import seismass as sm
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.design import response_spectrum_analysis
-from seismass.effective_mass.curve import interpolated
-from seismass.spectra import mean_spectrum
+from seismass.effective_mass.models import interpolated
+from seismass.motions.spectra import mean_spectrum
 
 SUITE = sm.builtin_suite("seven")
 FACTORS = sm.scaling.scale_asce7_10(SUITE, sm.TargetSpectrum.asce7(), between=False).factors

@@ -19,12 +19,12 @@ import pytest
 import seismass as sm
 from seismass.cli import main
 from seismass.design import response_spectrum_analysis
-from seismass.effective_mass.curve import bootstrap_counts
-from seismass.explore import compiled, explorer_html
-from seismass.explore.chart import BINS, CASES
-from seismass.explore.page import RESAMPLES
+from seismass.effective_mass.models import bootstrap_counts
 from seismass.media.page import page_html
-from seismass.spectra import mean_spectrum
+from seismass.motions.spectra import mean_spectrum
+from seismass.show.explore import explorer_html
+from seismass.show.explore import page as compiled
+from seismass.show.explore.page import BINS, CASES, RESAMPLES
 
 ROOT = Path(__file__).parents[1]
 HERE = Path(__file__).parent / "explorer"

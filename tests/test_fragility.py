@@ -8,8 +8,8 @@ from scipy.optimize import minimize
 from scipy.stats import binom, norm
 
 import seismass as sm
-from seismass.fragility import fit_capacities, fit_cloud, fit_counts
-from seismass.fragility.probability import probabilities
+from seismass.studies.fragility import fit_capacities, fit_cloud, fit_counts
+from seismass.studies.fragility.fragility import probabilities
 
 # The example that is distributed with Baker (2015), Earthquake Spectra 31:579-599: 40 motions at each intensity.
 LEVELS = np.array([0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1.0])

@@ -10,8 +10,8 @@ import pytest
 
 import seismass as sm
 from seismass.design import response_spectrum_analysis
-from seismass.spectra import mean_spectrum
-from seismass.study import StudyParameters, run_study
+from seismass.motions.spectra import mean_spectrum
+from seismass.studies.study import StudyParameters, run_study
 
 BASE = sm.Building.uniform(
     3, 0.47, mass=2e5, yield_shear_over_weight=[0.3, 0.25, 0.12], heights=[3.7, 3.1, 2.9], gravity_load=2e6

@@ -12,10 +12,10 @@ from polars.testing import assert_frame_equal
 from scipy import stats
 
 import seismass as sm
+from seismass.motions.spectra.target import target_of_parameters
 from seismass.runs.grid.sample import METHODS, points
-from seismass.spectra.stored import target_of_parameters
-from seismass.study import StudyParameters
-from seismass.study.buildings import study_buildings
+from seismass.studies.study import StudyParameters
+from seismass.studies.study.parameters import study_buildings
 
 BUILDING = sm.Building.uniform(2, 0.3, mass=1000.0, yield_shear_over_weight=[0.2, 0.12], heights=[3.4, 2.7])
 HEAVY = sm.Building.uniform(2, 0.3, mass=1000.0, yield_shear_over_weight=0.2, heights=[3.4, 2.7], gravity_load=9806.65)

@@ -12,8 +12,8 @@ from scipy.integrate import quad
 from scipy.stats import norm
 
 import seismass as sm
-from seismass.risk.annual_rate import annual_rate, capacity_rates, lognormal_rates
-from seismass.risk.hazard import HazardCurve
+from seismass.studies.risk.annual_rate import annual_rate, capacity_rates, lognormal_rates
+from seismass.studies.risk.hazard import HazardCurve
 
 BAKER = Path(__file__).parent / "data" / "hazard_baker.csv"
 CURVE = HazardCurve([0.05, 0.1, 0.3, 1.0, 2.0], [0.02, 0.007, 8e-4, 4e-5, 3e-6], label="test")

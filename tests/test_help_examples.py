@@ -16,9 +16,9 @@ import pytest
 
 from seismass.cli import main
 from seismass.commands.parser import COMMANDS
-from seismass.explore import compiled
-from seismass.matching.files import write_record
-from seismass.records.builtin import builtin_record, data_directory
+from seismass.motions.matching.result import write_record
+from seismass.motions.records.builtin import builtin_record, data_directory
+from seismass.show.explore import page as compiled
 
 RUN = [
     "new own.toml --from storeys.csv --area 1200 --sds 1.0 --sd1 0.6 --live-load 7.2 --friction 0.3",
@@ -55,7 +55,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory, take_few: Callable[[pytest.
     """Files of the names that the examples use, and the folder of an assessment."""
     made, data = tmp_path_factory.mktemp("examples"), data_directory()
     whole = [builtin_record(f"synthetic-{number}") for number in (1, 2, 3)]
-    motions = [motion.replace(acceleration=motion.acceleration[:1500]) for motion in whole]
+    motions = [motion.with_duration(15.0) for motion in whole]
     for name in ("records", "recordings"):
         (made / name).mkdir()
         for motion in motions:

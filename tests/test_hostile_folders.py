@@ -16,8 +16,8 @@ import polars as pl
 import pytest
 
 import seismass as sm
+from seismass.base.files import PREFIX, remove_left_behind, temporary_name
 from seismass.base.kept import kept_folder
-from seismass.base.temporary import PREFIX, remove_left_behind, temporary_name
 from seismass.cli import main
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="links, users and modes of POSIX")

@@ -16,9 +16,9 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 
 import seismass as sm
-from seismass.records import Record, intensity_table
-from seismass.records.intensity import integrals, peak_displacement, peak_velocity
-from seismass.records.measures import MEASURES, drift_remarks
+from seismass.motions.records import Record, intensity_table
+from seismass.motions.records.intensity import integrals, peak_displacement, peak_velocity
+from seismass.motions.records.measures import MEASURES, drift_remarks
 
 G = sm.STANDARD_GRAVITY
 ARIAS = math.pi / (2.0 * G)

@@ -12,8 +12,9 @@ import pytest
 from polars.testing import assert_frame_equal
 
 import seismass as sm
-from seismass.base.kept import KeptResults, digest_of, kept_folder
-from seismass.study import StudyParameters, run_study
+from seismass.base.digest import inputs_digest
+from seismass.base.kept import KeptResults, kept_folder
+from seismass.studies.study import StudyParameters, run_study
 
 TABLE = pl.DataFrame({"numbers": [1.0, 2.0], "words": ["a", None]})
 
@@ -126,9 +127,9 @@ def test_a_part_of_another_place_or_of_other_inputs_is_made_again(tmp_path: Path
 
 def test_a_digest_tells_inputs_apart() -> None:
     scene, motion = sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)]), sm.Motion([1.0, 0.0], 0.1)
-    same = digest_of([sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)])], sm.Motion([1.0, 0.0], 0.1))
-    assert digest_of([scene], motion) == same
-    assert digest_of([scene], sm.Motion([1.0, 0.1], 0.1)) != same
+    same = inputs_digest([sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)])], sm.Motion([1.0, 0.0], 0.1))
+    assert inputs_digest([scene], motion) == same
+    assert inputs_digest([scene], sm.Motion([1.0, 0.1], 0.1)) != same
 
 
 def test_a_study_takes_what_an_interrupted_one_has_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -144,7 +145,7 @@ def test_a_study_takes_what_an_interrupted_one_has_left(tmp_path: Path, monkeypa
         run_study(suite, target, parameters, effective=True, progress=interrupt, kept=KeptResults(tmp_path))
     left = {path.name for path in tmp_path.iterdir()}
     assert left == {f"part-{name}.parquet" for name in ("runs", "effective-1", "effective-2", "effective-3")}
-    monkeypatch.setattr("seismass.study.run.solve_many", None)
+    monkeypatch.setattr("seismass.studies.study.run.solve_many", None)
     again = run_study(suite, target, parameters, effective=True, kept=KeptResults(tmp_path))
     assert_frame_equal(again.responses, whole.responses, check_exact=True)
     assert_frame_equal(again.fractions, whole.fractions, check_exact=True)

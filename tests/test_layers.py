@@ -119,23 +119,23 @@ def test_no_import_runs_upward_and_none_forms_a_circle() -> None:
 @pytest.mark.parametrize(
     "planted",
     [
-        "def late() -> None:\n    from seismass.show.risk.text import risk_text\n",
-        "if TYPE_CHECKING:\n    from seismass.show.risk.text import risk_text\n",
+        "def late() -> None:\n    from seismass.show.risk import risk_text\n",
+        "if TYPE_CHECKING:\n    from seismass.show.risk import risk_text\n",
     ],
     ids=["late", "type-only"],
 )
 def test_an_import_upward_is_found_wherever_it_stands(planted: str) -> None:
     sources = modules()
-    sources["seismass.risk.result"] += f"\n{planted}"
+    sources["seismass.studies.risk.targeted_share"] += f"\n{planted}"
     edges = imports(sources)
-    assert upward(edges) == ["seismass.risk.result imports seismass.show.risk.text"]
-    assert any({"seismass.risk.result", "seismass.show.risk.text"} <= set(group) for group in circles(edges))
+    assert upward(edges) == ["seismass.studies.risk.targeted_share imports seismass.show.risk"]
+    assert any({"seismass.studies.risk.targeted_share", "seismass.show.risk"} <= set(group) for group in circles(edges))
 
 
 def declared() -> Iterator[tuple[str, Callable[..., Any]]]:
     """Every view that a class declares, by its name in the table."""
     for name in modules():
-        if name in ("seismass.__main__", "seismass.pulses.wavelet"):
+        if name in ("seismass.__main__", "seismass.motions.pulses.wavelet"):
             continue
         module = importlib.import_module(name)
         for _, kind in inspect.getmembers(module, inspect.isclass):

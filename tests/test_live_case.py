@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 
 import seismass as sm
-from seismass import explore
 from seismass.assessment.building_file import example_file
-from seismass.media.live_address import LIMITS, MOST_STOREYS
-from seismass.show.assessment.live import OwnCase, own_case
+from seismass.media.page import LIMITS, MOST_STOREYS
+from seismass.show import explore
+from seismass.show.assessment.page_input import OwnCase, own_case
 from seismass.show.assessment.tables import assessment_tables
 
 SCRIPT = (Path(explore.__file__).parent / "templates" / "case.js").read_text(encoding="utf-8")
@@ -24,7 +24,7 @@ def case_of(**changes: Any) -> OwnCase:
     tables = tomllib.loads(example_file().read_text(encoding="utf-8"))
     for table, values in changes.items():
         tables[table] = values if table == "storeys" else {**tables[table], **values}
-    motions = [record.replace(acceleration=record.acceleration[:400]) for record in sm.builtin_suite("forty")[:3]]
+    motions = [record.with_duration(4.0) for record in sm.builtin_suite("forty")[:3]]
     return own_case(assessment_tables(sm.assess(tables, motions, mu_factors=(1.0, 1.0), resamples=2)))
 
 

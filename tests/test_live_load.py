@@ -14,7 +14,7 @@ from scipy import stats
 import seismass as sm
 from pages.effective_mass import far_field_components
 from seismass.design import response_spectrum_analysis
-from seismass.spectra import mean_spectrum
+from seismass.motions.spectra import mean_spectrum
 
 ROOT = Path(__file__).parents[1]
 BUILDING = sm.Building.uniform(3, 0.47, yield_shear_over_weight=[0.34, 0.27, 0.13])

@@ -12,10 +12,18 @@ import pytest
 import seismass as sm
 from pages.matching import misfit_row, motion_row
 from seismass.cli import main
-from seismass.matching.files import write_record
-from seismass.matching.linear import coarse, exact_product, halves, product, solved
-from seismass.matching.oscillators import Extrema, Oscillators
-from seismass.matching.wavelets import half_width, place
+from seismass.motions.matching.linear import (
+    Extrema,
+    Oscillators,
+    coarse,
+    exact_product,
+    half_width,
+    halves,
+    place,
+    product,
+    solved,
+)
+from seismass.motions.matching.result import write_record
 
 ROOT = Path(__file__).parents[1]
 TARGET = sm.TargetSpectrum.asce7()
@@ -269,10 +277,10 @@ def test_what_is_not_reached_is_said(record: sm.Record) -> None:
     scaled = sm.matching.match_spectrum(record, TARGET, max_iterations=0)
     assert scaled.record.acceleration.tobytes() == record.scaled(scaled.factor).acceleration.tobytes()
     # Ordinates that no wavelet can reach end in a remark, not in an error.
-    rising = sm.matching.match_spectrum(noise(800), lambda periods: 0.5 * periods**2, max_iterations=4)
+    rising = sm.matching.match_spectrum(noise(800), lambda periods: 0.5 * periods**2, points=60, max_iterations=4)
     assert rising.remarks[0].startswith("not matched within 3 %") or rising.converged
     # Its strongest oscillators answer after its end: no wavelet within it can do what is asked.
-    short = sm.matching.match_spectrum(noise(20), TARGET, max_iterations=4)
+    short = sm.matching.match_spectrum(noise(20), TARGET, points=60, max_iterations=4)
     assert not short.converged
     assert any("made narrower" in remark for remark in short.remarks)
 
@@ -435,7 +443,7 @@ def test_outputs_are_judged_before_records_are_matched(
     record: sm.Record, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Nothing replaces a recording or stands among recordings, and no time is spent on what cannot be written."""
-    monkeypatch.setattr("seismass.matching.match_suite", lambda *_, **__: pytest.fail("matched"))
+    monkeypatch.setattr("seismass.motions.matching.match_suite", lambda *_, **__: pytest.fail("matched"))
     folder = tmp_path / "records"
     folder.mkdir()
     for number in (1, 2):

@@ -100,8 +100,12 @@ def test_operators_of_rust_have_a_switch(tools: dict[str, dict[str, Any]], line:
 
 def test_a_drawn_fault_asks_the_tests_that_name_its_module(tools: dict[str, dict[str, Any]]) -> None:
     asked = tools["planted_faults"]["tests_of"]
-    module = Path("python/seismass/slip/squat.py")
-    tests = {"test_a": "from seismass.slip import demand, squat", "test_b": "sm.rocks(1)", "test_slip_c": "rocks_not"}
+    module = Path("python/seismass/studies/slip/squat.py")
+    tests = {
+        "test_a": "from seismass.studies.slip import demand, squat",
+        "test_b": "sm.rocks(1)",
+        "test_slip_c": "rocks_not",
+    }
     assert asked(module, "def rocks():\n    pass\n", tests) == ("test_a", "test_b")
     assert asked(module, "def _rocks():\n    pass\n", {**tests, "test_a": ""}) == ("test_slip_c",)
 
@@ -110,11 +114,11 @@ def test_page_counts_faults_that_are_faults(tools: dict[str, dict[str, Any]]) ->
     """Wilson's interval of 1 of 2 at 95 %: 0.5 ± z sqrt(2 + z²) / (2 (2 + z²)) with z = 1.96, 9 to 91 %."""
     fault, (listed, _), (drawn, _) = (tools["planted_faults"][name] for name in ("Fault", "LISTED", "DRAWN"))
     faults = [
-        fault(listed, 1, "one", Path("python/seismass/slip/a.py"), caught="chosen tests"),
-        fault(listed, 2, "two", Path("python/seismass/slip/b.py")),
-        fault(listed, 3, "three", Path("python/seismass/slip/b.py"), reason="both are 0"),
+        fault(listed, 1, "one", Path("python/seismass/studies/slip/a.py"), caught="chosen tests"),
+        fault(listed, 2, "two", Path("python/seismass/studies/slip/b.py")),
+        fault(listed, 3, "three", Path("python/seismass/studies/slip/b.py"), reason="both are 0"),
         fault(drawn, 1, "four", Path("python/seismass/cli.py"), caught="quick tier"),
-        fault(drawn, 2, "five", Path("python/seismass/risk/c.py")),
+        fault(drawn, 2, "five", Path("python/seismass/studies/risk/c.py")),
     ]
     page = tools["mutants_page"]["page"](faults, {listed: ("chosen tests",), drawn: ("chosen tests", "quick tier")})
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in page.splitlines() if line.startswith("|")]

@@ -12,8 +12,8 @@ import pytest
 
 from pages.parts import NoRecordings, made, names
 from seismass.effective_mass import EffectiveMassMap
-from seismass.records import read_suite
-from seismass.study import StudyResult, sensitivity
+from seismass.motions.records import read_suite
+from seismass.studies.study import StudyResult, sensitivity
 
 ROOT = Path(__file__).parents[1]
 

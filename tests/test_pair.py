@@ -17,8 +17,8 @@ from hypothesis import strategies as st
 
 import seismass as sm
 from pages.ground_motions import listed_pairs
-from seismass.records import Pair, Record, find_pairs, read_pair, rotd
-from seismass.records.rotation import between
+from seismass.motions.records import Pair, Record, find_pairs, read_pair, rotd
+from seismass.motions.records.pair import between
 
 ROOT = Path(__file__).parents[1]
 AT2_HEAD = "PEER NGA STRONG MOTION DATABASE RECORD\n{title}\nACCELERATION TIME SERIES IN UNITS OF G\n"

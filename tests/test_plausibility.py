@@ -9,7 +9,7 @@ import seismass as sm
 from seismass.base.units import STANDARD_GRAVITY as G
 from seismass.cli import main
 from seismass.model.plausibility import motion_remarks
-from seismass.spectra.remarks import target_remarks
+from seismass.motions.spectra.target import target_remarks
 
 
 def scene(mu=0.4, **building):

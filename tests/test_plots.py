@@ -18,12 +18,11 @@ from matplotlib.text import Text
 import seismass as sm
 from pages.parts import Page
 from pages.plots import FIGURES
-from seismass.media.figure_file import save_figure
-from seismass.plots.timeline import MARKS
-from seismass.runs.response import EVENT_KINDS
-from seismass.runs.response_views import ResponsePlots
+from seismass.media.svg import save_figure
+from seismass.runs.response import EVENT_KINDS, ResponsePlots
+from seismass.show.plots.histories import MARKS
 from seismass.show.study.figures import study_figures
-from seismass.study import StudyParameters, run_study
+from seismass.studies.study import StudyParameters, run_study
 
 ROOT = Path(__file__).parents[1]
 G = sm.STANDARD_GRAVITY

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass.plots import FloorPlan, Footprint, floor_paths
+from seismass.show.plots import FloorPlan, Footprint, floor_paths
 
 G = 9.80665
 CRATES = sm.Scene(None, [sm.Block(0, mass=100.0, mu=mu) for mu in (0.1, 0.15)], other_direction=True)

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass.records import Record
-from seismass.records.processing import band_passed, baseline_corrected, resampled
+from seismass.motions.records import Record
+from seismass.motions.records.processing import band_passed, baseline_corrected, resampled
 
 
 @pytest.fixture

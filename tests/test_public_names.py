@@ -38,7 +38,7 @@ def test_completion_shows_the_public_names_of_a_group_and_nothing_else(group: st
     assert sorted(dir(module)) == sorted(module.__all__)
     for name in module.__all__:
         value = getattr(module, name)
-        assert not inspect.ismodule(value)
+        assert not inspect.ismodule(value) or name in GROUPS
         if inspect.isclass(value) or inspect.isfunction(value):
             assert value.__module__.startswith("seismass.")
             assert value.__doc__

@@ -16,8 +16,8 @@ from scipy.signal import butter, sosfiltfilt
 
 import seismass as sm
 from seismass.base.errors import InvalidMotion, InvalidOption, MissingPackage
-from seismass.media.figure_file import save_figure
-from seismass.pulses import (
+from seismass.media.svg import save_figure
+from seismass.motions.pulses import (
     baker2007,
     baker2007_orientations,
     pulse_indicator_2007,
@@ -25,8 +25,8 @@ from seismass.pulses import (
     shahi_baker2014,
     wavelet,
 )
-from seismass.pulses.extraction import scale_range
-from seismass.records import Pair
+from seismass.motions.pulses.extraction import scale_range
+from seismass.motions.records import Pair
 
 DT, SAMPLES = 0.01, 6000
 TIME = np.arange(SAMPLES) * DT

@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 import seismass as sm
-from seismass.scaling.oscillator import deformation_ratio
+from seismass.design.scaling.oscillator import deformation_ratio
 
 G = 9.80665
 TARGET = sm.TargetSpectrum.asce7()

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seismass.assessment.tables import statistics_of
-from seismass.base.quantiles import QUANTILES, interval_of, quantile
+from seismass.assessment.checks import statistics_of
+from seismass.base.statistics import QUANTILES, interval_of, quantile
 
 ROWS = np.random.default_rng(7).lognormal(size=(4, 11))
 

@@ -10,8 +10,8 @@ from PIL import Image
 
 from pages.questions import command
 from seismass import animate, read_scene
-from seismass.explore import compiled
 from seismass.runs.scene_file import example_scene
+from seismass.show.explore import page as compiled
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from seismass.base.errors import MissingPackage, RecordFormatError
-from seismass.records import Record, read_counts, read_record
+from seismass.motions.records import Record, read_counts, read_record
 
 COUNTS = (3, -5, 10, -8, 2, -2, 0, 0)
 """Their sum is 0, so that nothing is to be removed."""
@@ -110,7 +110,9 @@ def test_a_channel_without_a_code_has_a_remark(tmp_path: Path) -> None:
 def test_other_files_and_a_missing_package_are_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(RecordFormatError, match=r"content of a.txt must be miniSEED or SAC; got something else"):
         read_counts(put(tmp_path, "a.txt", b"0.0\n" * 99), factor=1.0)
-    with pytest.raises(RecordFormatError, match=r"got SAC: read it by seismass.records.read_counts with the m/s2"):
+    with pytest.raises(
+        RecordFormatError, match=r"got SAC: read it by seismass.motions.records.read_counts with the m/s2"
+    ):
         read_record(put(tmp_path, "a.sac", sac()))
     monkeypatch.setitem(sys.modules, "obspy", None)
     with pytest.raises(

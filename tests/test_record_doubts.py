@@ -17,15 +17,14 @@ import seismass as sm
 from seismass import cli
 from seismass.base.errors import RecordFormatError
 from seismass.base.units import ACCELERATION_UNITS, STANDARD_GRAVITY
-from seismass.matching import match
-from seismass.matching.stopping import Stopped
-from seismass.records import Record, find_pairs, read_record, read_records, read_suite
-from seismass.records.archive import is_archive
-from seismass.records.formats import NotRead
-from seismass.records.formats.directions import azimuth_of
-from seismass.records.place import off_ground
-from seismass.records.suite import suite_of_file
-from seismass.spectra.remarks import target_remarks
+from seismass.motions.matching import match
+from seismass.motions.matching.linear import Stopped
+from seismass.motions.records import Record, find_pairs, read_record, read_records, read_suite
+from seismass.motions.records.formats import NotRead
+from seismass.motions.records.formats.labels import azimuth_of
+from seismass.motions.records.read import is_archive, off_ground
+from seismass.motions.records.suite import suite_of_file
+from seismass.motions.spectra.target import target_remarks
 
 ROOT = Path(__file__).parents[1]
 MADE = runpy.run_path(str(ROOT / "tools" / "record_files.py"))
@@ -384,7 +383,7 @@ def test_a_matched_suite_that_is_interrupted_ends_its_threads(monkeypatch: pytes
 
     monkeypatch.setattr(match, "adjust", watched)
     records = sm.builtin_suite().records
-    short = records[0].replace(acceleration=records[0].acceleration[:300])
+    short = records[0].with_duration(3.0)
     hard = {"tolerance": 1e-4, "max_iterations": 10}
     suite = [short, records[1], records[2], records[3]]
     with pytest.raises(KeyboardInterrupt):

@@ -23,12 +23,12 @@ from hypothesis import strategies as st
 
 from seismass.base.errors import RecordFormatError
 from seismass.base.units import STANDARD_GRAVITY, unit_by_name
-from seismass.records import Record, read_record, read_records, read_suite
-from seismass.records.checks import suspicions
-from seismass.records.formats import FORMATS, NotRead, recognise
-from seismass.records.formats.directions import azimuth_of, is_vertical
-from seismass.records.formats.fixed import layout_of
-from seismass.records.suite import suite_of_file
+from seismass.motions.records import Record, read_record, read_records, read_suite
+from seismass.motions.records.formats import FORMATS, NotRead, recognise
+from seismass.motions.records.formats.fixed import layout_of
+from seismass.motions.records.formats.labels import azimuth_of, is_vertical
+from seismass.motions.records.read import suspicions
+from seismass.motions.records.suite import suite_of_file
 
 ROOT = Path(__file__).parents[1]
 MADE = runpy.run_path(str(ROOT / "tools" / "record_files.py"))
@@ -431,7 +431,7 @@ NAMED: list[tuple[str, bytes, str]] = [
     (
         "a.mseed",
         b"000001D AB12 00HNZCE\x07\xe2\x00\xf1" + bytes(600),
-        r"content of a.mseed must be text; got miniSEED: read it by seismass.records.read_counts with",
+        r"content of a.mseed must be text; got miniSEED: read it by seismass.motions.records.read_counts with",
     ),
     ("a.ms", b"MS\x03\x00" + bytes(60), r"got miniSEED 3"),
     ("a.seed", b"000001V 010009402.3121970,001" + b" " * 60, r"got SEED"),

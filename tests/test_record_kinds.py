@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from seismass.base.errors import RecordFormatError
-from seismass.records import read_records
+from seismass.motions.records import read_records
 
 ROOT = Path(__file__).parents[1]
 TOOL = runpy.run_path(str(ROOT / "tools" / "kinds_of_files.py"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from seismass.records.formats.labels import labels_of, no_motion
+from seismass.motions.records.formats.labels import labels_of, no_motion
 
 T, A, V, D, COUNT, NO = "times", "acceleration", "velocity", "displacement", "index", "no motion"
 

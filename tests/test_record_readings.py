@@ -12,8 +12,8 @@ import pytest
 
 from pages.records import ARGUMENTS
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.records import read_record, read_records, read_suite
-from seismass.records.formats.headers import NO_COUNT
+from seismass.motions.records import read_record, read_records, read_suite
+from seismass.motions.records.formats.common import NO_COUNT
 
 ROOT = Path(__file__).parents[1]
 with (ROOT / "tests" / "data" / "other_readers.csv").open(encoding="utf-8", newline="") as _file:

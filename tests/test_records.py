@@ -13,10 +13,9 @@ from hypothesis import strategies as st
 from seismass.base.errors import InvalidMotion, RecordFormatError
 from seismass.base.units import STANDARD_GRAVITY, stated_unit, unknown_unit
 from seismass.commands.options import left_out
-from seismass.model.motion import Motion
-from seismass.records import Record, Suite, builtin_suite, read_record, read_suite
-from seismass.records.formats.headers import NO_COUNT
-from seismass.records.formats.numbers import is_cut_off, split_touching
+from seismass.motions.motion import Motion
+from seismass.motions.records import Record, Suite, builtin_suite, read_record, read_suite
+from seismass.motions.records.formats.common import NO_COUNT, is_cut_off, split_touching
 
 VALUES_G = [0.001, -0.25, 0.125, 1.5e-4, -3.0e-3, 0.0, 0.0625]
 FIELDS = "".join(f"{value:15.7E}" for value in VALUES_G)

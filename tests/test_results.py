@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 import seismass as sm
 from seismass.effective_mass.design_map import EffectiveMassMap
 from seismass.media.result import Result
-from seismass.study import Sensitivity
-from seismass.study.run import StudyResult
-from seismass.validation import Validation
+from seismass.studies.study import Sensitivity
+from seismass.studies.study.run import StudyResult
+from seismass.studies.validation import Validation
 
 KINDS = (
     sm.Assessment,

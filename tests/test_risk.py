@@ -10,11 +10,11 @@ import polars as pl
 import pytest
 
 import seismass as sm
-from seismass.fragility import IntensityMeasure, solve_grid
-from seismass.fragility.exact_capacities import STEP, exact_capacities
-from seismass.fragility.run import setting_of
-from seismass.risk.annual_rate import annual_rate
-from seismass.risk.rates import RateCurve
+from seismass.studies.fragility import IntensityMeasure, solve_grid
+from seismass.studies.fragility.hunt import STEP, exact_capacities
+from seismass.studies.fragility.run import setting_of
+from seismass.studies.risk.annual_rate import annual_rate
+from seismass.studies.risk.tables import RateCurve
 
 G = sm.STANDARD_GRAVITY
 HAZARD = sm.risk.HazardCurve(

@@ -11,9 +11,9 @@ import pytest
 
 import seismass
 from seismass.assessment import models
-from seismass.media import roles
+from seismass.media import style as roles
 from seismass.media.page import templates
-from seismass.media.roles import (
+from seismass.media.style import (
     ALPHA,
     BLOCK_COLOURS,
     CSS_NAMES,
@@ -21,39 +21,32 @@ from seismass.media.roles import (
     LAMBDA,
     MODELS,
     MU,
+    SERIES,
     Role,
     css,
     lettered,
     model_name,
 )
-from seismass.media.style import SERIES
 
 PACKAGE = Path(seismass.__file__).parent
-SHOWN = [path for part in ("show", "plots", "explore", "animation") for path in sorted((PACKAGE / part).rglob("*.py"))]
+SHOWN = sorted((PACKAGE / "show").rglob("*.py"))
 HUES = {"BLUE", "VERMILION", "GREEN", "PURPLE", "ORANGE", "SKY", "DEEP_BLUE", "MAGENTA"}
 WITHOUT_MODELS = {
-    "plots/batches.py": "fractiles of runs",
-    "plots/contacts.py": "kinds of contact",
-    "plots/floor_plan.py": "aisles, places of goods, and who has passed an edge",
-    "plots/growth.py": "kinds of energy",
-    "plots/histories.py": "one run, and stops",
-    "plots/hysteresis.py": "one run, and backbones",
-    "plots/profiles.py": "one run",
-    "plots/pushover.py": "a curve, and what happens on it",
-    "plots/timeline.py": "kinds of events",
-    "show/animation/canvas.py": "paper, slabs, pale flashes",
-    "show/design/pushover_fit.py": "a measured curve and its fit",
-    "show/effective_mass/map.py": "classes of the exponent of the rule",
-    "show/motions/matching.py": "records and their target",
-    "show/motions/pulse.py": "pulses of a record",
-    "show/motions/record.py": "one record",
-    "show/motions/scaling.py": "motions and their target",
-    "show/study/captions.py": "motions and their target",
-    "show/study/underestimation.py": "shades of one colour for alpha",
-    "show/validation/figures.py": "programs",
+    "show/animation/picture.py": "paper, slabs, pale flashes",
+    "show/effective_mass.py": "classes of the exponent of the rule",
+    "show/motions.py": "records, their target, pulses",
+    "show/plots/batches.py": "fractiles of runs",
+    "show/plots/floor_plan.py": "aisles, places of goods, and who has passed an edge",
+    "show/plots/histories.py": "one run: quantities, stops, kinds of events and of energy",
+    "show/plots/hysteresis.py": "one run, backbones, kinds of contact, a curve and what happens on it",
+    "show/plots/profiles.py": "one run",
+    "show/pushover_fit.py": "a measured curve and its fit",
+    "show/study/answer.py": "motions and their target",
+    "show/study/figures.py": "shades of one colour for alpha",
+    "show/validation.py": "programs",
 }
 """Files that may name hues, and what these stand for: none of it is a model."""
-LITERALS = {"show/animation/canvas.py", "explore/still.py"}
+LITERALS = {"show/animation/picture.py", "show/explore/page.py"}
 """Files with colours of their own: of paper, slabs, an empty bar, and pale ones that flash."""
 
 
@@ -77,14 +70,14 @@ def test_no_template_names_the_colour_of_a_model_by_itself() -> None:
     """Colours of the style sheets are those of paper, ink, lines, links and verdicts."""
     of_roles = {colour.lower() for role in MODELS.values() for colour in (role.colour, role.text, role.dark)}
     of_roles -= {roles.ADVISED.text, roles.ADVISED.dark, roles.BARE.text, roles.BARE.dark}  # those of ink and soft ink
-    for path in itertools.chain(*((PACKAGE / part).rglob("*.*") for part in ("media/templates", "explore/templates"))):
+    for path in itertools.chain(*((PACKAGE / part).rglob("*.*") for part in ("media/templates", "show/explore/templates"))):
         found = {colour.lower() for colour in re.findall(r"#[0-9a-fA-F]{6}\b", path.read_text(encoding="utf-8"))}
         assert not found & of_roles, path
 
 
 def test_no_figure_calls_a_simulation_real() -> None:
     said = re.compile(r"""["'][^"']*\breal (?:building|/|over|\()|/ real\b[^"']*["']|"real: """)
-    for path in (*SHOWN, *sorted((PACKAGE / "explore/templates").iterdir())):
+    for path in (*SHOWN, *sorted((PACKAGE / "show/explore/templates").iterdir())):
         for line in path.read_text(encoding="utf-8").splitlines():
             if not line.lstrip().startswith(('"""', "#", "//")):
                 assert not said.search(line), f"{path}: {line}"
@@ -119,7 +112,7 @@ def test_pages_animations_and_the_live_page_have_the_colours_of_the_roles() -> N
         assert f"{variable}: {role.dark};" in dark
     environment = templates()
     assert (environment.globals["role_colours"], environment.globals["role_colours_dark"]) == (light, dark)
-    for path in ("media/templates/animation.css", "explore/templates/explore.css"):
+    for path in ("media/templates/animation.css", "show/explore/templates/explore.css"):
         text = (PACKAGE / path).read_text(encoding="utf-8")
         assert "{{ role_colours }}" in text
         assert "{{ role_colours_dark }}" in text

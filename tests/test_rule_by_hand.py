@@ -7,16 +7,17 @@ import polars as pl
 import pytest
 
 import seismass as sm
-from seismass.effective_mass.by_hand import yield_drift
 from seismass.effective_mass.estimate import (
     base_shear_by_hand,
     best_estimate,
+    by_period,
+    compared,
     conservative_estimate,
     exponent,
     height_ratio,
+    yield_drift,
 )
-from seismass.effective_mass.rules import by_period, compared
-from seismass.spectra import corner_period
+from seismass.motions.spectra import corner_period
 
 MOTIONS = [record.scaled(1.2) for record in sm.builtin_suite("seven")]
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass.assessment.racks import GoodsRack
+from seismass.assessment.floors import GoodsRack
 from seismass.effective_mass.live_load import _with_goods
 from seismass.effective_mass.models import base_of_model
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass.scaling.asce7 import DIRECTIONS
+from seismass.design.scaling.asce7 import DIRECTIONS
 
 G = 9.80665
 TARGET = sm.TargetSpectrum.asce7()

@@ -18,12 +18,12 @@ import pytest
 
 import seismass as sm
 import seismass.assessment
-import seismass.risk.targeted_share
+import seismass.studies.risk.targeted_share
 from seismass.cli import main
-from seismass.commands.exit_codes import FAILED
+from seismass.commands.frame import FAILED
 from seismass.commands.parser import COMMANDS
-from seismass.fragility.exact_capacities import exact_capacities
-from seismass.fragility.run import setting_of
+from seismass.studies.fragility.hunt import exact_capacities
+from seismass.studies.fragility.run import setting_of
 
 READERS = {"read_building", "read_scene_or_building"}
 CASES = {
@@ -181,7 +181,7 @@ def shared_by_risk(case: Case, capsys: pytest.CaptureFixture[str], monkeypatch: 
         taken.extend([*given, options["code_share"]])
         raise sm.errors.SimulationError("stopped")
 
-    monkeypatch.setattr(seismass.risk.targeted_share, "risk_targeted_share", stop)
+    monkeypatch.setattr(seismass.studies.risk.targeted_share, "risk_targeted_share", stop)
     assert main(["risk", str(case.file), "--records", str(case.records), "--hazard", str(hazard)]) == FAILED
     scene, motions, _, limit, share = taken
     capsys.readouterr()

@@ -15,8 +15,8 @@ import seismass as sm
 from seismass.assessment.building_file import example_file
 from seismass.cli import main
 from seismass.model.codes import FROM_MEMORY, SECOND_HAND, VERIFIED
+from seismass.motions.spectra import corner_period
 from seismass.runs.scene_file import example_scene
-from seismass.spectra import corner_period
 
 G = 9.80665
 
@@ -265,7 +265,7 @@ def test_a_file_of_another_kind_is_named(tmp_path: Path, capsys: pytest.CaptureF
     assert "must be a building file; got a scene file, which `seismass run`" in capsys.readouterr().err
     assert main(["campaign", building, "--out", str(tmp_path / "c")]) == 2
     assert "must be a campaign file; got a building file" in capsys.readouterr().err
-    from seismass.campaign.description import example_description
+    from seismass.studies.campaign.folder import example_description
 
     assert main(["run", str(example_description())]) == 2
     assert "must be a scene file; got a campaign file, which `seismass campaign` takes" in capsys.readouterr().err

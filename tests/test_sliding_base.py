@@ -33,8 +33,8 @@ def test_a_slab_alone_is_a_block_on_the_ground() -> None:
 
 
 def with_spring_below(above: sm.Building, mu: float, slope: float) -> sm.Building:
-    """A building of the chain engine whose storey 1 stands for the base: mu W at 1e-11 m, then a slope (N/m)."""
-    first, sliding = 1e-11, mu * (300e3 + float(above.mass.sum())) * sm.STANDARD_GRAVITY
+    """A building of the chain engine whose storey 1 stands for the base: mu W at 1e-9 m, then a slope (N/m)."""
+    first, sliding = 1e-9, mu * (300e3 + float(above.mass.sum())) * sm.STANDARD_GRAVITY
     springs = [[[first, sliding], [1.0, sliding + slope * (1.0 - first)]], *[[[0.1, 0.1 * k]] for k in above.stiffness]]
     relative = np.hstack([-np.ones((3, 1)), np.eye(3)])
     damping = relative.T @ above.damping_matrix @ relative
@@ -43,7 +43,7 @@ def with_spring_below(above: sm.Building, mu: float, slope: float) -> sm.Buildin
 
 @pytest.mark.skipif(not SHARED, reason="SEISMASS_SHARED is not set: no recordings")
 def test_a_mat_below_three_storeys() -> None:
-    """A spring that yields at 1e-11 m in place of the base: its error goes with that length, 6e-8 here.
+    """A spring that yields at 1e-9 m in place of the base: its error goes with that length, 6.5e-6 here.
 
     An integrator of small steps has the same to its digits: 47.15 mm without damping; 37.67 mm and 3.43 mm of storey
     drift with 2 % in the modes of the structure fixed at its base.
@@ -55,22 +55,22 @@ def test_a_mat_below_three_storeys() -> None:
         above = sm.Building([250e3] * 3, [4e8] * 3, damping=damping)
         exact = sm.simulate(sm.Scene(above, base=sm.SlidingBase(0.08, mass=300e3)), record)
         found = sm.simulate(sm.Scene(with_spring_below(above, 0.08, 0.0)), record)
-        assert exact.peak_base_slip == pytest.approx(found.peak_drift[0], rel=5e-7)
-        assert exact.peak_drift == pytest.approx(found.peak_drift[1:], rel=5e-7)
+        assert exact.peak_base_slip == pytest.approx(found.peak_drift[0], rel=1e-5)
+        assert exact.peak_drift == pytest.approx(found.peak_drift[1:], rel=1e-5)
         assert 1e3 * exact.peak_base_slip == pytest.approx(slip, abs=5e-3)
     assert 1e3 * exact.peak_drift[0] == pytest.approx(3.43, abs=5e-3)
 
 
 @pytest.mark.skipif(not SHARED, reason="SEISMASS_SHARED is not set: no recordings")
 def test_a_friction_pendulum_below_three_storeys() -> None:
-    """The same spring with the slope W/R; its drifts have an error that goes with the root of its length, 1.3e-5."""
+    """The same spring with the slope W/R; its drifts have an error that goes with the root of its length, 1.3e-4."""
     record = sm.read_record(Path(SHARED) / "records/02_Loma_Prieta_1989_Gilroy_Array_3/RSN767_LOMAP_G03000.AT2")
     above = sm.Building([250e3] * 3, [4e8] * 3, damping=0.02)
     base = sm.SlidingBase(0.06, radius=1.5, mass=300e3)
     exact = sm.simulate(sm.Scene(above, base=base), record)
     found = sm.simulate(sm.Scene(with_spring_below(above, 0.06, (300e3 + 750e3) * sm.STANDARD_GRAVITY / 1.5)), record)
-    assert exact.peak_base_slip == pytest.approx(found.peak_drift[0], rel=1e-8)
-    assert exact.peak_drift == pytest.approx(found.peak_drift[1:], rel=3e-5)
+    assert exact.peak_base_slip == pytest.approx(found.peak_drift[0], rel=5e-7)
+    assert exact.peak_drift == pytest.approx(found.peak_drift[1:], rel=2e-4)
 
 
 def test_goods_and_racks_on_floor_0_stand_on_the_slab() -> None:

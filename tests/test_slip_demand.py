@@ -11,7 +11,7 @@ import pytest
 from scipy import stats
 
 import seismass as sm
-from seismass.slip import (
+from seismass.studies.slip import (
     Base,
     BlockSize,
     Clearance,
@@ -23,8 +23,8 @@ from seismass.slip import (
     slip_demand,
     wilson_interval,
 )
-from seismass.slip.clearance import exceedance_table
-from seismass.slip.squat import demand_in_g
+from seismass.studies.slip.clearance import exceedance_table
+from seismass.studies.slip.squat import demand_in_g
 
 G = sm.STANDARD_GRAVITY
 

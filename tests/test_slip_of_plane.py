@@ -10,7 +10,7 @@ import pytest
 import seismass as sm
 from seismass.cli import main
 from seismass.commands.slip import parse_clearance
-from seismass.slip import Clearance
+from seismass.studies.slip import Clearance
 
 G = 9.80665
 CRATE = sm.Scene(None, [sm.Block(0, mass=100.0, mu=0.1)], other_direction=True)

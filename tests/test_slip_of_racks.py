@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass.slip.places import places_of, without_loose_goods
+from seismass.studies.slip.clearance import places_of, without_loose_goods
 
 BUILDING = sm.Building([1000.0, 1000.0], [4e5, 3e5], yield_shear=[4000.0, 3000.0], heights=[3.4, 2.7])
 MOTIONS = [sm.builtin_record(f"synthetic-{number}").with_duration(15.0).scaled(1.5) for number in (1, 2, 3)]

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.linalg import expm
 
 import seismass as sm
-from seismass.spectra import mean_spectrum
+from seismass.motions.spectra import mean_spectrum
 
 G = 9.80665
 

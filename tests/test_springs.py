@@ -14,7 +14,7 @@ import pytest
 import seismass as sm
 from seismass import _kernel
 from seismass.model.springs import SHAPE_FIELDS, SPRING_FIELDS
-from seismass.runs.grid.axes import TABLE_COLUMNS
+from seismass.runs.grid.columns import TABLE_COLUMNS
 from seismass.runs.scene_file import KEYS
 
 PACKAGE = Path(sm.__file__).parent

@@ -14,14 +14,13 @@ import pytest
 
 import seismass as sm
 from seismass import cli
+from seismass.motions.spectra import mean_spectrum
 from seismass.show.study import write
-from seismass.show.study.captions import suite_caption
+from seismass.show.study.answer import findings_text, suite_caption
 from seismass.show.study.figures import study_figures
-from seismass.show.study.findings import findings_text
 from seismass.show.study.tables import study_tables
-from seismass.spectra import mean_spectrum
-from seismass.study import StudyParameters, StudyResult, display_names, run_study
-from seismass.study.findings import findings
+from seismass.studies.study import StudyParameters, StudyResult, display_names, run_study
+from seismass.studies.study.tables import findings
 
 TARGET = sm.TargetSpectrum.asce7()
 SMALL = StudyParameters(buildings=((2, 0.38), (3, 0.47)), response_modification=(1.0, 4.0), mass_ratios=(1.0,))
@@ -199,7 +198,7 @@ def test_digest_depends_on_motions_target_and_parameters(small: StudyResult) -> 
 
 
 def test_a_failed_run_gives_no_mean(small: StudyResult, monkeypatch: pytest.MonkeyPatch) -> None:
-    from seismass.study import run as study
+    from seismass.studies.study import run as study
 
     def failing(*args, **kwargs) -> pl.DataFrame:
         table = sm.simulate_many(*args, **kwargs)
@@ -402,7 +401,7 @@ def test_figures_of_an_earlier_study_do_not_stay(
         raise OSError("disk full")
 
     with monkeypatch.context() as patch:
-        patch.setattr("seismass.media.figure_file.save_figure", failing)
+        patch.setattr("seismass.media.svg.save_figure", failing)
         with pytest.raises(OSError, match="disk full"):
             write.write_study(study_tables(small), tmp_path, png=True)
     assert {file.name for file in tmp_path.iterdir()} == earlier | others
@@ -445,7 +444,7 @@ def test_recorded_and_synthetic_motions_are_counted_apart(
     assert suite_caption(result).startswith(f"{says} (mixed), scaled")
     (legend,) = study_figures(result)["spectrum"].legends
     assert legend.get_texts()[0].get_text() == f"mean of {says}, scaled"
-    monkeypatch.setattr("seismass.records.builtin_suite", lambda _: mixed)
+    monkeypatch.setattr("seismass.motions.records.builtin_suite", lambda _: mixed)
     assert command("study", "--out", tmp_path / "out", "--no-figures") == 0
     printed = capsys.readouterr().out
     assert f": {says}\n" in printed
@@ -497,7 +496,7 @@ def test_nothing_is_left_when_writing_stops(
     def failing(*_: object) -> None:
         raise error
 
-    monkeypatch.setattr("seismass.media.figure_file.save_figure", failing)
+    monkeypatch.setattr("seismass.media.svg.save_figure", failing)
     with pytest.raises(type(error)):
         write.write_study(study_tables(small), tmp_path / "out", png=True)
     assert list((tmp_path / "out").iterdir()) == []
@@ -610,7 +609,7 @@ def test_command_line_that_cannot_be_read_exits_with_2(
 def test_failed_runs_give_exit_code_1(small: StudyResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     counts = small.metadata["counts"] | {"failed": 1}
     failed = StudyResult(**{**vars(small), "metadata": small.metadata | {"counts": counts}})
-    monkeypatch.setattr("seismass.study.run_study", lambda *_, **__: failed)
+    monkeypatch.setattr("seismass.studies.study.run_study", lambda *_, **__: failed)
     assert command("study", "--out", tmp_path / "out", "--no-figures") == 1
 
 
@@ -621,16 +620,16 @@ def test_interrupt_exits_with_130_and_keeps_only_what_is_solved(
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patched:
-        patched.setattr("seismass.study.run.solve_many", interrupted)
+        patched.setattr("seismass.studies.study.run.solve_many", interrupted)
         assert command("study", "--out", tmp_path / "out") == 130
         assert "interrupted" in capsys.readouterr().err
         assert list(tmp_path.iterdir()) == []
     with monkeypatch.context() as patched:
-        patched.setattr("seismass.study.run.effective_fractions", interrupted)
+        patched.setattr("seismass.studies.study.run.effective_fractions", interrupted)
         assert command("study", "--out", tmp_path / "out", "--effective", "--no-figures") == 130
         (kept,) = (tmp_path / "out").iterdir()
         assert {file.name for file in kept.iterdir()} == {"inputs", "part-runs.parquet"}
-        patched.setattr("seismass.study.run.solve_many", None)
+        patched.setattr("seismass.studies.study.run.solve_many", None)
         patched.undo()
     assert command("study", "--out", tmp_path / "out", "--no-figures") == 0
     assert not kept.exists()

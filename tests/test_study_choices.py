@@ -10,19 +10,17 @@ import pytest
 
 import seismass as sm
 from seismass import cli
-from seismass.base.quantiles import quantile
+from seismass.base.statistics import quantile
 from seismass.base.units import STANDARD_GRAVITY
+from seismass.show.study.answer import findings_text
 from seismass.show.study.figures import study_figures
-from seismass.show.study.findings import findings_text
-from seismass.show.study.sensitivity import sensitivity_markdown, sensitivity_text
 from seismass.show.study.tables import OPTIONAL_TABLES, study_tables
-from seismass.show.study.write import write_study
-from seismass.study import MODELS, StudyParameters, StudyResult, run_study, study_sensitivity
-from seismass.study.columns import TABLES
-from seismass.study.findings import findings
-from seismass.study.fractions import SHARES
-from seismass.study.sensitivity import MATCHED_TOLERANCE
-from seismass.validation import validate
+from seismass.show.study.write import sensitivity_markdown, sensitivity_text, write_study
+from seismass.studies.study import MODELS, StudyParameters, StudyResult, run_study, study_sensitivity
+from seismass.studies.study.columns import TABLES
+from seismass.studies.study.sensitivity import MATCHED_TOLERANCE
+from seismass.studies.study.tables import SHARES, findings
+from seismass.studies.validation import validate
 
 TARGET = sm.TargetSpectrum.asce7()
 SMALL = StudyParameters(buildings=((2, 0.38), (3, 0.47)), response_modification=(1.0, 4.0), mass_ratios=(1.0,))

@@ -14,7 +14,7 @@ import pytest
 from scipy.linalg import expm
 
 import seismass as sm
-from seismass.study import StudyParameters, run_study
+from seismass.studies.study import StudyParameters, run_study
 
 G = 9.80665
 STOREYS, PERIOD, ALPHA, MU = 2, 0.38, 1.0, 0.4

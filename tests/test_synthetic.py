@@ -13,14 +13,22 @@ import pytest
 import seismass as sm
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.cli import main
-from seismass.records import Record, builtin_record, builtin_suite
-from seismass.records.builtin import data_directory
-from seismass.records.synthetic.ends import end_state
-from seismass.records.synthetic.files import ALL_RECIPES, LISTS, at2_text, made, version, write_list, write_motion
-from seismass.records.synthetic.near_fault import pulse
-from seismass.records.synthetic.seven import RECIPES, Recipe, envelope
-from seismass.records.synthetic.shaping import asce7_shape, spectrum
-from seismass.records.synthetic.site import SITE_RECIPES, SiteRecipe, generate_site
+from seismass.motions.records import Record, builtin_record, builtin_suite
+from seismass.motions.records.builtin import data_directory
+from seismass.motions.records.synthetic.process import asce7_shape, end_state, pulse, spectrum
+from seismass.motions.records.synthetic.seven import (
+    ALL_RECIPES,
+    LISTS,
+    RECIPES,
+    Recipe,
+    at2_text,
+    envelope,
+    made,
+    version,
+    write_list,
+    write_motion,
+)
+from seismass.motions.records.synthetic.site import SITE_RECIPES, SiteRecipe, generate_site
 
 STORED = data_directory() / "synthetic"
 
@@ -95,8 +103,8 @@ def test_site_motions_are_the_same_with_other_instructions(tmp_path: Path) -> No
     code = (
         "import sys; import numpy as np\n"
         "from pathlib import Path\n"
-        "from seismass.records.synthetic.files import at2_text\n"
-        "from seismass.records.synthetic.site import SITE_RECIPES, generate_site\n"
+        "from seismass.motions.records.synthetic.seven import at2_text\n"
+        "from seismass.motions.records.synthetic.site import SITE_RECIPES, generate_site\n"
         "for recipe in SITE_RECIPES:\n"
         "    record = generate_site(recipe)\n"
         "    np.save(Path(sys.argv[1]) / recipe.name, record.acceleration)\n"

@@ -7,11 +7,11 @@ import polars as pl
 import pytest
 
 import seismass as sm
-from seismass.records.builtin import MICRO, data_directory
-from seismass.records.synthetic.ends import end_state
-from seismass.records.synthetic.scenarios import SCENARIOS, generate_scenario, two_period_shape
-from seismass.records.synthetic.second import generate_second
-from seismass.spectra import corner_period, mean_spectrum, response_spectrum
+from seismass.motions.records.builtin import MICRO, data_directory
+from seismass.motions.records.synthetic.process import end_state
+from seismass.motions.records.synthetic.scenarios import SCENARIOS, generate_scenario, two_period_shape
+from seismass.motions.records.synthetic.second import generate_second
+from seismass.motions.spectra import corner_period, mean_spectrum, response_spectrum
 
 SUITE = sm.builtin_suite("forty")
 TARGET = sm.TargetSpectrum.asce7()

@@ -10,9 +10,7 @@ import pytest
 from scipy import signal
 
 import seismass as sm
-from seismass.records.synthetic.ends import end_state
-from seismass.records.synthetic.noise import normals
-from seismass.records.synthetic.process import LEAST_FREQUENCY, filtered_noise, high_passed
+from seismass.motions.records.synthetic.process import LEAST_FREQUENCY, end_state, filtered_noise, high_passed, normals
 
 G = sm.STANDARD_GRAVITY
 USUAL = sm.records.SyntheticParameters(

@@ -10,9 +10,9 @@ import pytest
 
 import seismass as sm
 from seismass.base.errors import RecordFormatError
-from seismass.scaling.target_text import target_of
-from seismass.spectra import MULTI_PERIODS
-from seismass.spectra.remarks import target_remarks
+from seismass.motions.scaling.suite import target_of
+from seismass.motions.spectra import MULTI_PERIODS
+from seismass.motions.spectra.target import target_remarks
 
 G = 9.80665
 SUITE = sm.builtin_suite("seven")

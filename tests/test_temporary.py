@@ -14,8 +14,14 @@ import polars as pl
 import pytest
 
 import seismass as sm
-from seismass.base.files import polars_writing, written_whole
-from seismass.base.temporary import PREFIX, remove_left_behind, temporary_folder, temporary_path
+from seismass.base.files import (
+    PREFIX,
+    polars_writing,
+    remove_left_behind,
+    temporary_folder,
+    temporary_path,
+    written_whole,
+)
 
 GRID = sm.Grid.product(sm.Building.uniform(1, 0.3), mass_ratio=1.0, mu=np.linspace(0.1, 0.5, 50))
 MOTION = sm.Motion([2.0, -2.0, 2.0, 0.0], dt=0.1)

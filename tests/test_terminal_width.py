@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 from seismass.cli import main
-from seismass.media.fit_text import fit_text
-from seismass.records.builtin import data_directory
+from seismass.media.text_table import fit_text
+from seismass.motions.records.builtin import data_directory
 
 ROOT = Path(__file__).parents[1]
 WIDTH = 80

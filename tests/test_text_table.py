@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seismass.base.quantiles import quantile
+from seismass.base.statistics import quantile
 from seismass.media.text_table import (
     change_text,
     ends_text,

@@ -7,7 +7,7 @@ from typing import Any, get_args
 import pytest
 
 import seismass as sm
-from seismass.assessment.about_goods import about_code, about_code_mass
+from seismass.assessment.advice import about_code, about_code_mass
 from seismass.model.codes import CODE_IDS, Use
 from seismass.model.occupancy import OCCUPANCY_IDS
 

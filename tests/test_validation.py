@@ -12,9 +12,9 @@ import pytest
 
 import seismass as sm
 from seismass.cli import main
-from seismass.show.validation.views import differences_text
-from seismass.study import StudyResult
-from seismass.validation import (
+from seismass.show.validation import differences_text
+from seismass.studies.study import StudyResult
+from seismass.studies.validation import (
     STAND_INS,
     Validation,
     claims,
@@ -27,8 +27,8 @@ from seismass.validation import (
     section4_scene,
     validate,
 )
-from seismass.validation.shaking_table import CENTRAL, MASS_RATIOS
-from seismass.validation.three_storeys import (
+from seismass.studies.validation.shaking_table import CENTRAL, MASS_RATIOS
+from seismass.studies.validation.three_storeys import (
     EXACT,
     FRICTION_SPRINGS,
     OPENSEES,

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from seismass import animate, read_scene
-from seismass.animation.shown import Run
 from seismass.runs.scene_file import example_scene
+from seismass.show.animation.animation import Run
 from seismass.show.animation.picture import Picture
 
 FIGURE = Path(__file__).parents[1] / "docs" / "figures" / "animation.png"

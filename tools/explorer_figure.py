@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 from typing import Any, Final
 
-from seismass.explore import explorer_html
+from seismass.show.explore import explorer_html
 
 ROOT: Final = Path(__file__).parents[1]
 SCREENS: Final = runpy.run_path(str(ROOT / "tools" / "screens.py"))

@@ -28,11 +28,11 @@ from typing import Any
 import seismass as sm
 from seismass.assessment.building_file import example_file
 from seismass.base.errors import InvalidOption
-from seismass.campaign.description import example_description
 from seismass.runs.scene_file import example_scene
 from seismass.show.assessment.tables import read_assessment_tables
 from seismass.show.study.tables import read_study_tables
-from seismass.study import StudyParameters, run_study
+from seismass.studies.campaign.folder import example_description
+from seismass.studies.study import StudyParameters, run_study
 
 SECONDS_PER_FILE = 5.0
 MEMORY_GROWTH_KB = 512 * 1024

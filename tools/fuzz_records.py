@@ -24,9 +24,9 @@ from pathlib import Path
 import numpy as np
 
 from seismass.base.errors import RecordFormatError
-from seismass.records import Record, read_records
-from seismass.records.formats import Format, recognise
-from seismass.records.formats.headers import NO_COUNT
+from seismass.motions.records import Record, read_records
+from seismass.motions.records.formats import Format, recognise
+from seismass.motions.records.formats.common import NO_COUNT
 
 NETWORKS = ("resorce", "csmnc", "jma", "nied_csv", "cwa", "afad", "geonet", "unam", "bhrc")
 

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from seismass.base.errors import RecordFormatError
 from seismass.base.values import printable
-from seismass.records import read_records
+from seismass.motions.records import read_records
 
 ROOT = Path(__file__).parents[1]
 NETWORKS = runpy.run_path(str(ROOT / "tools" / "network_files.py"))

@@ -105,7 +105,7 @@ def copied(to: Path) -> Path:
     """A copy of the tree: what git knows or would, and what a build lays beside the sources."""
     command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     names = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\0")
-    built = (path for kind in ("_kernel*", "data/**/*", "explore/*.wasm") for path in (ROOT / PACKAGE).glob(kind))
+    built = (path for kind in ("_kernel*", "data/**/*", "show/explore/*.wasm") for path in (ROOT / PACKAGE).glob(kind))
     for path in {ROOT / name for name in names if name} | set(built):
         if path.is_file():
             target = to / path.relative_to(ROOT)

@@ -10,7 +10,7 @@ A part of the parametric study of the paper: what a code's rule makes of the dri
 from matplotlib.figure import Figure
 
 import seismass as sm
-from seismass.study import StudyParameters, run_study
+from seismass.studies.study import StudyParameters, run_study
 
 parameters = StudyParameters(buildings=((3, 0.47),))
 result = run_study(sm.builtin_suite("seven"), sm.TargetSpectrum.asce7(), parameters)

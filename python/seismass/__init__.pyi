@@ -1,28 +1,11 @@
 """Names of the package, imported when they are first used; `__init__.py` reads them here."""
 
-from . import (
-    animation,
-    campaign,
-    design,
-    explore,
-    fragility,
-    matching,
-    plots,
-    pulses,
-    records,
-    risk,
-    runs,
-    scaling,
-    slip,
-    spectra,
-    study,
-    validation,
-)
-from .animation import Animation, animate
+from . import design, runs
 from .assessment import Assessment, OwnBuilding, assess, read_building
 from .base import distributions, errors
 from .base.errors import SeismassError
 from .base.units import STANDARD_GRAVITY
+from .design import scaling
 from .effective_mass import (
     EffectiveMass,
     EffectiveMassMap,
@@ -35,15 +18,13 @@ from .effective_mass import (
     live_load_uncertainty,
 )
 from .model import codes, friction, occupancy
-from .model.block import Block, blocks_on_floors
-from .model.building import Building
-from .model.damping import Rayleigh
-from .model.motion import Motion
+from .model.block import Block, SlidingBase, Stops, blocks_on_floors
+from .model.building import Building, Rayleigh
 from .model.rack import Rack, RackBlock
 from .model.scene import Scene
-from .model.sliding_base import SlidingBase
-from .model.stops import Stops
-from .records import (
+from .motions import matching, pulses, records, spectra
+from .motions.motion import Motion
+from .motions.records import (
     Pair,
     Record,
     Suite,
@@ -54,6 +35,7 @@ from .records import (
     read_records,
     read_suite,
 )
+from .motions.spectra import TargetSpectrum, response_spectrum
 from .runs import (
     Grid,
     Response,
@@ -65,7 +47,9 @@ from .runs import (
     stream_many,
     write_many,
 )
-from .spectra import TargetSpectrum, response_spectrum
+from .show import animation, explore, plots
+from .show.animation import Animation, animate
+from .studies import campaign, fragility, risk, slip, study, validation
 
 __version__: str
 

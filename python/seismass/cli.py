@@ -9,7 +9,7 @@ import sys
 from collections.abc import Sequence
 
 from seismass.base.errors import SeismassError, SimulationError
-from seismass.commands.exit_codes import BAD_INPUT, DONE, FAILED, INTERRUPTED
+from seismass.commands.frame import BAD_INPUT, DONE, FAILED, INTERRUPTED
 from seismass.commands.parser import parse
 
 

@@ -13,10 +13,11 @@ import pytest
 
 import seismass as sm
 from seismass.cli import main
-from seismass.explore import compiled, explorer_html
 from seismass.runs.scene_file import read_scene
-from seismass.show.assessment.live import own_case
+from seismass.show.assessment.page_input import own_case
 from seismass.show.assessment.tables import assessment_tables
+from seismass.show.explore import explorer_html
+from seismass.show.explore import page as compiled
 
 MINUS = "\N{MINUS SIGN}"
 READY = "document.querySelector('.explorer').dataset.found !== undefined"

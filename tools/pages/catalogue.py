@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pages.parts import Page, table
-from seismass.records.catalogue import DATABASE, SUBSTITUTES, TERMS, catalogue
+from seismass.motions.records.catalogue import DATABASE, SUBSTITUTES, TERMS, catalogue
 
 
 def fill(page: Page) -> None:

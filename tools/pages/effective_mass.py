@@ -8,10 +8,9 @@ import polars as pl
 
 from pages.parts import Page
 from seismass.effective_mass import EffectiveMassMap, EffectiveMassParameters, effective_mass_map
-from seismass.records import Suite, builtin_suite, read_record, read_suite
-from seismass.show.effective_mass.map import collapse_figure, rules_figure
-from seismass.show.effective_mass.map_text import bins_text, by_period_text, rules_text
-from seismass.spectra import TargetSpectrum
+from seismass.motions.records import Suite, builtin_suite, read_record, read_suite
+from seismass.motions.spectra import TargetSpectrum
+from seismass.show.effective_mass import bins_text, by_period_text, collapse_figure, rules_figure, rules_text
 
 MORE = (
     "01_Hector_Mine_1999_Hector/RSN1787_HECTOR_HEC000.AT2",

@@ -9,7 +9,7 @@ import polars as pl
 import seismass as sm
 from pages.effective_mass import far_field_components
 from pages.parts import Page
-from seismass.fragility import FragilityAnalysis, LimitState, cloud_analysis, incremental_dynamic_analysis
+from seismass.studies.fragility import FragilityAnalysis, LimitState, cloud_analysis, incremental_dynamic_analysis
 
 LIMIT: Final = LimitState("drift_ratio", 0.02)
 RULES: Final = {"none": 0.0, "ASCE 7 storage": 0.25, "NBC, NZS 1170.5": 0.6, "Eurocode 8": 0.8, "all": 1.0}

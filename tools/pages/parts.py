@@ -17,7 +17,7 @@ from typing import Any, Final
 
 from matplotlib.figure import Figure
 
-from seismass.media.figure_file import save_figure
+from seismass.media.svg import save_figure
 
 ROOT: Final = Path(__file__).parents[2]
 FIGURES: Final = ROOT / "docs" / "figures"

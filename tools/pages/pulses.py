@@ -12,8 +12,8 @@ from scipy.signal import butter, sosfiltfilt
 import seismass as sm
 from pages.parts import Page, table
 from seismass.base.values import FloatArray
-from seismass.pulses import OrientationScan, PulseResult, baker2007, baker2007_orientations, shahi_baker2014
-from seismass.records import Pair, catalogue, find_pairs
+from seismass.motions.pulses import OrientationScan, PulseResult, baker2007, baker2007_orientations, shahi_baker2014
+from seismass.motions.records import Pair, catalogue, find_pairs
 
 ORIENTATIONS: Final = 36
 SCALES: Final = (0.5, 0.8, 1.0, 1.25, 2.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pages.parts import Page
 from seismass.assessment import assess
-from seismass.records.builtin import data_directory
+from seismass.motions.records.builtin import data_directory
 
 FILE = "README.md"
 

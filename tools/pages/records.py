@@ -11,7 +11,7 @@ import numpy as np
 
 from pages.parts import ROOT, Page, table
 from seismass.base.errors import RecordFormatError
-from seismass.records import Record, read_records
+from seismass.motions.records import Record, read_records
 
 OTHERS = ROOT / "tests" / "data" / "other_readers.csv"
 ARGUMENTS: dict[str, dict[str, object]] = {

@@ -8,9 +8,9 @@ import numpy as np
 
 import seismass as sm
 from pages.parts import Page, table
-from seismass.scaling.oscillator import deformation_ratio
-from seismass.scaling.pushover import PushoverScaling
-from seismass.spectra.oscillators import Oscillators
+from seismass.design.scaling.oscillator import deformation_ratio
+from seismass.design.scaling.pushover import PushoverScaling
+from seismass.motions.spectra.inelastic import Oscillators
 
 REDUCTION: Final = 4.0
 TARGET: Final = sm.TargetSpectrum.asce7()

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from pages.parts import Page
-from seismass.records import Suite, builtin_suite, read_suite
-from seismass.show.study.sensitivity import sensitivity_markdown
-from seismass.spectra import TargetSpectrum
-from seismass.study import StudyResult, motions_text, study_sensitivity
+from seismass.motions.records import Suite, builtin_suite, read_suite
+from seismass.motions.spectra import TargetSpectrum
+from seismass.show.study.write import sensitivity_markdown
+from seismass.studies.study import StudyResult, motions_text, study_sensitivity
 
 
 def fill(page: Page) -> None:

@@ -11,8 +11,7 @@ import polars as pl
 from matplotlib.figure import Figure
 
 from pages.parts import ROOT, Page, table
-from seismass.media.roles import BLUE, GREY, VERMILION
-from seismass.media.style import STYLE
+from seismass.media.style import BLUE, GREY, STYLE, VERMILION
 
 sys.path.append(str(ROOT / "benchmarks"))
 

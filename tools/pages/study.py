@@ -8,12 +8,12 @@ from typing import Any, Final
 import polars as pl
 
 from pages.parts import Page, fenced
-from seismass.records import read_suite
+from seismass.motions.records import read_suite
+from seismass.motions.spectra import TargetSpectrum
+from seismass.show.study.answer import findings_text
 from seismass.show.study.figures import study_figures
-from seismass.show.study.findings import findings_text
-from seismass.spectra import TargetSpectrum
-from seismass.study import StudyResult, run_study
-from seismass.study.findings import findings
+from seismass.studies.study import StudyResult, run_study
+from seismass.studies.study.tables import findings
 
 FIGURES: Final = {"underestimation": "underestimation", "drift_R6": "study_drift_R6", "effective": "study_effective"}
 """Figures of a study, and their files in docs/figures."""

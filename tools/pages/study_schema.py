@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from pages.parts import Page, table
-from seismass.study import SCHEMA_VERSION, TABLES
-from seismass.study.columns import KEY_COLUMNS
+from seismass.studies.study import SCHEMA_VERSION, TABLES
+from seismass.studies.study.columns import KEY_COLUMNS
 
 
 def fill(page: Page) -> None:

@@ -11,13 +11,11 @@ from matplotlib.figure import Figure
 
 import seismass as sm
 from pages.parts import Page, table
-from seismass.media.roles import BLUE, GREY, INK, VERMILION
-from seismass.media.style import STYLE
-from seismass.records.synthetic.files import ALL_RECIPES
-from seismass.records.synthetic.seven import Recipe
-from seismass.records.synthetic.site import SITE_RECIPES
-from seismass.study import run_study
-from seismass.study.findings import findings
+from seismass.media.style import BLUE, GREY, INK, STYLE, VERMILION
+from seismass.motions.records.synthetic.seven import ALL_RECIPES, Recipe
+from seismass.motions.records.synthetic.site import SITE_RECIPES
+from seismass.studies.study import run_study
+from seismass.studies.study.tables import findings
 
 COMPARED: Final = np.geomspace(0.2, 1.5, 100)
 SHOWN: Final = (0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0)

@@ -12,10 +12,8 @@ from matplotlib.figure import Figure
 import seismass as sm
 from pages.parts import ROOT, Page, table
 from seismass.base.values import FloatArray
-from seismass.effective_mass.estimate import best_estimate, conservative_estimate
-from seismass.effective_mass.rules import by_period
-from seismass.effective_mass.two_directions import REDUCED_FRICTION
-from seismass.plots import FloorPlan, Footprint, floor_paths
+from seismass.effective_mass.estimate import REDUCED_FRICTION, best_estimate, by_period, conservative_estimate
+from seismass.show.plots import FloorPlan, Footprint, floor_paths
 
 SUITES: Final = ("far_field", "other", "forty")
 """In the order of the page; the factor was chosen on the first."""

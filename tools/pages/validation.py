@@ -12,12 +12,11 @@ import polars as pl
 import seismass as sm
 from pages.parts import Page, table
 from seismass import _kernel
-from seismass.show.validation.figures import platform_figure, section4_figure, sliding_figure
-from seismass.show.validation.views import claims_markdown
-from seismass.validation import Platform, Section4, components, section4_scene, validate
-from seismass.validation.paper_claims import MOST
-from seismass.validation.shaking_table import AMPLITUDES, DAMPINGS, FRICTIONS, LENGTH_RATIO, PERIODS
-from seismass.validation.three_storeys import COMPARED_SLOPES, FRICTION_SPRINGS, MU, PEAK_G, SPRINGS, kept
+from seismass.show.validation import claims_markdown, platform_figure, section4_figure, sliding_figure
+from seismass.studies.validation import Platform, Section4, components, section4_scene, validate
+from seismass.studies.validation.paper_claims import MOST
+from seismass.studies.validation.shaking_table import AMPLITUDES, DAMPINGS, FRICTIONS, LENGTH_RATIO, PERIODS
+from seismass.studies.validation.three_storeys import COMPARED_SLOPES, FRICTION_SPRINGS, MU, PEAK_G, SPRINGS, kept
 
 FINER_STEPS: Final = 50
 """Steps per sample interval of the softest friction springs, beside those of the table."""

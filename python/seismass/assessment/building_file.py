@@ -6,56 +6,206 @@ Every key is known or refused, and every key of a quantity with a unit names it.
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Final, cast, get_args
+from typing import Any, Final, NamedTuple, cast, get_args
 
 import numpy as np
 
-from seismass.assessment.file_base import BASE_KEYS, base_of
-from seismass.assessment.file_codes import code_of, floor_codes
-from seismass.assessment.file_goods import FRICTION, LIVE_LOAD, PRESENT, kinds_of, live_load_of, mu_factors_of
-from seismass.assessment.file_plane import OTHER_DIRECTION, tables_in_y
-from seismass.assessment.file_racks import SUPPORT
-from seismass.assessment.file_site import LIMIT, PERIOD, SITE, check_period, limit_of, period_of, site_of
-from seismass.assessment.file_units import (
-    PLAIN_GOODS_KEYS,
-    PLAIN_STOREY_KEYS,
-    SYSTEMS,
-    US_GOODS_KEYS,
-    US_STOREY_KEYS,
-    plain_keys,
-    to_si,
-)
-from seismass.assessment.file_values import (
+from seismass.assessment.file_parts import (
+    BASE_KEYS,
+    FRICTION,
+    LIVE_LOAD,
+    OTHER_DIRECTION,
+    PRESENT,
     REDUCTION,
     STRONG,
+    SUPPORT,
+    WALL_KEYS,
+    base_of,
     held,
     key_of,
+    kinds_of,
+    live_load_of,
     missing,
+    mu_factors_of,
     number_of,
     positive,
     stated,
+    tables_in_y,
+    walls_of,
 )
-from seismass.assessment.file_walls import WALL_KEYS, walls_of
+from seismass.assessment.file_site import (
+    LIMIT,
+    PERIOD,
+    SITE,
+    check_period,
+    code_of,
+    floor_codes,
+    limit_of,
+    period_of,
+    site_of,
+)
 from seismass.assessment.floors import by_floor, counted_fractions
-from seismass.assessment.own_building import (
-    DEFAULT_THETA_LIMIT,
-    DesignRule,
-    OwnBuilding,
-)
-from seismass.assessment.project import PROJECT, project_of
-from seismass.assessment.sources import sources_of
+from seismass.assessment.own_building import DEFAULT_THETA_LIMIT, PROJECT, DesignRule, OwnBuilding, project_of
 from seismass.base.errors import InvalidBuildingFile
-from seismass.base.input_kinds import BUILDING_FILE, refuse_other_kind
-from seismass.base.input_table import POSITIVE, SHARE, Need, Table, load_table
-from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.input_table import (
+    BUILDING_FILE,
+    NOT_NEGATIVE,
+    POSITIVE,
+    SHARE,
+    Need,
+    Table,
+    load_table,
+    refuse_other_kind,
+)
+from seismass.base.units import FOOT, KIP, STANDARD_GRAVITY
 from seismass.base.values import as_path, printable
 from seismass.design import Combination, vibration_modes
-from seismass.model.damping import DEFAULT_DAMPING
+from seismass.model.building import DEFAULT_DAMPING
 from seismass.model.springs import DEFAULT_THIRD_SLOPE, SHAPE_FIELDS
-from seismass.records.builtin import data_directory
+from seismass.motions.records.builtin import data_directory
+
+SI: Final = "si"
+US: Final = "us"
+SYSTEMS: Final = (SI, US)
+"""What `units` of a file may be."""
+
+
+class UsKey(NamedTuple):
+    """A key in US units: the key that stands for it, its unit in that of the other, and what its number must be."""
+
+    key: str
+    factor: float
+    need: Need
+
+
+US_STOREY_KEYS: Final = {
+    "height_ft": UsKey("height_m", FOOT, POSITIVE),
+    "area_ft2": UsKey("area_m2", FOOT**2, POSITIVE),
+    "dead_load_psf": UsKey("dead_load_kpa", 1e-6 * KIP / FOOT**2, POSITIVE),
+    "weight_kip": UsKey("mass_kg", KIP / STANDARD_GRAVITY, POSITIVE),
+    "gravity_load_kip": UsKey("gravity_load_kn", 1e-3 * KIP, POSITIVE),
+    "stiffness_kip_per_in": UsKey("stiffness_kn_per_m", 1e-3 * KIP / (FOOT / 12.0), POSITIVE),
+    "yield_shear_kip": UsKey("yield_shear_kn", 1e-3 * KIP, STRONG),
+}
+"""Keys in US units of a storey, or of all in [building]."""
+US_GOODS_KEYS: Final = {
+    "live_load_psf": UsKey("live_load_kpa", 1e-6 * KIP / FOOT**2, NOT_NEGATIVE),
+    "live_load_kip": UsKey("live_load_kg", KIP / STANDARD_GRAVITY, NOT_NEGATIVE),
+}
+"""Keys in US units of the goods of a floor, or of all in [goods]."""
+PLAIN_STOREY_KEYS: Final = {
+    "height": {SI: "height_m", US: "height_ft"},
+    "area": {SI: "area_m2", US: "area_ft2"},
+    "dead_load": {SI: "dead_load_kpa", US: "dead_load_psf"},
+    "mass": {SI: "mass_kg"},
+    "weight": {US: "weight_kip"},
+    "gravity_load": {SI: "gravity_load_kn", US: "gravity_load_kip"},
+    "stiffness": {SI: "stiffness_kn_per_m", US: "stiffness_kip_per_in"},
+    "yield_shear": {SI: "yield_shear_kn", US: "yield_shear_kip"},
+}
+"""Keys without a unit of a storey, by the system that the file states, as the keys that they stand for."""
+PLAIN_GOODS_KEYS: Final = {"live_load": {SI: "live_load_kpa", US: "live_load_psf"}}
+"""The same of the goods of a floor."""
+
+
+def plain_keys(keys: dict[str, dict[str, str]], units: str) -> tuple[str, ...]:
+    """Return the keys without a unit that a file may have; none where it does not state its system."""
+    return tuple(key for key, of in keys.items() if units in of)
+
+
+def to_si(table: Table, units: str) -> None:
+    """Convert the table in place to SI units: keys without a unit are in the `units` of the file ("", "si" or "us"). A
+    key stated in two units is refused.
+    """
+    for name, of in (PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS).items():
+        if name in table.values and units in of:
+            table.excluded(name, of[units])
+            table.values[of[units]] = table.values.pop(name)
+    for name, us in (US_STOREY_KEYS | US_GOODS_KEYS).items():
+        if name in table.values:
+            table.excluded(name, us.key)
+            table.values[us.key] = us.factor * table.number(name, need=us.need)
+            del table.values[name]
+
+
+DEFAULT: Final = "default"
+"""Source of a quantity that the file does not state."""
+_STRENGTH_SOURCES: Final = ("yield_shear_kn", "yield_shear_n", "yield_shear_over_weight")
+_OF_STOREYS: Final = {
+    "height": ("height_m",),
+    "area": ("area_m2",),
+    "dead_load": ("dead_load_kpa", "mass_kg"),
+    "gravity_load": ("gravity_load_kn",),
+    "stiffness": ("stiffness_kn_per_m", "stiffness_n_per_m", "relative_stiffness"),
+    "strength": _STRENGTH_SOURCES,
+    "overstrength": ("overstrength",),
+    "second_slope": ("second_slope",),
+    "third_slope": ("third_slope",),
+}
+_OF_GOODS: Final = {"live_load": LIVE_LOAD, "present": PRESENT, "friction": FRICTION}
+_OF_BUILDING: Final = {
+    "period": ("period_s", "system"),
+    "damping": ("damping",),
+    "p_delta": ("p_delta",),
+    "design": ("design",),
+    "reduction": ("R",),
+    "design_fraction": ("design_fraction",),
+    "combination": ("combination",),
+    "drift_limit": ("drift_limit", "risk_category"),
+    "theta_limit": ("theta_limit",),
+    "collapse": ("collapse_drift_ratio",),
+    "scaling_period": ("scaling_period_s",),
+}
+
+
+def sources_of(file: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
+    """Return each quantity with the keys that state it, as the file has them, or `DEFAULT`."""
+    building, goods = file.get("building") or {}, file.get("goods") or {}
+    storeys: Sequence[Mapping[str, Any]] = file.get("storeys") or []
+    found = {}
+    for name, keys in _OF_STOREYS.items():
+        found[name] = _stated(keys, ("building", building), storeys)
+    for name, keys in _OF_GOODS.items():
+        found[name] = _stated(keys, ("goods", goods), storeys)
+    for name, keys in _OF_BUILDING.items():
+        found[name] = ", ".join(f"building.{key}" for key in keys if building.get(key) is not None) or DEFAULT
+    found["mu_factors"] = "goods.mu_factors" if goods.get("mu_factors") is not None else DEFAULT
+    for name in ("site", "code"):
+        given = file.get(name) or {}
+        found[name] = ", ".join(f"{name}.{key}" for key in given if given[key] is not None) or DEFAULT
+    return tuple(found.items())
+
+
+def _stated(keys: Sequence[str], default: tuple[str, Mapping[str, Any]], storeys: Sequence[Mapping[str, Any]]) -> str:
+    """Keys of the defaults and of storeys that state a quantity, in whichever unit."""
+    known = {*keys, *_in_other_units(keys)}
+    place, table = default
+    parts = [f"{place}.{key}" for key in table if key in known and table[key] is not None]
+    own: dict[str, list[str]] = {}
+    for number, storey in enumerate(storeys, start=1):
+        for key in storey:
+            if key in known and storey[key] is not None:
+                own.setdefault(key, []).append(str(number))
+        for kind in storey.get("goods") or []:
+            for key in kind:
+                if key in known and kind[key] is not None and str(number) not in own.setdefault(f"goods.{key}", []):
+                    own[f"goods.{key}"].append(str(number))
+    parts += [f"storeys[{', '.join(numbers)}].{key}" for key, numbers in own.items()]
+    return "; ".join(parts) or DEFAULT
+
+
+def _in_other_units(keys: Sequence[str]) -> set[str]:
+    """Keys in US units, and those without a unit, that stand in the place of keys."""
+    us = {**US_STOREY_KEYS, **US_GOODS_KEYS}
+    found = {other for other, one in us.items() if one.key in keys}
+    for key, of in (PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS).items():
+        if any(one in keys or one in found for one in of.values()):
+            found.add(key)
+    return found
+
 
 _MASS: Final = ("dead_load_kpa", "mass_kg")
 _STIFFNESS: Final = ("stiffness_kn_per_m", "stiffness_n_per_m")

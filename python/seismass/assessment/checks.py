@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import Any
+from typing import Any, Final, Literal
 
 import numpy as np
 import polars as pl
 
-from seismass.assessment.models import ADVISED, BARE, REALS
+from seismass.assessment.models import ADVISED, BARE, REAL, REAL_HIGH, REAL_LOW, REALS, friction_factors
 from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding
+from seismass.base.statistics import QUANTILES
 from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray
 from seismass.design import THETA_THRESHOLD, drift_limit
 from seismass.model.codes import NOT_CHECKED, VERIFIED
-from seismass.spectra import TargetSpectrum
+from seismass.model.scene import Scene
+from seismass.motions.spectra import TargetSpectrum
 
 
 def checks_table(building: OwnBuilding, storeys: pl.DataFrame, collapses: dict[str, int]) -> pl.DataFrame:
@@ -154,3 +157,203 @@ def input_document(building: OwnBuilding, target: TargetSpectrum | None) -> dict
         "sources": dict(building.sources),
         "file": None if building.path is None else building.path.name,
     }
+
+
+ANALYSES: Final = {ADVISED: "analysis 1", BARE: "analysis 2"}
+"""The pair of analyses, by their models: with the share attached, and without goods."""
+DIGITS: Final = 2
+"""Decimals of a drift (%, or mm) that are printed; drifts with equal ones are one, as of goods that hardly slide."""
+
+
+def friction_words(building: OwnBuilding) -> dict[str, str]:
+    """Return the friction of each model with sliding goods in words, "mu as stated" first."""
+    low, high = building.mu_factors
+    return {REAL: "mu as stated", REAL_HIGH: f"mu x {high:g}", REAL_LOW: f"mu x {low:g}"}
+
+
+def governing_table(building: OwnBuilding, storeys: pl.DataFrame) -> pl.DataFrame:
+    """Return one row per storey: mean peak drifts of both analyses and of the goods that slide (null where a run
+    collapses), which governs (null where a mean is missing), its limit and the ratio to it.
+    """
+    words = friction_words(building)
+    known = storeys["model"].unique(maintain_order=True).to_list()
+    columns = [name for name in (ADVISED, BARE, REAL, REAL_HIGH, REAL_LOW) if name in known]
+    rows: list[dict[str, Any]] = []
+    for storey in range(1, building.storeys + 1):
+        of = storeys.filter(pl.col("storey") == storey)
+        means = dict(of.select("model", "mean").iter_rows())
+        drifts = {name: means[name] for name in columns}
+        first = of.row(0, named=True)
+        row = {"storey": storey, "name": first["name"], "unit": first["unit"], "limit": first["limit"], **drifts}
+        sliding = {name: drifts[name] for name in REALS if drifts.get(name) is not None}
+        if sliding:
+            at = max(sliding, key=lambda name: sliding[name])
+            row |= {"sliding": sliding[at], "sliding_at": words[at]}
+        if all(value is not None for value in drifts.values()):
+            row |= _governing(drifts, words, 1e2 if first["unit"] == "ratio" else 1e3)
+            if first["limit"] is not None:
+                row["governing_over_limit"] = row["governing"] / first["limit"]
+        rows.append(row)
+    texts = dict.fromkeys(("name", "unit", "governed_by", "sliding_at"), pl.String)
+    numbers = (ADVISED, BARE, REAL, REAL_HIGH, REAL_LOW, "governing", "sliding", "limit", "governing_over_limit")
+    return pl.DataFrame(rows, schema={"storey": pl.UInt32, **texts, **dict.fromkeys(numbers, pl.Float64)})
+
+
+def _governing(drifts: dict[str, float], words: dict[str, str], scale: float) -> dict[str, Any]:
+    """The largest drift and what has it; sliding goods only where they drift more than both analyses."""
+    by = max((name for name in ANALYSES if name in drifts), key=lambda name: drifts[name])
+    largest = max(drifts, key=lambda name: drifts[name])
+    if round(scale * drifts[largest], DIGITS) == round(scale * drifts[by], DIGITS):
+        return {"governing": drifts[by], "governed_by": ANALYSES[by]}
+    return {"governing": drifts[largest], "governed_by": f"goods slide, {words[largest]}"}
+
+
+def largest_change(storeys: pl.DataFrame, models: tuple[str, ...]) -> float | None:
+    """Return the largest over the smallest mean drift of a storey among `models`, less one: the largest of any storey.
+    None without means.
+    """
+    found = []
+    for _, of in storeys.filter(pl.col("model").is_in(models)).group_by("storey"):
+        means = of["mean"].to_list()
+        if any(value is None for value in means) or not means or min(means) <= 0.0:
+            return None
+        found.append(max(means) / min(means) - 1.0)
+    return max(found) if found else None
+
+
+MOST_COLLAPSES: Final = 0.1
+"""Share of the motions that may bring a collapse where drifts still have a mean: one of eleven, and four of forty."""
+MEDIAN_FACTOR: Final = 1.2
+"""The mean is then this times the median, and at least the mean of the others: ASCE/SEI 7-16, 16.4 (from memory)."""
+
+
+def drift_statistics(drifts: FloatArray) -> dict[str, float | None]:
+    """Return `statistics_of` drifts, with a mean where no more than `MOST_COLLAPSES` of the runs collapsed (infinite
+    drifts).
+    """
+    known, fallen = statistics_of(drifts), np.isinf(drifts)
+    if fallen.any() and few_collapses(int(fallen.sum()), len(drifts)):
+        known["mean"] = max(MEDIAN_FACTOR * float(np.median(drifts)), float(drifts[~fallen].mean()))
+    return known
+
+
+def few_collapses(collapsed: int, motions: int) -> bool:
+    """Whether so few runs collapsed that drifts have a mean, and an assessment an answer."""
+    return collapsed <= MOST_COLLAPSES * motions
+
+
+def statistics_of(values: FloatArray) -> dict[str, float | None]:
+    """Return mean, quantiles and largest value over the motions; what a collapsed run (an infinite value) decides is
+    null.
+    """
+    collapsed = bool(np.isinf(values).any())
+    # Between a number and infinity nothing can be interpolated; then a quantile is the next larger value.
+    method: Literal["higher", "linear"] = "higher" if collapsed else "linear"
+    found = {"mean": float(values.mean())}
+    found |= {name: float(np.quantile(values, share, method=method)) for name, share in QUANTILES.items()}
+    found["max"] = float(values.max())
+    return {name: value if np.isfinite(value) else None for name, value in found.items()}
+
+
+def gravity_of_storeys(building: OwnBuilding, scene: Scene) -> FloatArray:
+    """Return the gravity load P above each storey (N), goods included, shape (storeys,)."""
+    if building.heights is not None and scene.geometric_stiffness.any():
+        return scene.geometric_stiffness * building.heights
+    return np.cumsum((STANDARD_GRAVITY * (building.mass + building.frames + building.goods))[::-1])[::-1]
+
+
+def storey_table(building: OwnBuilding, real: Scene, runs: pl.DataFrame) -> pl.DataFrame:
+    """Return one row per model and storey: statistics of the peak drift (null where a collapsed run decides), its
+    limit, and theta = P d/(V h) of mean peak drift and shear with its limit (null beside walls).
+    """
+    heights = building.heights
+    gravity, rows = gravity_of_storeys(building, real), []
+    column = "peak_drift" if heights is None else "peak_drift_ratio"
+    for model in runs["model"].unique(maintain_order=True):
+        for storey in range(1, building.storeys + 1):
+            of = runs.filter((pl.col("model") == model) & (pl.col("storey") == storey))
+            collapsed = of["collapsed"].to_numpy()
+            drift = np.where(collapsed, np.inf, of[column].to_numpy())
+            known = drift_statistics(drift)
+            shears = of["peak_storey_shear"].to_numpy()[~collapsed]
+            shear = float(shears.mean()) if known["mean"] is not None else None
+            mean, load = known["mean"], float(gravity[storey - 1])
+            alone = building.walls is None
+            elastic = None
+            if heights is not None and alone:
+                elastic = load / float(building.stiffness[storey - 1] * heights[storey - 1])
+            has_theta = heights is not None and alone and mean is not None and bool(shear)
+            rows.append(
+                {
+                    "model": model,
+                    "storey": storey,
+                    "name": building.storey_names[storey - 1],
+                    "unit": "m" if heights is None else "ratio",
+                    **known,
+                    "limit": None if heights is None else building.drift_limit,
+                    "mean_over_limit": None if heights is None or mean is None else mean / building.drift_limit,
+                    "motions_above_limit": None if heights is None else int((drift > building.drift_limit).sum()),
+                    "collapsed": int(collapsed.sum()),
+                    "mean_peak_shear": shear,
+                    # With drift ratios the height is in the drift already.
+                    "theta": load * mean / shear if has_theta and mean is not None and shear else None,
+                    "theta_elastic": elastic,
+                    "theta_limit": None if heights is None else building.theta_limit,
+                }
+            )
+    numbers = ("mean", *QUANTILES, "max", "limit", "mean_over_limit", "mean_peak_shear", "theta", "theta_elastic")
+    schema: dict[str, Any] = {"storey": pl.UInt32, "motions_above_limit": pl.UInt32, "collapsed": pl.UInt32}
+    schema |= dict.fromkeys((*numbers, "theta_limit"), pl.Float64)
+    return pl.DataFrame(rows, schema_overrides=schema)
+
+
+def slip_table(building: OwnBuilding, slips: pl.DataFrame) -> pl.DataFrame:
+    """Return one row per friction, kind of loose goods present and level of its rack: motions that slide, statistics of
+    peak and residual slip (m), and collapsed runs, whose slips are those until the collapse.
+    """
+    words = dict(zip(REALS, ("as stated", "lower bound", "upper bound"), strict=True))
+    rows = []
+    for model, factor in friction_factors(building).items():
+        for number, level in sorted(building.sliding):
+            kind = building.loose[number]
+            of = slips.filter((pl.col("model") == model) & (pl.col("kind") == number) & (pl.col("level") == level))
+            if of.height == 0:
+                continue
+            peak, residual = of["peak_slip"].to_numpy(), np.abs(of["residual_slip"].to_numpy())
+            left = statistics_of(residual)
+            rows.append(
+                {
+                    "model": model,
+                    "friction": words[model],
+                    "floor": kind.floor,
+                    "name": building.storey_names[kind.floor - 1],
+                    "goods": ", ".join(part for part in (kind.name, f"level {level}" * (level > 0)) if part),
+                    "contact": kind.contact,
+                    "mu_s": factor * kind.mu_s,
+                    "mu_k": factor * kind.mu_k,
+                    "motions_that_slide": int((peak > 0.0).sum()),
+                    **{f"peak_{name}": value for name, value in statistics_of(peak).items()},
+                    **{f"residual_{name}": left[name] for name in ("mean", "median", "p84")},
+                    "collapsed": int(of["collapsed"].sum()),
+                }
+            )
+    numbers = [f"peak_{name}" for name in ("mean", *QUANTILES, "max")]
+    numbers += [f"residual_{name}" for name in ("mean", "median", "p84")]
+    texts = ("model", "friction", "name", "goods", "contact")
+    schema: dict[str, Any] = {
+        **dict.fromkeys(texts[:2], pl.String),
+        "floor": pl.UInt32,
+        **dict.fromkeys(texts[2:], pl.String),
+        **dict.fromkeys(("mu_s", "mu_k"), pl.Float64),
+        "motions_that_slide": pl.UInt32,
+        **dict.fromkeys(numbers, pl.Float64),
+        "collapsed": pl.UInt32,
+    }
+    return pl.DataFrame(rows, schema=schema)
+
+
+def collapses_of(runs: pl.DataFrame) -> dict[str, int]:
+    """Return the number of collapsed runs of each model."""
+    first = runs.filter(pl.col("storey") == 1)
+    counted = first.group_by("model", maintain_order=True).agg(pl.col("collapsed").sum())
+    return dict(counted.iter_rows())

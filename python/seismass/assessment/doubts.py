@@ -10,15 +10,15 @@ from typing import Any, Final
 import numpy as np
 import polars as pl
 
-from seismass.assessment.damping import damping_doubts
 from seismass.assessment.models import NAMES
 from seismass.assessment.own_building import OwnBuilding
+from seismass.assessment.structure import damping_doubts
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
-from seismass.spectra import TargetSpectrum
-from seismass.spectra.remarks import target_remarks
+from seismass.motions.spectra import TargetSpectrum
+from seismass.motions.spectra.target import target_remarks
 
 MOST_GOODS: Final = 5.0
 """Weight of the goods present over that of the building."""

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
+import polars as pl
 
+from seismass.assessment.floors import FloorCode
 from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT
 from seismass.base.errors import InvalidOption
-from seismass.base.input_table import POSITIVE, Table
+from seismass.base.input_table import POSITIVE, SHARE, Table
+from seismass.base.statistics import QUANTILES
 from seismass.base.values import FloatArray, brief
 from seismass.design import (
     DRIFT_LIMIT_CODES,
@@ -20,10 +24,11 @@ from seismass.design import (
     drift_limit,
     drift_limit_table,
 )
-from seismass.model.codes import CodeFraction
+from seismass.design.scaling.asce7 import spectra_of
+from seismass.model.codes import AS_STATED, CodeFraction, code_fraction
 from seismass.model.plausibility import PERIOD_RANGE
-from seismass.scaling.target_text import target_of
-from seismass.spectra import DEFAULT_TL, TargetSpectrum
+from seismass.motions.scaling.suite import target_of
+from seismass.motions.spectra import DEFAULT_TL, TargetSpectrum
 
 SITE: Final = ("sds_g", "sd1_g", "tl_s", "spectrum_csv", "target")
 """Keys of the site."""
@@ -138,3 +143,63 @@ def _code_id(building: Table, key: str, code: CodeFraction, known: tuple[str, ..
     if chosen in known:
         return chosen
     building.refuse(key, f"one of the codes whose {what}: {', '.join(known)}", brief(chosen) if chosen else "none")
+
+
+DEFAULT_CODE: Final = "asce7-10"
+"""Code whose fraction is taken where the file names none."""
+
+
+def code_of(table: Table) -> CodeFraction:
+    """Return the code of the file, or a fraction of your own."""
+    if "fraction" in table.values:
+        table.excluded("id", "fraction")
+        table.excluded("use", "fraction")
+        value = table.number("fraction", need=SHARE)
+        return CodeFraction("own", "a fraction of one's own", "storage", value, value, value, "", "", AS_STATED)
+    names = {key: table.text(key) for key in ("id", "use")}
+    try:
+        found = code_fraction(names["id"] or DEFAULT_CODE)
+        return code_fraction(found.code_id, names["use"] or "storage")  # type: ignore[arg-type]
+    except InvalidOption as error:
+        key = "use" if str(error).startswith("use") else "id"
+        table.refuse_as(key, error)
+
+
+def floor_codes(storeys: list[Table], code: CodeFraction) -> tuple[FloorCode, ...]:
+    """Return what the tables of the storeys say for the code: `use`, or `fraction`, and `exempt`."""
+    found = []
+    for storey in storeys:
+        storey.one_of("use", "fraction")
+        exempt = storey.flag("exempt", False) if "exempt" in storey.values else None
+        if exempt:
+            storey.one_of("use", "fraction", "exempt")
+        fraction = storey.number("fraction", need=SHARE) if "fraction" in storey.values else np.nan
+        use = storey.text("use")
+        if use and code.status == AS_STATED:
+            storey.refuse("use", "left out where code.fraction is given", "both")
+        if use:
+            try:
+                code_fraction(code.code_id, use)  # type: ignore[arg-type]
+            except InvalidOption as error:
+                storey.refuse_as("use", error)
+        found.append(FloorCode(fraction, use, exempt))
+    return tuple(found)
+
+
+PERIODS: Final[FloatArray] = np.round(np.geomspace(0.05, 5.0, 81), 4)
+"""Periods (s) of the table."""
+DAMPING: Final = 0.05
+
+
+def spectra_table(motions: Sequence[Any], target: TargetSpectrum | None, *, threads: int | None = None) -> pl.DataFrame:
+    """Return the period (s) and, in m/s2, the target and the mean, p16, median and p84 of the pseudo-acceleration of
+    scaled motions, 5 % damped; of a pair the geometric mean. The target is null outside its range.
+    """
+    spectra = spectra_of(list(motions), PERIODS, DAMPING, threads=threads)
+    wanted = np.full(len(PERIODS), np.nan)
+    if target is not None:
+        within = (target.shortest <= PERIODS) & (target.longest >= PERIODS)
+        wanted[within] = target(PERIODS[within])
+    columns = {"period": PERIODS, "target": wanted, "mean": spectra.mean(axis=0)}
+    columns |= {name: np.quantile(spectra, share, axis=0) for name, share in QUANTILES.items()}
+    return pl.DataFrame(columns).with_columns(pl.col("target").fill_nan(None))

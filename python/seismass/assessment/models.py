@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any, Final
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 import polars as pl
+from numpy.typing import NDArray
 
+from seismass.assessment.file_site import PERIOD_MASSES
 from seismass.assessment.own_building import OwnBuilding
-from seismass.base.errors import SimulationError
-from seismass.base.values import FloatArray
+from seismass.base.errors import InvalidOption, SimulationError
+from seismass.base.values import FloatArray, as_number
+from seismass.design.scaling import ScalingResult, scale_asce7_10
+from seismass.effective_mass.estimate import rule_by_hand
 from seismass.effective_mass.models import base_of_model, frame_mass
-from seismass.media.roles import MODELS
-from seismass.model.motion import MotionLike
+from seismass.effective_mass.runs import named_motions, solve
+from seismass.effective_mass.search import OWNER
+from seismass.media.style import MODELS
+from seismass.model.codes import NOT_CHECKED, VERIFIED
 from seismass.model.scene import Scene
+from seismass.motions.motion import MotionLike
+from seismass.motions.spectra import TargetSpectrum
 from seismass.runs.batch import solve_many
-from seismass.runs.plane_motion import MotionPair
-from seismass.spectra import TargetSpectrum
+from seismass.runs.plane import MotionPair
 
 REAL: Final = "real"
 REAL_LOW: Final = "real_mu_low"
@@ -149,3 +157,140 @@ def _larger(run: dict[str, Any], name: str, place: int, in_plane: bool) -> float
     """A peak of a storey; in two directions the larger of both."""
     values = [run[f"{name}_{axis}"][place] for axis in "xy"] if in_plane else [run[name][place]]
     return float(max(values))
+
+
+WORDS: Final = {
+    "bare": "no goods",
+    "code share": "the code's share of the live load",
+    "all": "all goods present",
+}
+"""What acts as mass in a period."""
+
+
+def period_sentences(
+    building: OwnBuilding, target: TargetSpectrum | None, motions: list[Any], yields: bool | None
+) -> tuple[str, ...]:
+    """Return which mass acts in the stated period, its source, and the share by hand for other masses; None where
+    stiffnesses were stated. `yields`: whether the building yields with all goods attached.
+    """
+    if building.stated_period is None:
+        return ()
+    rule = building.period_rule
+    source = "as stated"
+    if rule is not None:
+        checked = rule.status if rule.status == VERIFIED else f"{rule.status}; {NOT_CHECKED}"
+        size = "storeys" if rule.variable == "storeys" else "height in m"
+        source = (
+            f"{rule.coefficient:g} h^{rule.exponent:g} with h the {size}, {rule.code}, {rule.clause}, {rule.system} "
+            f"({checked})"
+        )
+    told = [
+        f"Period: {building.stated_period:.3g} s, {source}, taken with {WORDS[building.period_mass]} as mass; "
+        f"{building.period():.3g} s without goods, {building.period(building.goods):.3g} s with all of them."
+    ]
+    if rule is not None:
+        told.append(
+            "Formulas of codes give short periods, for forces on the safe side: drifts are then on the unsafe side, "
+            "and the share is that of a stiff building; state a calculated period (period_s) where there is one."
+        )
+    if yields is not None:
+        shares = {mass: _by_hand(_with_period_of(building, mass), target, motions, yields) for mass in PERIOD_MASSES}
+        others = ", ".join(
+            f"{share:.2f} were it that with {WORDS[mass]}"
+            for mass, share in shares.items()
+            if mass != building.period_mass
+        )
+        told.append(
+            f"The rule by hand gives a share of {shares[building.period_mass]:.2f} for this period, {others}, under "
+            "the same motions."
+        )
+    return tuple(told)
+
+
+def _with_period_of(building: OwnBuilding, mass: str) -> OwnBuilding:
+    """The building whose stated period is that with another mass."""
+    counted: dict[str, FloatArray] = {
+        "bare": 0.0 * building.mass,
+        "code share": building.code_mass,
+        "all": building.goods,
+    }
+    assert building.stated_period is not None
+    factor = (building.period(counted[mass]) / building.stated_period) ** 2
+    return replace(building, stiffness=factor * building.stiffness, period_mass=mass)
+
+
+def _by_hand(building: OwnBuilding, target: TargetSpectrum | None, motions: list[Any], yields: bool) -> float:
+    scene = building.scene(target)
+    return rule_by_hand(scene, named_motions(motions, OWNER, scene), yields).estimate
+
+
+class Shown(NamedTuple):
+    """What is shown of a building.
+
+    Attributes
+    ----------
+    scene : Scene
+        The building with its goods.
+    motion : Record or Pair
+        The motion, scaled.
+    number : int
+        Its number in the suite, from 1.
+    factor : float
+        By which it is scaled.
+    """
+
+    scene: Scene
+    motion: Any
+    number: int
+    factor: float
+
+
+def motion_of_runs(runs: pl.DataFrame) -> int:
+    """Return the number (from 0) of the motion of median drift among those under which goods slide without a collapse,
+    or among all where there are none, by the first model of the table of runs.
+    """
+    of = runs.filter(pl.col("model") == runs["model"][0])
+    by_motion = of.group_by("motion", maintain_order=True).agg(
+        pl.col("collapsed").any(), pl.col("peak_drift").max(), slides=(pl.col("peak_slip") > 0.0).any()
+    )
+    drift = np.where(by_motion["collapsed"].to_numpy(), np.inf, by_motion["peak_drift"].to_numpy())
+    slides = by_motion["slides"].fill_null(value=False).to_numpy() & np.isfinite(drift)
+    return _median(drift, np.flatnonzero(slides) if slides.any() else np.arange(len(drift)))
+
+
+def _median(drift: FloatArray, among: NDArray[np.int64]) -> int:
+    """Place of the median drift among some."""
+    ordered = among[np.argsort(drift[among], kind="stable")]
+    return int(ordered[(len(ordered) - 1) // 2])
+
+
+def shown_motion(scene: Scene, scaled: list[Any], factors: FloatArray) -> Shown:
+    """Return the motion of median largest drift of those under which goods slide, else of all; motions are scaled by
+    `factors` already.
+    """
+    peaks = solve([scene], named_motions(scaled, "animation", scene))
+    among = np.flatnonzero(peaks.slides[0]) if peaks.slides.any() else np.arange(len(scaled))
+    place = _median(peaks.largest[0], among)
+    return Shown(scene, scaled[place], place + 1, float(factors[place]))
+
+
+def scaled_to_site(
+    building: OwnBuilding,
+    motions: Iterable[Any],
+    target: TargetSpectrum | None = None,
+    period: float | None = None,
+    *,
+    threads: int | None = None,
+) -> ScalingResult:
+    """Return the factors of `scale_asce7_10` for the period T (s) that is given, else that of the file, else the first
+    with the goods attached (in two directions from 0.2 of the shorter to 1.5 of the longer). `target` replaces that.
+    """
+    stated = building.scaling_period
+    if period is not None:
+        stated = as_number(period, "scaling_period", "assessment", InvalidOption)
+    directions = [each for each in (building, building.other) if each is not None]
+    periods = [each.period(building.goods) for each in directions] if stated is None else [stated]
+    shorter, longer = min(periods), max(periods)
+    within = (0.2 * (shorter / longer), 1.5)
+    spectrum = building.site_spectrum(target)
+    return scale_asce7_10(motions, spectrum, longer, period_range=within, between=False, threads=threads)

@@ -9,7 +9,7 @@ from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 
-from seismass.assessment.file_values import REDUCTION
+from seismass.assessment.file_parts import REDUCTION
 from seismass.assessment.pushover_file import PushoverCurves
 from seismass.assessment.storey_table import StoreyTable
 from seismass.base.errors import InvalidBuildingFile, InvalidOption
@@ -17,7 +17,7 @@ from seismass.base.input_table import POSITIVE, SHARE, Need
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.design import PushoverFit, fit_pushover
-from seismass.design.spring_fit import SpringShape
+from seismass.design.pushover_fit import SpringShape
 from seismass.model.friction import friction_table
 
 FloorForces: TypeAlias = Literal["triangular", "uniform"]

@@ -6,6 +6,7 @@ It makes the models that are compared: goods that slide, and a share of them att
 from __future__ import annotations
 
 from dataclasses import dataclass
+from datetime import date, datetime
 from pathlib import Path
 from typing import Final
 
@@ -13,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass.assessment.floors import CountedFraction, FloorCode, FloorGoods, by_floor, counted_fractions
-from seismass.assessment.project import NO_PROJECT, Project
 from seismass.base.errors import InvalidOption
+from seismass.base.input_table import Table
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, brief, content_hash, refusal, same_content, short_repr
+from seismass.base.values import FloatArray, brief, content_hash, printable, refusal, same_content, short_repr
 from seismass.base.views import Card
 from seismass.design import (
     THETA_CAP,
@@ -27,13 +28,59 @@ from seismass.design import (
     response_spectrum_analysis,
     vibration_modes,
 )
-from seismass.model.block import Block
-from seismass.model.building import Building
+from seismass.model.block import Block, SlidingBase
+from seismass.model.building import DEFAULT_DAMPING, Building
 from seismass.model.codes import CodeFraction
-from seismass.model.damping import DEFAULT_DAMPING
 from seismass.model.scene import Scene
-from seismass.model.sliding_base import SlidingBase
-from seismass.spectra import TargetSpectrum
+from seismass.motions.spectra import TargetSpectrum
+
+PROJECT: Final = ("name", "number", "author", "checker", "date")
+"""Keys of the table."""
+
+
+@dataclass(frozen=True)
+class Project:
+    """Head of a calculation page; texts are empty where the file does not state them.
+
+    Attributes
+    ----------
+    name, number, author, checker : str
+        Project, its number, who made the calculation and who checked it.
+    date : str
+        Date of the calculation, as 2026-11-25.
+    """
+
+    name: str = ""
+    number: str = ""
+    author: str = ""
+    checker: str = ""
+    date: str = ""
+
+
+NO_PROJECT: Final = Project()
+"""The project of a file that states none."""
+
+
+def project_of(table: Table) -> Project:
+    """Return what a table [project] says."""
+    return Project(
+        **{key: printable(table.text(key)) for key in PROJECT if key != "date"},
+        date=_date(table),
+    )
+
+
+def _date(table: Table) -> str:
+    """A date of TOML, or a text that is one."""
+    value = table.values.get("date", "")
+    if isinstance(value, date) and not isinstance(value, datetime):
+        return value.isoformat()
+    if value == "":
+        return ""
+    try:
+        return date.fromisoformat(value).isoformat()
+    except (TypeError, ValueError):
+        table.refuse("date", "a date, such as 2026-11-25", brief(value))
+
 
 DEFAULT_DRIFT_LIMIT: Final = 0.020
 """Allowable drift ratio: ASCE/SEI 7-10, table 12.12-1, other structures of risk category I or II."""
@@ -123,7 +170,7 @@ class OwnBuilding(Card):
     project : Project
         What the head of the page says.
     sources : tuple of (str, str)
-        Each quantity with the keys that state it; see `seismass.assessment.sources`.
+        Each quantity with the keys that state it; see `seismass.assessment.building_file`.
     walls : ndarray, shape (storeys, storeys), or None
         Stiffness of elastic walls over the floors (N/m), beside the storeys; None without.
     walls_stated : str

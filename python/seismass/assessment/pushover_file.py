@@ -8,10 +8,16 @@ from typing import Final, Literal
 
 import numpy as np
 
-from seismass.assessment.sheet import Names, read_sheet
-from seismass.assessment.storey_rows import is_base, refuse_summaries
-from seismass.assessment.storey_table import COLUMNS, Order, is_roof_first
-from seismass.assessment.storey_units import system_of
+from seismass.assessment.storey_table import (
+    COLUMNS,
+    Names,
+    Order,
+    is_base,
+    is_roof_first,
+    read_sheet,
+    refuse_summaries,
+    system_of,
+)
 from seismass.base.errors import InvalidBuildingFile
 from seismass.base.values import FloatArray, as_path, frozen, printable, refusal, short
 from seismass.base.views import Card

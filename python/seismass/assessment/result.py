@@ -12,14 +12,14 @@ import polars as pl
 
 from seismass.assessment.answer import ANALYSIS, Answer, analysis_table
 from seismass.assessment.checks import checks_table, input_document
+from seismass.assessment.models import Shown
 from seismass.assessment.own_building import OwnBuilding
-from seismass.assessment.shown_motion import Shown
 from seismass.base.values import content_hash, same_content
 from seismass.base.views import view
+from seismass.design.scaling import ScalingResult
 from seismass.effective_mass import EffectiveMass
 from seismass.media.result import Result, finite_values
-from seismass.scaling import ScalingResult
-from seismass.spectra import TargetSpectrum
+from seismass.motions.spectra import TargetSpectrum
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -60,11 +60,11 @@ class Assessment(Result):
         Share that a design of the strengths and the analysis have in common, at the friction that decides; see
         `seismass.effective_mass_of_design`. None where strengths are stated, and without an answer.
     storeys : polars.DataFrame
-        Drift, limit and stability coefficient by model and storey; see `seismass.assessment.tables.storey_table`.
+        Drift, limit and stability coefficient by model and storey; see `seismass.assessment.checks.storey_table`.
     governing : polars.DataFrame
-        Drifts of both analyses and of goods that slide by storey; see `seismass.assessment.governing.governing_table`.
+        Drifts of both analyses and of goods that slide by storey; see `seismass.assessment.checks.governing_table`.
     slip : polars.DataFrame
-        Slip demand by friction and floor; see `seismass.assessment.tables.slip_table`.
+        Slip demand by friction and floor; see `seismass.assessment.checks.slip_table`.
     runs : polars.DataFrame
         Peaks of every run by storey; see `seismass.assessment.models.solve_models`.
     slips : polars.DataFrame
@@ -72,7 +72,7 @@ class Assessment(Result):
     collapses : dict of str to int
         Collapsed runs of each model.
     spectra : polars.DataFrame
-        Spectra of the scaled motions; see `seismass.assessment.spectra.spectra_table`.
+        Spectra of the scaled motions; see `seismass.assessment.file_site.spectra_table`.
     example : Shown
         The building under the motion with the median drift of those under which goods slide.
     scaling : ScalingResult or None

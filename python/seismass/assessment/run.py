@@ -5,35 +5,54 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 
 from seismass import _kernel
 from seismass.assessment.advice import advice_of, assumptions_of, remarks_of
-from seismass.assessment.answer import answer_of, deciding
+from seismass.assessment.answer import (
+    ANALYSIS,
+    SHARES,
+    advised_share,
+    analysis_table,
+    answer_of,
+    deciding,
+    design_share,
+    design_shares,
+    fractions_by_friction,
+)
 from seismass.assessment.building_file import read_building
+from seismass.assessment.checks import collapses_of, governing_table, slip_table, storey_table
 from seismass.assessment.doubts import doubts_of
-from seismass.assessment.governing import governing_table
-from seismass.assessment.models import REAL, compared_models, friction_factors, solve_models
+from seismass.assessment.file_site import spectra_table
+from seismass.assessment.models import (
+    ADVISED,
+    BARE,
+    REAL,
+    Shown,
+    compared_models,
+    friction_factors,
+    motion_of_runs,
+    period_sentences,
+    scaled_to_site,
+    solve_models,
+)
 from seismass.assessment.own_building import OwnBuilding
-from seismass.assessment.period import period_sentences
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
-from seismass.assessment.shares import SHARES, advised_share, design_share, design_shares, fractions_by_friction
-from seismass.assessment.shown_motion import Shown, motion_of_runs
-from seismass.assessment.site_scaling import scaled_to_site
-from seismass.assessment.spectra import spectra_table
-from seismass.assessment.tables import collapses_of, slip_table, storey_table
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.files import without_formulas
 from seismass.base.values import brief, refusal
-from seismass.effective_mass.beyond import SHARES_BEYOND, goes_beyond
+from seismass.effective_mass.models import SHARES_BEYOND, goes_beyond
 from seismass.model.codes import CodeFraction
 from seismass.model.friction import bound_factors
-from seismass.model.motion import motion_names
-from seismass.records import Pair, Pairs, Suite, builtin_pairs, builtin_suite
+from seismass.motions.motion import motion_names
+from seismass.motions.records import Pair, Pairs, Suite, builtin_pairs, builtin_suite
+from seismass.motions.spectra import TargetSpectrum
+from seismass.runs.opensees_export import write_opensees
 from seismass.runs.simulate import instruction_set
-from seismass.spectra import TargetSpectrum
 
 FIXED_MODELS: Final = 4
 """Models that every assessment with goods solves beside those with goods that slide."""
@@ -245,3 +264,20 @@ class _Stages:
         if progress is None:
             return None
         return lambda done, _: progress(min(first + done, total), total)
+
+
+TITLES: Final = {REAL: "goods slide", ADVISED: "analysis 1", BARE: "analysis 2"}
+"""Models that are written, and what the program calls them."""
+
+
+def write_models(folder: str | os.PathLike[str], result: Assessment, suite: Suite) -> list[Path]:
+    """Write OpenSeesPy models of an assessed building, with goods that slide and of both analyses, and analysis.csv.
+    `suite` holds its motions, unscaled.
+    """
+    share = next((one.share_of_goods_present for one in result.answer.analyses if one.model == ADVISED), None)
+    scenes = compared_models(result.building, result.target, share)
+    factors = np.ones(len(suite)) if result.scaling is None else result.scaling.factors
+    motions = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
+    chosen = {title: scenes[name] for name, title in TITLES.items() if name in scenes}
+    table = analysis_table(result.answer, result.building)
+    return write_opensees(folder, chosen, motions, documents={f"{ANALYSIS}.csv": without_formulas(table).write_csv()})

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 import polars as pl
 
+from seismass.assessment.floors import CONTACT_PERIOD
 from seismass.assessment.models import NAMES, REALS
 from seismass.assessment.own_building import OwnBuilding
-from seismass.assessment.racks import CONTACT_PERIOD
+from seismass.base.values import FloatArray
 from seismass.effective_mass import EffectiveMass
 from seismass.model.building import Building
+from seismass.model.scene import Scene
+from seismass.runs.simulate import simulate
 
 NOT_APPLIED: Final = "The rule by period is not applied"
 """How the advice on the rule begins."""
@@ -101,3 +104,40 @@ def about_support(building: OwnBuilding) -> list[str]:
             "the building fixed at its base unless stated."
         )
     return lines
+
+
+MAX_RATIO: Final = 1.5
+"""Peak of spring and damping force of a storey over that of its spring force: 1.15 to 1.2 in ordinary frames."""
+
+
+def force_ratios(scene: Scene, motions: list[Any]) -> FloatArray:
+    """Return the mean over the motions of each storey's peak of spring plus damping force (the inertia force of all
+    above) over the peak of its spring force, shape (storeys,); 1 for a storey without a force.
+    """
+    building = scene.building
+    assert building is not None
+    matrix = building.damping_matrix
+    found = []
+    for motion in motions:
+        response = simulate(scene, getattr(motion, "motion", motion), histories=True, events=False)
+        forces = response.floor_velocity @ matrix.T
+        damping = np.cumsum(forces[:, ::-1], axis=1)[:, ::-1]
+        springs = response.storey_force
+        spring = np.abs(springs).max(axis=0)
+        both = np.abs(springs + damping).max(axis=0)
+        found.append(np.divide(both, spring, out=np.ones(len(spring)), where=spring > 0.0))
+    mean: FloatArray = np.mean(found, axis=0)
+    return mean
+
+
+def damping_doubts(scene: Scene, motions: list[Any]) -> tuple[str, ...]:
+    """Return a sentence about the storey whose damping carries most, where it carries too much."""
+    ratios = force_ratios(scene, motions)
+    storey = int(np.argmax(ratios))
+    if ratios[storey] <= MAX_RATIO:
+        return ()
+    return (
+        f"spring and damping of storey {storey + 1} carry {ratios[storey]:.2g} times the peak force of its spring (1.2 "
+        "in ordinary frames): damping carries what the yielding storey cannot; is it a slider, a mat or far stiffer "
+        "than the others?",
+    )

@@ -17,9 +17,8 @@ LABELS: Final = frozenset({"name", "note", "path", "project", "sources"})
 
 
 def inputs_digest(*inputs: Any) -> str:
-    """Return the SHA-256 of values: numbers by all their bits, objects by all their fields but their labels.
-
-    Equal values have the same digest; 0.0 and -0.0 are equal. An object that has no fields is a TypeError.
+    """Return the SHA-256 of values: numbers by all their bits, objects by all their fields but labels. 0.0 and -0.0 are
+    equal. An object that has no fields is a TypeError.
     """
     digest = hashlib.sha256()
     for part in _parts(inputs):

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from seismass.base.errors import InvalidOption
-from seismass.commands.command import Command
+from seismass.commands.frame import Command, show
 from seismass.commands.options import (
     add_code_options,
     add_code_share_option,
@@ -25,7 +25,6 @@ from seismass.commands.scene_or_building import (
     is_building_file,
     motions_of_file,
 )
-from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
     from seismass.model.scene import Scene
@@ -52,8 +51,8 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the animation; return the exit code."""
-    from seismass.animation import Animation, PlaneAnimation, animate, animate_plane
     from seismass.runs.scene_file import example_scene
+    from seismass.show.animation import Animation, PlaneAnimation, animate, animate_plane
 
     if args.code_share is not None and (args.code is not None or args.use is not None):
         raise InvalidOption("--code-share of animate must be left out with --code or --use; got both")
@@ -105,7 +104,7 @@ def _of_scene(args: argparse.Namespace, path: Path) -> _Shown:
 def _of_building(args: argparse.Namespace, path: Path) -> _Shown:
     """A building file, under the motion of `shown_motion`, beside the model with its code's share of the load."""
     from seismass.assessment.building_file import read_building
-    from seismass.assessment.shown_motion import shown_motion
+    from seismass.assessment.models import shown_motion
 
     building, target = read_building(path), read_site(args, "animate")
     scene = building.scene(target)

@@ -8,14 +8,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, Protocol
 
-from seismass.commands.command import seconds
+from seismass.commands.frame import seconds, show
 from seismass.commands.options import left_out, warn_left_out
-from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from seismass.records import Pairs, Suite
+    from seismass.motions.records import Pairs, Suite
 
 
 class Answer(Protocol):
@@ -57,7 +56,7 @@ def print_answer(
     answer: str = "",
 ) -> None:
     """Print an answer whose files are written; see `give_answer`."""
-    from seismass.media.folder import PAGE
+    from seismass.media.result import PAGE
 
     if args.json:
         warn_left_out(suite)
@@ -74,7 +73,7 @@ def print_answer(
 def write_figure(figure: Figure, path: Path) -> None:
     """Write one figure, PNG or SVG by the suffix of its file."""
     from seismass.base.files import written_whole
-    from seismass.media.figure_file import save_figure
+    from seismass.media.svg import save_figure
 
     kind: Literal["png", "svg"] = "svg" if path.suffix.lower() == ".svg" else "png"
     with written_whole(path) as temporary:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seismass.commands.answer_output import print_answer, write_answer
-from seismass.commands.command import Command
+from seismass.commands.frame import Command, progress, show
 from seismass.commands.options import (
     add_answer_options,
     add_code_options,
@@ -21,8 +21,6 @@ from seismass.commands.options import (
     read_pairs,
     read_site,
 )
-from seismass.commands.progress import progress
-from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
     from seismass.assessment import Assessment
@@ -67,9 +65,9 @@ def run(args: argparse.Namespace) -> int:
         return 0
     from seismass.assessment import assess
     from seismass.assessment.building_file import read_building
-    from seismass.assessment.opensees_models import write_models
+    from seismass.assessment.run import write_models
     from seismass.base.errors import InvalidOption
-    from seismass.media.folder import check_out
+    from seismass.media.result import check_out
 
     args.out = args.out or Path(args.file.stem)
     check_out(args.out, "assessment")
@@ -103,10 +101,10 @@ def _live_page(out: Path, result: Assessment) -> list[Path]:
     """Write the live page, to which the page links, where it can show the building and the package has its kernel."""
     from seismass.base.errors import MissingPackage
     from seismass.base.files import written_whole
-    from seismass.explore import explorer_html
-    from seismass.media.live_address import PAGE
-    from seismass.show.assessment.live import own_case
+    from seismass.media.page import PAGE
+    from seismass.show.assessment.page_input import own_case
     from seismass.show.assessment.tables import assessment_tables
+    from seismass.show.explore import explorer_html
 
     if own_case(assessment_tables(result)).case is None:
         return []

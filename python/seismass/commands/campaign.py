@@ -7,13 +7,11 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass.commands.command import Command, seconds
+from seismass.commands.frame import Command, progress, seconds, show
 from seismass.commands.options import add_jobs_option, add_json_option, add_out_option, threads_option
-from seismass.commands.progress import progress
-from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
-    from seismass.campaign import Campaign, CampaignFolder
+    from seismass.studies.campaign import Campaign, CampaignFolder
 
 _MANY_RUNS: Final = 1_000_000
 """Runs from which on their time is estimated before they begin."""
@@ -43,7 +41,7 @@ def run(args: argparse.Namespace) -> int:
     """Run the campaign, or say how far it is; return the exit code."""
     from seismass.base.errors import InvalidOption
     from seismass.base.values import refusal
-    from seismass.campaign import CampaignFolder, example_description, read_campaign
+    from seismass.studies.campaign import CampaignFolder, example_description, read_campaign
 
     if args.example:
         print(example_description().read_text(encoding="utf-8"), end="")
@@ -89,10 +87,9 @@ def _announce(campaign: Campaign, place: Path, args: argparse.Namespace) -> None
     """Print what is about to be solved, and what it takes where that is much; refuse more than a day without --long."""
     from seismass.base.errors import InvalidOption
     from seismass.base.values import refusal
-    from seismass.campaign import CampaignFolder
-    from seismass.campaign.estimate import estimated
-    from seismass.campaign.places import MANIFEST
-    from seismass.campaign.progress import duration_text
+    from seismass.studies.campaign import CampaignFolder
+    from seismass.studies.campaign.engine import duration_text, estimated
+    from seismass.studies.campaign.manifest import MANIFEST
 
     line = f"{campaign.total} runs in {campaign.parts} parts of {campaign.part_runs}"
     there = CampaignFolder(place).runs_present if (place / MANIFEST).is_file() else 0
@@ -132,7 +129,7 @@ def _failed(folder: CampaignFolder, parts: list[int]) -> tuple[int, set[int]]:
     """Number of runs that failed in parts, and the parts that cannot be read."""
     import polars as pl
 
-    from seismass.campaign.places import part_path
+    from seismass.studies.campaign.manifest import part_path
 
     def count(chosen: list[int]) -> int:
         paths = [part_path(folder.path, part) for part in chosen]
@@ -205,7 +202,7 @@ campaign campaign.toml --out /shared/results --shard 3/20
     run=run,
     note="""
 The third line goes on after an interruption. Results are read by
-seismass.campaign.CampaignFolder("results").scan() or by any reader of Parquet.
+seismass.studies.campaign.CampaignFolder("results").scan() or by any reader of Parquet.
 docs/campaign.md explains every key of a campaign file.
 """,
     codes={1: "a run failed (its rows say why) or a part is damaged"},

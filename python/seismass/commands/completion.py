@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from seismass.commands.command import Command
+from seismass.commands.frame import Command
 
 
 def options(parser: argparse.ArgumentParser) -> None:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import argparse
 
 from seismass.commands.answer_output import give_answer
-from seismass.commands.command import Command
-from seismass.commands.exit_codes import RUNS
+from seismass.commands.frame import RUNS, Command, progress
 from seismass.commands.options import (
     add_answer_options,
     add_motion_options,
@@ -15,7 +14,6 @@ from seismass.commands.options import (
     read_motions,
     read_target,
 )
-from seismass.commands.progress import progress
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -36,7 +34,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Make the map, write its files and print how rules do; return the exit code."""
     from seismass.effective_mass import EffectiveMassParameters, effective_mass_map
-    from seismass.media.folder import check_out
+    from seismass.media.result import check_out
 
     check_out(args.out, "map")
     given = {

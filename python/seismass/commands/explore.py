@@ -6,9 +6,8 @@ import argparse
 import webbrowser
 
 from seismass.base.files import written_whole
-from seismass.commands.command import Command
+from seismass.commands.frame import Command, show
 from seismass.commands.options import add_out_option, check_files
-from seismass.commands.terminal import show
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -19,7 +18,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the page; return the exit code. Bad input, and a kernel that is missing, are raised."""
-    from seismass.explore import explorer_html
+    from seismass.show.explore import explorer_html
 
     check_files(args.out)
     html = explorer_html()

@@ -6,8 +6,7 @@ import argparse
 from typing import TYPE_CHECKING, Any
 
 from seismass.commands.answer_output import give_answer
-from seismass.commands.command import Command
-from seismass.commands.exit_codes import RUNS
+from seismass.commands.frame import RUNS, Command, progress
 from seismass.commands.options import (
     add_answer_options,
     add_code_share_option,
@@ -19,7 +18,6 @@ from seismass.commands.options import (
     read_site,
     refuse_given,
 )
-from seismass.commands.progress import progress
 from seismass.commands.scene_or_building import (
     DEFAULT_LIMIT,
     FileMotions,
@@ -35,7 +33,7 @@ from seismass.commands.scene_or_building import (
 if TYPE_CHECKING:
     from seismass.assessment.own_building import OwnBuilding
     from seismass.model.scene import Scene
-    from seismass.spectra import TargetSpectrum
+    from seismass.motions.spectra import TargetSpectrum
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -70,8 +68,8 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the analysis, print its answer and write its files; return the exit code."""
-    from seismass.fragility import HuntAndFill, cloud_analysis, incremental_dynamic_analysis, parse_limit
-    from seismass.media.folder import check_out
+    from seismass.media.result import check_out
+    from seismass.studies.fragility import HuntAndFill, cloud_analysis, incremental_dynamic_analysis, parse_limit
 
     if args.out is not None:
         check_out(args.out, "fragility")
@@ -131,8 +129,8 @@ def models_of(
     model has the code's fraction of the design live load, whatever is present.
     """
     from seismass.assessment.models import with_mass
-    from seismass.fragility import compared_models
-    from seismass.fragility.models import CODE, DEFAULT_CODE_SHARE, REAL
+    from seismass.studies.fragility import compared_models
+    from seismass.studies.fragility.run import CODE, DEFAULT_CODE_SHARE, REAL
 
     share = DEFAULT_CODE_SHARE if code_share is None else code_share
     rule = f"{100.0 * share:g} % of the goods attached as mass"

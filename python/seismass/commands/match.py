@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from seismass.commands.answer_output import write_figure
-from seismass.commands.command import Command
+from seismass.commands.frame import Command, progress, show
 from seismass.commands.options import (
     add_json_option,
     add_out_option,
@@ -27,12 +27,10 @@ from seismass.commands.options import (
     warn_left_out,
     warn_remarks,
 )
-from seismass.commands.progress import progress
-from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
-    from seismass.matching import MatchedSuite
-    from seismass.records import Record, Suite
+    from seismass.motions.matching import MatchedSuite
+    from seismass.motions.records import Record, Suite
 
 _LIST: Final = "suite.csv"
 
@@ -80,8 +78,8 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Match, print and write; return the exit code."""
-    from seismass.matching import match_suite
-    from seismass.records.named import records_named
+    from seismass.motions.matching import match_suite
+    from seismass.motions.records.builtin import records_named
 
     check_plot(args, "match")
     target = read_target(args)
@@ -133,7 +131,7 @@ def _check_out(out: Path | None, given: Path, suite: Suite) -> None:
     would replace a record or stand among them.
     """
     from seismass.base.errors import InvalidOption
-    from seismass.matching.files import SUFFIXES
+    from seismass.motions.matching.result import SUFFIXES
 
     if out is None:
         return
@@ -165,7 +163,7 @@ def _write(matched: MatchedSuite, out: Path) -> None:
     import polars as pl
 
     from seismass.base.files import write_table, written_whole
-    from seismass.matching.files import SUFFIXES
+    from seismass.motions.matching.result import SUFFIXES
 
     if out.suffix.lower() in SUFFIXES:
         matched[0].write(out)

@@ -9,9 +9,8 @@ from pathlib import Path
 from typing import Any, Literal
 
 from seismass.commands.answer_output import write_figure
-from seismass.commands.command import Command
+from seismass.commands.frame import Command, show
 from seismass.commands.options import check_files
-from seismass.commands.terminal import show
 
 _OPTIONS = {
     "name": ("TEXT", "name of the building"),

@@ -13,14 +13,13 @@ from typing import TYPE_CHECKING, Any, Final, Literal, cast, get_args
 
 from seismass.base.units import ACCELERATION_UNITS
 from seismass.model.springs import SHAPE_FIELDS
-from seismass.scaling.target_text import TARGET_HELP, target_of
+from seismass.motions.scaling.suite import TARGET_HELP, target_of
 
 if TYPE_CHECKING:
     from seismass.model.codes import CodeFraction
-    from seismass.records import Pairs, Suite
-    from seismass.records.builtin import BuiltinName
-    from seismass.records.named import Reading
-    from seismass.spectra import TargetSpectrum
+    from seismass.motions.records import Pairs, Suite
+    from seismass.motions.records.builtin import BuiltinName, Reading
+    from seismass.motions.spectra import TargetSpectrum
 
 SPRING_OPTIONS: Final = {
     "overstrength": "second yield over the first",
@@ -93,7 +92,7 @@ def add_reading_options(parser: argparse.ArgumentParser) -> None:
 
 def reading(args: argparse.Namespace) -> Reading:
     """Return what `add_reading_options` read."""
-    from seismass.records.named import Reading
+    from seismass.motions.records.builtin import Reading
 
     return Reading(args.dt, args.unit, cast("Any", args.format), args.skip, args.channel)
 
@@ -118,7 +117,7 @@ def add_records_options(group: argparse._ArgumentGroup) -> None:
 def read_motions(args: argparse.Namespace, default: BuiltinName = "forty") -> Suite:
     """Return the suite that the options name; a built-in suite beside --records is refused."""
     from seismass.base.errors import InvalidOption
-    from seismass.records import builtin_suite, read_suite
+    from seismass.motions.records import builtin_suite, read_suite
 
     if args.records is None:
         return builtin_suite(args.suite or default)
@@ -132,7 +131,7 @@ def read_pairs(args: argparse.Namespace) -> Pairs:
     components.
     """
     from seismass.base.errors import InvalidOption, RecordFormatError
-    from seismass.records import builtin_pairs, find_pairs
+    from seismass.motions.records import builtin_pairs, find_pairs
 
     if args.records is None:
         if args.suite not in (None, "forty"):
@@ -202,7 +201,7 @@ def add_opensees_option(parser: argparse.ArgumentParser, what: str) -> None:
 def read_target(args: argparse.Namespace) -> TargetSpectrum:
     """Return the target spectrum that the options describe; --target excludes the numbers of the ASCE 7 shape."""
     from seismass.base.errors import InvalidOption
-    from seismass.spectra import DEFAULT_SD1_G, DEFAULT_SDS_G, DEFAULT_TL, TargetSpectrum
+    from seismass.motions.spectra import DEFAULT_SD1_G, DEFAULT_SDS_G, DEFAULT_TL, TargetSpectrum
 
     given = {"sds": args.sds, "sd1": args.sd1, "tl": args.tl}
     if args.target is not None:

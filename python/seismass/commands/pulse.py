@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seismass.commands.answer_output import write_figure
-from seismass.commands.command import Command
+from seismass.commands.frame import Command, show
 from seismass.commands.options import (
     add_json_option,
     add_plot_option,
@@ -19,11 +19,10 @@ from seismass.commands.options import (
     reading,
     warn_left_out,
 )
-from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
-    from seismass.pulses import OrientationScan, PulseResult
-    from seismass.records import Pair, Record
+    from seismass.motions.pulses import OrientationScan, PulseResult
+    from seismass.motions.records import Pair, Record
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -77,7 +76,7 @@ def _groups(args: argparse.Namespace) -> list[Record | Pair]:
     pair.
     """
     from seismass.base.errors import InvalidMotion, InvalidOption
-    from seismass.records import Pair, Suite, find_pairs, read_record
+    from seismass.motions.records import Pair, Suite, find_pairs, read_record
 
     if args.first.is_dir():
         if args.second is not None:
@@ -98,7 +97,7 @@ def _groups(args: argparse.Namespace) -> list[Record | Pair]:
 
 def _warn_remarks(groups: list[Record | Pair]) -> None:
     """Print on standard error what the horizontal components say of themselves, such as that they were matched."""
-    from seismass.records import Record
+    from seismass.motions.records import Record
 
     for group in groups:
         for record in (group,) if isinstance(group, Record) else (group.first, group.second):
@@ -109,8 +108,8 @@ def _warn_remarks(groups: list[Record | Pair]) -> None:
 def _one_file(path: Path, options: dict[str, Any]) -> Record | Pair:
     """The one record of a file, or the pair of its two horizontal channels."""
     from seismass.base.errors import InvalidOption
-    from seismass.records import Pair, read_record, read_records
-    from seismass.records.formats.directions import is_vertical
+    from seismass.motions.records import Pair, read_record, read_records
+    from seismass.motions.records.formats.labels import is_vertical
 
     if "channel" in options:
         return read_record(path, **options)
@@ -129,8 +128,8 @@ def _one_file(path: Path, options: dict[str, Any]) -> Record | Pair:
 
 def _judged(given: Record | Pair, args: argparse.Namespace) -> list[PulseResult | OrientationScan]:
     from seismass.base.errors import InvalidOption
-    from seismass.pulses import baker2007, baker2007_orientations, shahi_baker2014
-    from seismass.records import Record
+    from seismass.motions.pulses import baker2007, baker2007_orientations, shahi_baker2014
+    from seismass.motions.records import Record
 
     if isinstance(given, Record):
         for name, asked in (
@@ -149,7 +148,7 @@ def _judged(given: Record | Pair, args: argparse.Namespace) -> list[PulseResult 
 
 def _document(result: PulseResult | OrientationScan) -> dict[str, Any]:
     """A result as JSON has it: SI units, degrees; the histories are in Python's `history_table`."""
-    from seismass.pulses import PulseResult
+    from seismass.motions.pulses import PulseResult
 
     if isinstance(result, PulseResult):
         return {

@@ -9,13 +9,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass.commands.command import Command
+from seismass.commands.frame import Command, columns, show
 from seismass.commands.options import add_json_option, add_reading_options, reading
-from seismass.commands.terminal import columns, show
 
 if TYPE_CHECKING:
-    from seismass.records import Record, Suite
-    from seismass.records.named import Reading
+    from seismass.motions.records import Record, Suite
+    from seismass.motions.records.builtin import Reading
 
 _UNREADABLE_LISTED: Final = 20
 
@@ -53,11 +52,11 @@ def _read(path: Path, given: Reading) -> Suite:
     """Return the records of a path: every channel of a file, vertical ones too, or every file of a folder or archive.
     What cannot be read is listed as left out, since the command is there to look.
     """
-    from seismass.records import Suite
-    from seismass.records import read_records as read_channels
-    from seismass.records.archive import is_archive, unpacked
-    from seismass.records.named import is_list, records_named
-    from seismass.records.suite import named_after
+    from seismass.motions.records import Suite
+    from seismass.motions.records import read_records as read_channels
+    from seismass.motions.records.builtin import is_list, records_named
+    from seismass.motions.records.read import is_archive, unpacked
+    from seismass.motions.records.suite import named_after
 
     if is_archive(path):
         given.refuse(path, "an archive of records")
@@ -76,9 +75,9 @@ def _all_of(folder: Path, named: Path) -> Suite:
     """Every record below a folder, which messages call `named`, and the files that are not records."""
     from seismass.base.errors import RecordFormatError
     from seismass.base.values import printable
-    from seismass.records import Excluded, Suite
-    from seismass.records import read_records as read_channels
-    from seismass.records.folder import files_below
+    from seismass.motions.records import Excluded, Suite
+    from seismass.motions.records import read_records as read_channels
+    from seismass.motions.records.read import files_below
 
     found: list[Record] = []
     excluded: list[Excluded] = []
@@ -96,7 +95,7 @@ def _all_of(folder: Path, named: Path) -> Suite:
 
 def _rows(suite: Suite) -> list[dict[str, Any]]:
     """One document per record: labels and measures, with the remarks of its reader and those on its ends."""
-    from seismass.records import intensity_table
+    from seismass.motions.records import intensity_table
 
     rows = []
     for row, record in zip(intensity_table(suite).iter_rows(named=True), suite, strict=True):
@@ -184,7 +183,7 @@ def _direction(component: str) -> str:
 
 
 def _find(folder: Path, as_json: bool) -> int:
-    from seismass.records import find_catalogue
+    from seismass.motions.records import find_catalogue
 
     found = find_catalogue(folder)
     if as_json:
@@ -203,7 +202,7 @@ def _find(folder: Path, as_json: bool) -> int:
 
 
 def _catalogue(as_json: bool) -> int:
-    from seismass.records.catalogue import TERMS, catalogue
+    from seismass.motions.records.catalogue import TERMS, catalogue
 
     rows = catalogue().to_dicts()
     if as_json:

@@ -5,10 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from seismass.commands.command import Command, seconds
+from seismass.commands.frame import Command, progress, seconds, show
 from seismass.commands.options import add_out_option, check_files
-from seismass.commands.progress import progress
-from seismass.commands.terminal import show
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -22,9 +20,9 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the page; return the exit code. Bad input is raised."""
-    from seismass.media.folder import PAGE
+    from seismass.media.result import PAGE
+    from seismass.show.assessment.page import write_assessment_page
     from seismass.show.assessment.tables import DOCUMENT
-    from seismass.show.assessment.write import write_assessment_page
     from seismass.show.study.write import write_study_page
 
     target = args.out or args.folder / PAGE

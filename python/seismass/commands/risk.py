@@ -7,8 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from seismass.commands.answer_output import give_answer
-from seismass.commands.command import Command
-from seismass.commands.exit_codes import RUNS
+from seismass.commands.frame import RUNS, Command, progress
 from seismass.commands.options import (
     add_answer_options,
     add_code_share_option,
@@ -19,7 +18,6 @@ from seismass.commands.options import (
     read_motions,
     read_site,
 )
-from seismass.commands.progress import progress
 from seismass.commands.scene_or_building import (
     DEFAULT_LIMIT,
     add_file_argument,
@@ -70,10 +68,10 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Find the share, print the answer and write its files; return the exit code."""
-    from seismass.fragility import parse_limit
-    from seismass.media.folder import check_out
-    from seismass.risk.hazard import HazardCurve
-    from seismass.risk.targeted_share import risk_targeted_share
+    from seismass.media.result import check_out
+    from seismass.studies.fragility import parse_limit
+    from seismass.studies.risk.hazard import HazardCurve
+    from seismass.studies.risk.targeted_share import risk_targeted_share
 
     if args.out is not None:
         check_out(args.out, "risk")

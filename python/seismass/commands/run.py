@@ -11,16 +11,14 @@ import polars as pl
 
 from seismass.base.errors import InvalidOption
 from seismass.base.files import write_table, written_whole
-from seismass.commands.command import Command
+from seismass.commands.frame import Command, show
 from seismass.commands.options import add_json_option, add_opensees_option, add_out_option, check_files
-from seismass.commands.terminal import show
 from seismass.runs.opensees_export import write_opensees
-from seismass.runs.plane_response import PlaneResponse
+from seismass.runs.plane import PlaneResponse
 from seismass.runs.response import Response
 from seismass.runs.scene_file import KEYS, SceneFile, example_scene, read_scene
 from seismass.runs.simulate import simulate
-from seismass.show.plane_text import plane_run_text
-from seismass.show.response_text import run_text
+from seismass.show.response_text import plane_run_text, run_text
 
 _HISTORY_SUFFIXES = (".parquet", ".csv")
 _KEYS = "\n".join(f"  {table or 'file'}:  {', '.join(keys)}" for table, keys in KEYS.items())

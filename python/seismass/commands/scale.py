@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from seismass.base.values import counted
 from seismass.commands.answer_output import write_figure
-from seismass.commands.command import Command
-from seismass.commands.exit_codes import RUNS
+from seismass.commands.frame import RUNS, Command, show
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_json_option,
@@ -29,14 +28,13 @@ from seismass.commands.options import (
     refuse_given,
     warn_left_out,
 )
-from seismass.commands.terminal import show
 
 if TYPE_CHECKING:
     from seismass.assessment.own_building import OwnBuilding
+    from seismass.design.scaling import ScalingResult, Selection
     from seismass.model.building import Building
-    from seismass.records import Pairs, Suite
-    from seismass.scaling import ScalingResult, Selection
-    from seismass.spectra import TargetSpectrum
+    from seismass.motions.records import Pairs, Suite
+    from seismass.motions.spectra import TargetSpectrum
 
 METHODS: Final = ("asce7-10", "asce7-16", "least-squares", "least-squares-linear", "sa-t1", "mps")
 _PUSHOVER: Final = ("reduction", "yield_coefficient", *SPRING_OPTIONS, "deformation")
@@ -87,9 +85,9 @@ def options(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Print the factors; return the exit code."""
     from seismass.assessment.models import with_mass
+    from seismass.design.scaling import select_records
     from seismass.model.plausibility import motion_remarks
-    from seismass.scaling import select_records
-    from seismass.spectra.remarks import target_remarks
+    from seismass.motions.spectra.target import target_remarks
 
     _check_options(args)
     own = _own_building(args)
@@ -123,7 +121,7 @@ def _motions(args: argparse.Namespace) -> tuple[Suite, Suite | Pairs]:
         suite = read_motions(args, "eleven" if args.method == "asce7-16" else "seven")
         return suite, suite
     from seismass.base.errors import InvalidMotion
-    from seismass.records import Suite, find_pairs
+    from seismass.motions.records import Suite, find_pairs
 
     pairs = find_pairs(args.records)
     if not len(pairs):
@@ -177,7 +175,7 @@ def _target(args: argparse.Namespace, building: OwnBuilding | None) -> TargetSpe
 
 def _scaled(args: argparse.Namespace, suite: Any, target: TargetSpectrum, building: Building | None) -> ScalingResult:
     """Scale a Suite, or Pairs by the method that takes them."""
-    from seismass import scaling
+    from seismass.design import scaling
 
     if args.method == "asce7-10":
         return scaling.scale_asce7_10(suite, target, args.period)
@@ -239,7 +237,7 @@ def _print(
     chosen: Selection | None,
     remarks: tuple[str, ...],
 ) -> None:
-    from seismass.show.motions.scaling_text import factor_lines, scaling_lines
+    from seismass.show.motions import factor_lines, scaling_lines
 
     show(f"suite   {suite.name}: {counted(len(suite), 'motion')}")
     for line in left_out(suite):

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol, TypeVar, cast
 
-from seismass.base.input_kinds import BUILDING_FILE, kind_of
+from seismass.base.input_table import BUILDING_FILE, kind_of
 from seismass.commands.options import (
     add_period_option,
     add_target_options,
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from seismass.assessment.own_building import OwnBuilding
     from seismass.base.values import FloatArray
     from seismass.model.scene import Scene
-    from seismass.records import Pairs, Suite
-    from seismass.spectra import TargetSpectrum
+    from seismass.motions.records import Pairs, Suite
+    from seismass.motions.spectra import TargetSpectrum
 
 DEFAULT_LIMIT: Final = "drift_ratio=0.02"
 """Limit state of a scene file: the allowable drift of ASCE/SEI 7-10, table 12.12-1, other structures of risk category I
@@ -64,17 +64,7 @@ def add_scaling_options(group: argparse._ActionsContainer) -> None:
 
 
 class FileMotions(NamedTuple):
-    """Motions with which a scene or a building is run.
-
-    Attributes
-    ----------
-    suite : Suite or Pairs
-        As they were read.
-    factors : sequence of float
-        By which they are multiplied.
-    scaling : str
-        How, in words.
-    """
+    """Motions as they were read, the factors by which they are multiplied, and how they are scaled, in words."""
 
     suite: Suite | Pairs
     factors: FloatArray
@@ -94,20 +84,13 @@ def motions_of_file(
     building: OwnBuilding | None,
     target: TargetSpectrum | None,
 ) -> FileMotions:
-    """Return the motions of a command, those of a building file scaled to its site as `assess` does.
-
-    Those of a scene file are scaled to `target` where one is given, and --factor stands in place of any scaling.
-    Scenes in two directions take pairs.
-
-    Raises
-    ------
-    InvalidOption
-        --factor is given beside a target, --period where nothing is scaled, or the building has no site.
+    """Return the motions of a command: those of a building file scaled to its site as in `assess`, those of a scene
+    file to `target` where one is given, or all times --factor. Scenes in two directions take pairs.
     """
     import numpy as np
 
-    from seismass.assessment.site_scaling import scaled_to_site
-    from seismass.scaling import scale_asce7_10
+    from seismass.assessment.models import scaled_to_site
+    from seismass.design.scaling import scale_asce7_10
 
     suite = read_motions(args) if scene.other_direction is False else read_pairs(args)
     if target is not None:

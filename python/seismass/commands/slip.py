@@ -7,14 +7,13 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from seismass.commands.answer_output import give_answer
-from seismass.commands.command import Command
+from seismass.commands.frame import Command, progress
 from seismass.commands.options import (
     add_answer_options,
     add_records_options,
     add_target_options,
     read_site,
 )
-from seismass.commands.progress import progress
 from seismass.commands.scene_or_building import (
     add_file_argument,
     add_scaling_options,
@@ -25,7 +24,7 @@ from seismass.commands.scene_or_building import (
 )
 
 if TYPE_CHECKING:
-    from seismass.slip import Clearance
+    from seismass.studies.slip import Clearance
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -51,8 +50,8 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Solve the runs, print the slip demand and write its files; return the exit code."""
-    from seismass.media.folder import check_out
-    from seismass.slip import parse_size, slip_demand
+    from seismass.media.result import check_out
+    from seismass.studies.slip import parse_size, slip_demand
 
     if args.out is not None:
         check_out(args.out, "slip demand")
@@ -91,7 +90,7 @@ def parse_clearance(text: str, *, plane: bool = False) -> Clearance:
     """
     from seismass.base.errors import InvalidOption
     from seismass.base.values import brief, refusal
-    from seismass.slip import Clearance
+    from seismass.studies.slip import Clearance
 
     sides, at, reach = text.partition("@")
     try:

@@ -7,8 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass.commands.command import Command
-from seismass.commands.exit_codes import RUNS
+from seismass.commands.frame import RUNS, Command
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_reading_options,
@@ -23,8 +22,8 @@ from seismass.commands.options import (
 if TYPE_CHECKING:
     import polars as pl
 
-    from seismass.records import Suite
-    from seismass.spectra import Kind
+    from seismass.motions.records import Suite
+    from seismass.motions.spectra import Kind
 
 _KINDS: Final[dict[str, Kind]] = {
     "psa": "pseudo_acceleration",
@@ -63,7 +62,7 @@ def run(args: argparse.Namespace) -> int:
     import numpy as np
 
     from seismass.base.files import without_formulas
-    from seismass.records.named import records_named
+    from seismass.motions.records.builtin import records_named
 
     inelastic = args.strength is not None or args.ductility is not None
     unused = ("kind",) if inelastic else tuple(SPRING_OPTIONS)
@@ -82,7 +81,7 @@ def _elastic(suite: Suite, periods: Any, args: argparse.Namespace) -> pl.DataFra
     import polars as pl
 
     from seismass.base.units import STANDARD_GRAVITY
-    from seismass.spectra import response_spectrum
+    from seismass.motions.spectra import response_spectrum
 
     kind = args.kind or "psa"
     spectra = response_spectrum(suite, periods, args.damping, _KINDS[kind])
@@ -102,7 +101,7 @@ def _elastic(suite: Suite, periods: Any, args: argparse.Namespace) -> pl.DataFra
 def _inelastic(suite: Suite, periods: Any, args: argparse.Namespace) -> pl.DataFrame:
     import polars as pl
 
-    from seismass.spectra import inelastic_spectrum
+    from seismass.motions.spectra import inelastic_spectrum
 
     springs = {name: getattr(args, name) for name in SPRING_OPTIONS if getattr(args, name) is not None}
     levels = {"strength": args.strength, "ductility": args.ductility}

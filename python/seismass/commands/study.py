@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING
 
 from seismass._kernel import VERSION
 from seismass.commands.answer_output import print_answer, write_answer
-from seismass.commands.command import Command
-from seismass.commands.exit_codes import DONE, FAILED
+from seismass.commands.frame import DONE, FAILED, Command, progress
 from seismass.commands.options import (
     CODE_HELP,
     SPRING_OPTIONS,
@@ -27,14 +26,13 @@ from seismass.commands.options import (
     read_motions,
     read_target,
 )
-from seismass.commands.progress import progress
 
 if TYPE_CHECKING:
     from seismass.base.kept import KeptResults
-    from seismass.records import Suite
+    from seismass.motions.records import Suite
+    from seismass.motions.spectra import TargetSpectrum
     from seismass.show.study.tables import StudyTables
-    from seismass.spectra import TargetSpectrum
-    from seismass.study import StudyParameters
+    from seismass.studies.study import StudyParameters
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -87,10 +85,10 @@ def options(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run the study, write its files and print what it says; return the exit code."""
     from seismass.base.kept import kept_folder
-    from seismass.media.folder import check_out, folder_for
+    from seismass.media.result import check_out, folder_for
     from seismass.runs.simulate import instruction_set
-    from seismass.study import StudyParameters
-    from seismass.study.run import study_digest
+    from seismass.studies.study import StudyParameters
+    from seismass.studies.study.run import study_digest
 
     check_out(args.out, "study")
     parameters = StudyParameters(
@@ -129,10 +127,10 @@ def _solved(
 ) -> StudyTables:
     """Run the study, and what is asked for besides."""
     from seismass.show.study.tables import study_tables
-    from seismass.study import run_study, study_sensitivity
-    from seismass.study.example import study_example
-    from seismass.validation import paper_scenes, validate
-    from seismass.validation.three_storeys import SPRINGS
+    from seismass.studies.study import run_study, study_sensitivity
+    from seismass.studies.study.run import study_example
+    from seismass.studies.validation import paper_scenes, validate
+    from seismass.studies.validation.three_storeys import SPRINGS
 
     stopped = Event()
 
@@ -171,9 +169,8 @@ class _Answer:
 
     @property
     def text(self) -> str:
-        from seismass.show.study.findings import findings_text
-        from seismass.show.study.inputs import inputs_text
-        from seismass.show.study.sensitivity import sensitivity_text
+        from seismass.show.study.answer import findings_text
+        from seismass.show.study.write import inputs_text, sensitivity_text
 
         metadata, sensitivity = self.tables.metadata, self.tables.sensitivity
         head = f"Underestimation of mean peak drift, (goods slide - code) / code, code: {metadata['code']['name']}"

@@ -6,11 +6,9 @@ import argparse
 import sys
 from pathlib import Path
 
-from seismass.commands.command import Command
-from seismass.commands.exit_codes import RUNS
+from seismass.commands.frame import RUNS, Command, show
 from seismass.commands.options import add_out_option, check_files, numbers_option
-from seismass.commands.terminal import show
-from seismass.scaling.target_text import TARGET_HELP
+from seismass.motions.scaling.suite import TARGET_HELP
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -31,8 +29,8 @@ def run(args: argparse.Namespace) -> int:
     """Print or write the table; return the exit code."""
     from seismass.assessment.building_file import read_building
     from seismass.base.files import write_table, written_whole
-    from seismass.scaling.target_text import target_of
-    from seismass.spectra.remarks import target_remarks
+    from seismass.motions.scaling.suite import target_of
+    from seismass.motions.spectra.target import target_remarks
 
     check_files(args.out)
     target = target_of(args.spectrum) if args.building is None else read_building(args.building).site_spectrum()

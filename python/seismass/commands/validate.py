@@ -5,8 +5,7 @@ from __future__ import annotations
 import argparse
 
 from seismass.commands.answer_output import give_answer
-from seismass.commands.command import Command
-from seismass.commands.exit_codes import RUNS
+from seismass.commands.frame import RUNS, Command, progress
 from seismass.commands.options import (
     add_answer_options,
     add_records_options,
@@ -14,7 +13,6 @@ from seismass.commands.options import (
     read_motions,
     read_target,
 )
-from seismass.commands.progress import progress
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -30,9 +28,9 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the validations, write their files and print what they say; return the exit code."""
-    from seismass.media.folder import check_out
-    from seismass.study import study_sensitivity
-    from seismass.validation import validate
+    from seismass.media.result import check_out
+    from seismass.studies.study import study_sensitivity
+    from seismass.studies.validation import validate
 
     if args.out is not None:
         check_out(args.out, "validation")

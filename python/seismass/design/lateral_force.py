@@ -12,8 +12,7 @@ from numpy.typing import ArrayLike
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_positive, frozen, known_id
 from seismass.base.views import Card
-from seismass.design.modes import positive, positive_of_length
-from seismass.design.spectrum_analysis import moments
+from seismass.design.modes import moments, positive, positive_of_length
 from seismass.model.codes import CODE_NAMES, FROM_MEMORY, VERIFIED
 
 Exponent: TypeAlias = Literal["period", "one", "two"]

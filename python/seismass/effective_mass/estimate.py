@@ -20,12 +20,22 @@ suite alone, 1.5 on all suites that were tried. Tables on several suites are in 
 
 from __future__ import annotations
 
-from typing import Final
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, Final, TypeAlias
 
 import numpy as np
+import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.values import FloatArray
+from seismass.design import response_spectrum_analysis
+from seismass.effective_mass.models import building_of, frame_mass, friction, full_weight, goods_mass
+from seismass.effective_mass.runs import LARGER, DriftMeasure, NamedMotions, Peaks
+from seismass.model.building import Building
+from seismass.model.scene import Scene
+from seismass.motions.spectra import corner_period, mean_spectrum
 
 ELASTIC_GROWTH: Final = 0.5
 """Growth of the exponent with T/T_c while the building stays elastic."""
@@ -103,3 +113,229 @@ def base_shear_by_hand(
     yielding = strength * np.minimum(_numbers(overstrength), 1.0 + _numbers(second_slope) * ductility)
     found: FloatArray = np.minimum(DYNAMIC_SHEAR * elastic, yielding)
     return found
+
+
+REDUCED_FRICTION: Final = 0.8
+"""Factor of mu_k in the rule for two directions, between 1/sqrt(2), which two equal directions share, and 1."""
+SLIP_IN_EACH: Final = (1.25, 1.1, 3.0)
+"""Peak slip in a direction over that of the direction alone: of all cases in sum, the smallest and the largest case."""
+SLIP_LENGTH: Final = 1.8
+"""The same in sum of the length of the peak slip."""
+
+
+def friction_factor(scene: Scene) -> float:
+    """Return the factor of mu_k in the rule for a scene: 1 in one direction."""
+    return 1.0 if scene.other_direction is False else REDUCED_FRICTION
+
+
+def one_direction_of_slip() -> str:
+    """Return the sentence on slip that stands where there is one direction."""
+    total, low, high = SLIP_IN_EACH
+    return (
+        "one direction underestimates slip: with the second component of recorded pairs peak slips in each direction "
+        f"are {total:g} times those of one in sum ({low:g} to {high:g} by case, most where goods hardly slide; "
+        f"docs/two_directions.md), their length {SLIP_LENGTH:g} times; give two directions and pairs where there are"
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class ByHand:
+    """The rule for one building and one suite.
+
+    Attributes
+    ----------
+    period : float
+        First period of the building without goods (s).
+    corner_period : float
+        T_c of the motions (s), see `seismass.spectra.corner_period`.
+    yields : bool
+        Whether a storey of the building with all goods attached yields: its mean peak drift over the motions is above
+        that of its yield force.
+    height_ratio : float
+        Mean height of the goods by mass, over that of building and goods together.
+    exponent : float
+        p of the rule.
+    base_shear_coefficient : float
+        C1 without a run, see `seismass.effective_mass.estimate.base_shear_by_hand`.
+    eta : float
+        mu_k over that coefficient.
+    estimate : float
+        The best estimate with that eta.
+    """
+
+    period: float
+    corner_period: float
+    yields: bool
+    height_ratio: float
+    exponent: float
+    base_shear_coefficient: float
+    eta: float
+    estimate: float
+
+
+def by_hand(scene: Scene, motions: NamedMotions, full: Peaks, drift: DriftMeasure = LARGER) -> ByHand:
+    """Return what the rule says of the building of a scene; `full` has the peaks of the fully attached model. Goods on
+    racks count on the floor of the rack; in two directions it is that in y if `drift` is, else in x.
+    """
+    if drift == "y" and isinstance(scene.other_direction, Building):
+        scene = scene.replace(building=scene.other_direction, other_direction=True)
+    yields = bool((full.drift.mean(axis=1)[-1] > yield_drift(building_of(scene))).any())
+    return rule_by_hand(scene, motions, yields)
+
+
+def rule_by_hand(scene: Scene, motions: NamedMotions, yields: bool) -> ByHand:
+    """Return what the rule says of the building of a scene that yields, or does not, with all goods attached."""
+    building, goods = building_of(scene), goods_mass(scene)
+    mass, walls = building.mass + frame_mass(scene), building.stiffness_matrix
+
+    components = motions.components
+
+    def spectrum(periods: FloatArray) -> FloatArray:
+        return mean_spectrum(components, np.ones(len(components)), periods)
+
+    elastic = response_spectrum_analysis(mass + goods, building.stiffness, spectrum, stiffness_matrix=walls)
+    weight = full_weight(scene)
+    corner, period = corner_period(spectrum), float(building.periods[0])
+    heights = height_ratio(goods, mass, building.heights)
+    # Elastic walls set no limit to the base shear.
+    strength = building.yield_shear[0] if walls is None else np.inf
+    power = float(exponent(period, corner, yields))
+    coefficient = float(
+        base_shear_by_hand(
+            strength / weight,
+            elastic.storey_shear[0] / weight,
+            elastic.modes.periods[0],
+            corner,
+            building.second_slope[0],
+            building.overstrength[0],
+        )
+    )
+    eta = friction(scene) / coefficient
+    estimate = float(best_estimate(friction_factor(scene) * eta, power, heights))
+    return ByHand(period, corner, yields, heights, power, coefficient, eta, estimate)
+
+
+def yield_drift(building: Building) -> FloatArray:
+    """Return the drift of each storey at V_y, in the measure of `Peaks.drift`: a ratio where heights are known."""
+    with np.errstate(divide="ignore"):  # beside walls a storey may be without a spring
+        drift = building.yield_shear / building.stiffness
+    found: FloatArray = drift if building.heights is None else drift / building.heights
+    return found
+
+
+Rule: TypeAlias = Callable[[pl.DataFrame], FloatArray]
+"""Takes the table of cases of a map, returns a share of the live load for each."""
+
+BY_HAND: Final = f"{RULE}, C1 by hand"
+"""The rule with the base shear coefficient of `base_shear_by_hand`."""
+
+
+def _constant(share: float) -> Rule:
+    return lambda cases: np.full(cases.height, share)
+
+
+def _numbers_rules(cases: pl.DataFrame, *names: str) -> Iterator[FloatArray]:
+    return (cases[name].to_numpy() for name in names)
+
+
+def _best(cases: pl.DataFrame) -> FloatArray:
+    return best_estimate(*_numbers_rules(cases, "eta", "exponent", "height_ratio"))
+
+
+def _safe(cases: pl.DataFrame) -> FloatArray:
+    return conservative_estimate(*_numbers_rules(cases, "eta", "height_ratio"))
+
+
+def _by_hand(cases: pl.DataFrame) -> FloatArray:
+    mu, coefficient, power, heights = _numbers_rules(
+        cases, "mu", "base_shear_coefficient_by_hand", "exponent", "height_ratio"
+    )
+    return best_estimate(mu / coefficient, power, heights)
+
+
+def _power_of_eta(power: float) -> Rule:
+    return lambda cases: np.minimum(1.0, cases["eta"].to_numpy() ** power)
+
+
+RULES: Final[Mapping[str, Rule]] = {
+    RULE: _best,
+    SAFE_RULE: _safe,
+    BY_HAND: _by_hand,
+    "min(1, eta^2), earlier": _power_of_eta(2.0),
+    "min(1, eta), earlier": _power_of_eta(1.0),
+    "none, 0": _constant(0.0),
+    "ASCE 61, 0.10": _constant(0.10),
+    "ASCE 7 storage, 0.25": _constant(0.25),
+    "IS 1893, 0.5": _constant(0.50),
+    "NBC and NZS 1170.5, 0.6": _constant(0.60),
+    "MH16.1 racks, 0.67": _constant(0.67),
+    "Eurocode 8, 0.8": _constant(0.80),
+    "all, 1": _constant(1.0),
+}
+"""Rules that are compared. The two of earlier versions of this project know neither period nor place of the goods."""
+
+CLOSED_FORMS: Final = tuple(RULES)[:5]
+"""Those of them that depend on friction."""
+
+UNSAFE: Final = 1.05
+"""A rule counts as unsafe for a case where the real building drifts more than so many times its model."""
+PERIOD_EDGES: Final = (0.0, 0.225, 0.435, 0.7, 0.9, np.inf)
+"""Edges of the classes of the bare building's period (s): on the default grid 0.2; 0.25 to 0.4; 0.47 to 0.6; 0.8; 1.0
+to 1.6."""
+
+
+def compared(ratio: FloatArray) -> dict[str, Any]:
+    """Return how model over real drift is distributed: geometric mean (bias), standard deviation of the logarithm,
+    share of cases below 1/1.05 (unsafe), 5 and 95 %, and the least (worst).
+    """
+    logarithm = np.log(ratio)
+    return {
+        "cases": len(ratio),
+        "bias": float(np.exp(logarithm.mean())),
+        "log_scatter": float(logarithm.std()),
+        "unsafe": float(np.mean(1.0 / ratio > UNSAFE)),
+        "low": float(np.percentile(ratio, 5.0)),
+        "high": float(np.percentile(ratio, 95.0)),
+        "worst": float(ratio.min()),
+    }
+
+
+def by_period(name: str, ratio: FloatArray, period: FloatArray) -> list[dict[str, Any]]:
+    """Return a row of `compared` for each class of period that has cases; the last class is open (null)."""
+    rows = []
+    for low, high in pairwise(PERIOD_EDGES):
+        inside = ratio[(low <= period) & (period < high)]
+        if len(inside):
+            upper = None if np.isinf(high) else high
+            rows.append({"period_from": low, "period_to": upper, "rule": name, **compared(inside)})
+    return rows
+
+
+RULE_UNKNOWN: Final = "the rule by period knows no"
+"""How a remark begins that the rule does not hold."""
+
+
+def remarks_of_structure(scene: Scene) -> tuple[str, ...]:
+    """Return where the rule does not hold for a scene, as sentences; none for goods on floors of a shear building."""
+    remarks = []
+    if any(rack.floor > 0 for rack in scene.racks):
+        remarks.append(
+            f"{RULE_UNKNOWN} racks: under a yielding building stiff ones give up to 1.1 with pallets (mu 0.37) and up "
+            "to 1.3 with fixed goods, those of 1 to 2 s 0 to 0.4, where pallets on the floor give 0.8 to 1"
+        )
+    if scene.building is not None and scene.building.stiffness_matrix is not None:
+        remarks.append(
+            f"{RULE_UNKNOWN} walls: an elastic wall beside a frame with R = 4 gives 0.5 at eta = 0.5, where its "
+            "estimate says 0.24 and its conservative form 0.55"
+        )
+    if any(block.stops is not None for block in scene.goods):
+        remarks.append(
+            f"{RULE_UNKNOWN} stops: at 5 cm they raise the share of slippery goods (mu 0.1) by 0.2 to 0.3, and single "
+            "records reach 3 times the drift without them"
+        )
+    if scene.base is not None:
+        remarks.append(
+            f"{RULE_UNKNOWN} sliding base: it takes C1 of the building on the ground, and a base that slides limits "
+            "what the floors feel to about its friction"
+        )
+    return tuple(remarks)

@@ -21,13 +21,22 @@ from seismass.base.distributions import Distribution
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import view
-from seismass.effective_mass.curve import check_fractions, interpolated, over_records, resampled
-from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, check_loaded
+from seismass.effective_mass.models import (
+    SAME_DAMPING,
+    ModelDamping,
+    attached,
+    check_damping,
+    check_fractions,
+    check_loaded,
+    interpolated,
+    over_records,
+    resampled,
+)
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
 from seismass.media.result import Result, finite_values
-from seismass.model.motion import MotionLike
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
+from seismass.motions.motion import MotionLike
 from seismass.runs.simulate import instruction_set
 
 if TYPE_CHECKING:

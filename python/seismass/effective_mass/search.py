@@ -12,39 +12,50 @@ from seismass import _kernel
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
-from seismass.effective_mass.beyond import (
+from seismass.effective_mass.estimate import (
+    best_estimate,
+    by_hand,
+    conservative_estimate,
+    friction_factor,
+    remarks_of_structure,
+)
+from seismass.effective_mass.models import (
+    DEFAULT_FRACTIONS,
+    FRACTIONS_OF_VECTORS,
     FROM_ONE,
     LARGEST_SHARE,
     SHARES_BEYOND,
-    extended,
-    first_bracket,
-    goes_beyond,
-    joined,
-)
-from seismass.effective_mass.by_hand import by_hand
-from seismass.effective_mass.curve import (
-    DEFAULT_FRACTIONS,
-    FRACTIONS_OF_VECTORS,
     Kind,
+    ModelDamping,
     Statistic,
+    attached,
+    building_of,
+    check_damping,
     check_fractions,
     check_statistic,
     crossings,
+    extended,
+    first_bracket,
+    friction,
+    full_weight,
+    goes_beyond,
     interpolated,
     is_below,
+    joined,
     kind_of,
     over_records,
     refined_root,
     resampled,
 )
-from seismass.effective_mass.estimate import best_estimate, conservative_estimate
-from seismass.effective_mass.models import ModelDamping, attached, building_of, check_damping, friction, full_weight
-from seismass.effective_mass.plane_runs import LARGER, DriftMeasure, check_drift
-from seismass.effective_mass.result import SCHEMA_VERSION, EffectiveMass
-from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, solve
-from seismass.effective_mass.structure_remarks import remarks_of_structure
-from seismass.effective_mass.tables import curve_table, record_table, remarks_of, storey_table
-from seismass.effective_mass.two_directions import friction_factor
+from seismass.effective_mass.result import (
+    SCHEMA_VERSION,
+    EffectiveMass,
+    curve_table,
+    record_table,
+    remarks_of,
+    storey_table,
+)
+from seismass.effective_mass.runs import LARGER, DriftMeasure, NamedMotions, Peaks, Progress, check_drift, solve
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.model.springs import SHAPE_FIELDS

@@ -20,20 +20,110 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Final
+from typing import Any, Final, TypeAlias
 
+import polars as pl
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
-from seismass.media.page_figure import figure_html
-from seismass.media.page_table import Format, table_html
-from seismass.media.roles import SLIDE, css
+from seismass.base.errors import InvalidOption
+from seismass.base.values import refusal
+from seismass.media.style import SLIDE, css, isolated
+from seismass.media.svg import figure_html
 
 __all__ = ["Format", "Section", "facts_html", "figure_html", "page_html", "table_html", "templates", "text_html"]
+
+
+Format: TypeAlias = str | Callable[[Any], str]
+"""A format specification, such as ".3f", or a function from a value to its text or Markup."""
+
+MISSING: Final = "\N{EN DASH}"
+"""What stands for a null; such rows are last in either order."""
+LONGEST_WHOLE: Final = 24
+"""Characters of a name that is not broken at its hyphen."""
+LEAST_ROWS_TO_FILTER: Final = 8
+"""A table of fewer rows is neither sorted nor filtered."""
+
+
+def table_html(
+    frame: pl.DataFrame,
+    caption: str,
+    *,
+    headers: Mapping[str, str] | None = None,
+    formats: Mapping[str, Format] | None = None,
+) -> Markup:
+    """Return a table; a long one is sorted by its headers and filtered by a field above it. Headers are plain text,
+    from which the script makes buttons, as Chromium does not repeat heads with buttons on printed pages.
+    """
+    headers, formats = headers or {}, formats or {}
+    for owner, given in (("headers", headers), ("formats", formats)):
+        for name in given:
+            if name not in frame.columns:
+                raise refusal(InvalidOption, owner, "table", f"of its columns ({', '.join(frame.columns)})", name)
+    numeric = [dtype.is_numeric() or dtype == pl.Boolean for dtype in frame.dtypes]
+    head = Markup("").join(
+        Markup('<th scope="col"{}>{}</th>').format(Markup(' class="number"') if number else "", headers.get(name, name))
+        for name, number in zip(frame.columns, numeric, strict=True)
+    )
+    columns = [
+        [
+            _cell(value, formats.get(name), number, heading=place == 0 and frame[name].dtype == pl.String)
+            for value in frame[name]
+        ]
+        for place, (name, number) in enumerate(zip(frame.columns, numeric, strict=True))
+    ]
+    rows = Markup("\n").join(
+        Markup("<tr>{}</tr>").format(Markup("").join(cells)) for cells in zip(*columns, strict=True)
+    )
+    field, kind = "", "table"
+    if frame.height >= LEAST_ROWS_TO_FILTER:
+        kind = "table long-table"
+        field = Markup(
+            '<p class="filter"><label>Filter rows <input type="search" autocomplete="off" spellcheck="false"></label> '
+            '<output aria-live="polite"></output></p>'
+        )
+    return Markup(
+        '<div class="{kind}">{field}<div class="scroll" tabindex="0" role="region" aria-label="{caption}">'
+        "<table><caption>{caption}</caption><thead><tr>{head}</tr></thead>\n<tbody>{rows}</tbody></table></div></div>"
+    ).format(kind=kind, field=field, caption=caption, head=head, rows=rows)
+
+
+def _cell(value: Any, form: Format | None, number: bool, *, heading: bool) -> Markup:
+    text: str = MISSING if value is None else _text(value, form)
+    whole = ' class="whole"' if not number and "-" in text and len(text) <= LONGEST_WHOLE else ""
+    if not isinstance(text, Markup):
+        text = isolated(text)
+    start, end = ('<th scope="row"', "</th>") if heading else ("<td", "</td>")
+    if not number:
+        return Markup(start + whole + ">{}" + end).format(text)
+    # What sorts; a value that is missing has none.
+    missing = value is None or (isinstance(value, float) and math.isnan(value))
+    held = "" if missing else Markup(' data-value="{}"').format(f"{float(value):.9g}")
+    return Markup(start + ' class="number"{}>{}' + end).format(held, text)
+
+
+def _text(value: Any, form: Format | None) -> str:
+    if callable(form):
+        return form(value)
+    if isinstance(value, pl.Series | list):
+        return ", ".join(_text(item, form) for item in value)
+    if form is not None:
+        return format(value, form).replace("-", "\N{MINUS SIGN}") if _is_number(value) else format(value, form)
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:.4g}".replace("-", "\N{MINUS SIGN}")
+    return str(value)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
 
 _SCRIPT: Final = re.compile(r"<script\b[^>]*>(.*?)</script>", re.DOTALL)
 _NOT_IN_ID: Final = re.compile(r"[^a-z0-9]+")
@@ -143,3 +233,78 @@ def _placed(sections: Iterable[Section], level: int, taken: set[str]) -> tuple[_
             _Placed(section.title, identifier, level, content, _placed(section.sections, level + 1, taken)),
         )
     return tuple(placed)
+
+
+def bullets_html(lines: Iterable[str]) -> Markup:
+    """Return sentences as a list; Markup is taken as it is."""
+    return Markup("<ul>{}</ul>").format(Markup("").join(Markup("<li>{}</li>").format(line) for line in lines))
+
+
+def whole_html(names: Iterable[str]) -> Markup:
+    """Return names with commas between, none of which is broken at a hyphen."""
+    return Markup(", ").join(Markup('<span class="whole">{}</span>').format(name) for name in names)
+
+
+def long_html(text: str) -> Markup:
+    """Return a text that keeps some width in a table, on a narrow screen too."""
+    return Markup('<span class="long">{}</span>').format(isolated(text))
+
+
+MOST_STOREYS: Final = 4
+"""Storeys that the page solves."""
+PAGE: Final = "explorer.html"
+"""File that `seismass explore` writes."""
+RECORD: Final = "synthetic-1"
+LIMITS: Final = {
+    "T": (0.05, 5.0),
+    "z": (0.0, 0.5),
+    "O": (1.0, 10.0),
+    "r2": (0.0, 1.0),
+    "h": (0.5, 20.0),
+    "V": (0.001, 20.0),
+    "a": (0.0, 10.0),
+    "s": (0.0, 5.0),
+    "k": (0.0, 5.0),
+    "c": (0.0, 1.0),
+}
+"""Range of each number, by its letters in the address: `LIMITS` of case.js."""
+
+
+@dataclass(frozen=True)
+class LiveCase:
+    """A building as the live page has it: equal floor masses, stiffnesses, heights (m) and springs; strengths V_y over
+    the weight without goods (empty: elastic), goods over floor mass with friction by floor.
+    """
+
+    period: float
+    damping: float
+    overstrength: float
+    second_slope: float
+    height: float
+    strength: Sequence[float]
+    mass_ratio: Sequence[float]
+    mu_s: Sequence[float]
+    mu_k: Sequence[float]
+    counted: float
+
+    @property
+    def numbers(self) -> dict[str, Sequence[float]]:
+        """What the address says, by its letters."""
+        alone = {"T": self.period, "z": self.damping, "O": self.overstrength, "r2": self.second_slope, "h": self.height}
+        lists = {"a": self.mass_ratio, "s": self.mu_s, "k": self.mu_k}
+        lists |= {"V": self.strength} if self.strength else {}
+        return {**{key: [value] for key, value in alone.items()}, "c": [self.counted], **lists}
+
+    @property
+    def beyond(self) -> tuple[str, ...]:
+        """Letters of the numbers that the page does not take."""
+        found = self.numbers.items()
+        return tuple(key for key, values in found if not all(LIMITS[key][0] <= one <= LIMITS[key][1] for one in values))
+
+    @property
+    def address(self) -> str:
+        """What follows the # of the address."""
+        by = "hand" if self.strength else "elastic"
+        parts = ["v=1", f"by={by}", f"m={RECORD}", "d=code", f"n={len(self.mass_ratio)}", "x=1"]
+        parts += [f"{key}={','.join(f'{value:.10g}' for value in values)}" for key, values in self.numbers.items()]
+        return "&".join(parts)

@@ -1,21 +1,172 @@
-"""What every result of a study answers to: text, tables, figures, a document, files, and a card in a notebook."""
+"""What results have in common: tables, files in a folder, a card in notebooks."""
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 import os
+import stat
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager, suppress
+from functools import partial
+from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
 
-from seismass.base.errors import InvalidOption
-from seismass.base.values import as_path, brief, refusal
+import numpy as np
+import polars as pl
+
+from seismass.base.errors import InvalidOption, SeismassError
+from seismass.base.files import open_regular, read_file, write_table, written_whole
+from seismass.base.values import FloatArray, as_path, brief, refusal, short
 from seismass.base.views import view
-from seismass.media.folder import write_folder
+from seismass.media.style import CODE, SLIDE
 
 if TYPE_CHECKING:
-    import polars as pl
     from matplotlib.figure import Figure
+
+
+PAGE: Final = "report.html"
+"""File of the page of a folder."""
+FILES: Final = "files.json"
+"""File with the names and SHA-256 of what was written, and that of the list: a later call knows its own by it."""
+
+
+def check_out(out: Path, owner: str) -> None:
+    """Refuse a folder that cannot be one, before anything is solved."""
+    existing = next((path for path in (out, *out.parents) if path.exists()), None)
+    if existing is not None and not (existing.is_dir() and os.access(existing, os.W_OK)):
+        raise refusal(InvalidOption, "out", owner, "a folder that can be written to", str(out))
+
+
+@contextmanager
+def folder_for(out: Path) -> Iterator[None]:
+    """Make a folder for output; it is removed again where an error or Ctrl-C leaves it empty."""
+    made = [path for path in (out, *out.parents) if not path.exists()]
+    out.mkdir(parents=True, exist_ok=True)
+    try:
+        yield
+    except BaseException:
+        with suppress(OSError):
+            for path in made:
+                path.rmdir()
+        raise
+
+
+@contextmanager
+def as_written(folder: Path) -> Iterator[None]:
+    """Refuse a folder whose documents and tables do not fit together, whatever error they cause."""
+    try:
+        yield
+    except SeismassError:
+        raise
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, pl.exceptions.PolarsError) as error:
+        got = f"{type(error).__name__}: {error}"
+        requirement = "with documents and tables as seismass wrote them"
+        raise refusal(InvalidOption, f"folder {folder}", "report", requirement, short(got)) from None
+
+
+def write_folder(
+    out: Path,
+    *,
+    tables: Mapping[str, pl.DataFrame],
+    documents: Mapping[str, str],
+    figures: Mapping[str, Figure] | None = None,
+    kinds: Sequence[Literal["png", "svg"]] = ("png", "svg"),
+    metadata: Mapping[str, dict[str, str]] | None = None,
+    earlier: Callable[[str], bool] | None = None,
+) -> list[Path]:
+    """Write tables (Parquet and CSV), documents and figures to a folder; on an error no file is changed. Files of an
+    earlier call (files.json) that `earlier` accepts and nobody changed are removed.
+    """
+    writers: dict[str, Callable[[Path], object]] = {}
+    for name, table in tables.items():
+        about = None if metadata is None else metadata.get(name)
+        writers[f"{name}.parquet"] = partial(write_table, table, "parquet", metadata=about)
+        writers[f"{name}.csv"] = partial(write_table, table, "csv")
+    for name, text in documents.items():
+        writers[name] = partial(Path.write_text, data=text, encoding="utf-8")
+    if figures:
+        from seismass.media.svg import save_figure  # matplotlib, which tables do not need
+
+        for name, figure in figures.items():
+            for kind in kinds:
+                writers[f"{name}.{kind}"] = partial(save_figure, figure, kind)
+    out.mkdir(parents=True, exist_ok=True)
+    before = {} if earlier is None else _listed(out)
+    with ExitStack() as stack:
+        places = {}
+        for name, write in writers.items():
+            places[name] = stack.enter_context(written_whole(out / name))
+            write(places[name])
+        if earlier is not None:
+            listed = {name: _sha256(place) for name, place in places.items()}
+            text = json.dumps({"sha256": listed, "sha256_of_list": _list_sha256(listed)}, indent=1) + "\n"
+            places[FILES] = stack.enter_context(written_whole(out / FILES))
+            places[FILES].write_text(text, encoding="utf-8")
+    if earlier is not None:
+        for name in before:
+            if name not in places and earlier(name) and _is_file_with(out / name, before[name]):
+                (out / name).unlink()
+    return [out / name for name in places]
+
+
+def edited_files(folder: Path, read: Sequence[str], *, force: bool = False) -> tuple[str, ...]:
+    """Return which files of a folder that may be read differ from its files.json, and how; without `force` the first is
+    refused. The file by which the folder is known stands first in `read`.
+    """
+    if not (folder / read[0]).exists():
+        return ()  # what the reader says of a folder of another kind says more
+    listed = _whole_list(folder)
+    if listed is None:
+        found = [(FILES, "other content" if (folder / FILES).exists() else "none")]
+    else:
+        found = [(name, "none") for name in read if name in listed and not (folder / name).exists()]
+        there = [name for name in read if (folder / name).exists()]
+        found += [(name, "a file that files.json does not list") for name in there if name not in listed]
+        changed = (name for name in there if name in listed and not _is_file_with(folder / name, listed[name]))
+        found += [(name, "other content") for name in changed]
+    if found and not force:
+        need = "as it was written, by the digests of files.json, or --force be given"
+        raise refusal(InvalidOption, found[0][0], f"folder {folder}", need, found[0][1])
+    return tuple(f"{name} ({how})" for name, how in found)
+
+
+def _whole_list(folder: Path) -> dict[str, str] | None:
+    """Digests by name of files.json; None where it is missing or not as it was written."""
+    try:
+        document = json.loads(read_file(folder / FILES, follow=False))
+        listed: dict[str, str] = document["sha256"]
+        return listed if document["sha256_of_list"] == _list_sha256(listed) else None
+    except (OSError, ValueError, RecursionError, LookupError, TypeError):
+        return None
+
+
+def _list_sha256(listed: Mapping[str, str]) -> str:
+    return hashlib.sha256(json.dumps(listed, sort_keys=True).encode()).hexdigest()
+
+
+def _listed(out: Path) -> dict[str, str]:
+    """Digests by name of the files that an earlier call has written; none where that is not known."""
+    try:
+        found = json.loads(read_file(out / FILES, follow=False))["sha256"]
+        return {name: sha256 for name, sha256 in found.items() if isinstance(sha256, str) and Path(name).name == name}
+    except (OSError, ValueError, RecursionError, LookupError, TypeError, AttributeError):
+        return {}
+
+
+def _is_file_with(path: Path, sha256: str) -> bool:
+    """Whether a regular file, and no link, has these bytes."""
+    try:
+        return stat.S_ISREG(path.lstat().st_mode) and _sha256(path) == sha256
+    except OSError:
+        return False
+
+
+def _sha256(path: Path) -> str:
+    with open_regular(path, follow=False) as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 class Result:
@@ -108,3 +259,103 @@ def finite_values(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [finite_values(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+COLOUR: Final = SLIDE.colour
+"""The accent: legible on white and on dark grey."""
+SECOND: Final = CODE.colour
+"""The second accent, in the same form."""
+
+_CELL: Final = "padding:0.1em 0.8em 0.1em 0;background:none;border:none;white-space:nowrap"
+
+
+def card(
+    title: str, about: str, *content: str, facts: Sequence[tuple[str, str]] = (), notes: Iterable[str] = ()
+) -> str:
+    """Return a card: title and a few words, content that is HTML already, names with their values, notes."""
+    cells = " ".join(
+        f'<span style="margin-right:1.2em;white-space:nowrap">{escape(name)}&#160;<b>{escape(value)}</b></span>'
+        for name, value in facts
+    )
+    listed = "".join(f"<li>{escape(note)}</li>" for note in notes)
+    return (
+        '<div style="max-width:640px;color:inherit;font-size:90%">'
+        f"<div><b>{escape(title)}</b>{': ' if about else ''}{escape(about)}</div>"
+        + "".join(content)
+        + (f"<div>{cells}</div>" if cells else "")
+        + (f'<ul style="margin:0.3em 0">{listed}</ul>' if listed else "")
+        + "</div>"
+    )
+
+
+def pre(said: str, *, most: int = 24, more: str = "print(result.text)") -> str:
+    """Return the first lines of a text as they stand; where there are more, a line says how they are seen."""
+    lines = said.splitlines()
+    rest = f"\n... and {len(lines) - most} more lines: {more}" if len(lines) > most + 2 else ""
+    shown = "\n".join(lines[:most] if rest else lines) + rest
+    return f'<pre style="margin:0.3em 0;overflow-x:auto;font-size:inherit">{escape(shown)}</pre>'
+
+
+def line(text: str) -> str:
+    """Return a line of text."""
+    return f"<div>{escape(text)}</div>"
+
+
+def rows(head: Sequence[str], body: Sequence[Sequence[str]], *, markup: Sequence[str] = ()) -> str:
+    """Return a table of texts; `markup` is HTML that goes before the cells of each row."""
+    right = f'style="{_CELL};text-align:right"'
+    left = f'style="{_CELL};text-align:left"'
+    first = f"<th {left}></th>" if markup else ""
+    heads = "".join(f"<th {left if place == 0 else right}>{escape(name)}</th>" for place, name in enumerate(head))
+    lines = []
+    for number, cells in enumerate(body):
+        before = f"<td {left}>{markup[number]}</td>" if markup else ""
+        texts = "".join(f"<td {left if place == 0 else right}>{escape(cell)}</td>" for place, cell in enumerate(cells))
+        lines.append(f"<tr>{before}{texts}</tr>")
+    return (
+        '<div style="overflow-x:auto"><table style="border-collapse:collapse;margin:0.3em 0;color:inherit;'
+        'font-size:inherit;font-variant-numeric:tabular-nums">'
+        f"<tr>{first}{heads}</tr>{''.join(lines)}</table></div>"
+    )
+
+
+def svg(width: float, height: float, label: str, *content: str, stretch: bool = True) -> str:
+    """Return a drawing that a label says in words; it takes the width that it is given, up to its own."""
+    size = f'width="100%" style="max-width:{width:g}px;display:block"' if stretch else f'width="{width:g}"'
+    said = escape(label)
+    return (
+        f'<svg viewBox="0 0 {width:g} {height:g}" {size} role="img" aria-label="{said}">'
+        f"<title>{said}</title>{''.join(content)}</svg>"
+    )
+
+
+def stroke(x1: float, y1: float, x2: float, y2: float, *, width: float = 1.0, opacity: float = 1.0) -> str:
+    """Return a straight line in the colour of the text."""
+    return (
+        f'<line x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke="currentColor" '
+        f'stroke-width="{width:g}" stroke-opacity="{opacity:g}"/>'
+    )
+
+
+def text(x: float, y: float, said: str, *, anchor: str = "start", size: float = 11.0) -> str:
+    """Return a text in the colour of the text around the drawing."""
+    return (
+        f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" font-size="{size:g}" fill="currentColor">'
+        f"{escape(said)}</text>"
+    )
+
+
+def curve(x: FloatArray, y: FloatArray, *, colour: str = COLOUR, width: float = 1.2) -> str:
+    """Return a line through points."""
+    points = " ".join(f"{at:.1f},{height:.1f}" for at, height in zip(x, y, strict=True))
+    return f'<polyline points="{points}" stroke="{colour}" stroke-width="{width:g}" fill="none"/>'
+
+
+def history(y: FloatArray, width: int) -> str:
+    """Return samples over a width in pixels: a line, or their range in each column of pixels where they are many."""
+    if len(y) <= width:
+        return curve((np.arange(len(y)) + 0.5) * width / len(y), y, width=1.0)
+    starts = np.linspace(0, len(y), width, endpoint=False).astype(int)
+    parts = [y[start:end] for start, end in zip(starts, np.append(starts[1:], len(y)), strict=True)]
+    path = "L".join(f"{x} {part.min():.1f}V{part.max():.1f}" for x, part in enumerate(parts))
+    return f'<path d="M{path}" transform="translate(0.5 0)" stroke="{COLOUR}" fill="none"/>'

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
+import textwrap
 import unicodedata
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
+from typing import Final
 
 
 def text_line(cells: Iterable[str], widths: Iterable[int], *, indent: int = 2, gap: int = 0) -> str:
@@ -91,3 +95,160 @@ def numbers_text(values: Iterable[float]) -> str:
     """Return numbers side by side, in four digits; one of them where all are written alike."""
     numbers = [f"{value:.4g}" for value in values]
     return numbers[0] if len(set(numbers)) == 1 else " ".join(numbers)
+
+
+FILLED: Final = 108
+"""Width to which texts are filled where they are made: a line that has no room for the next word goes on in it."""
+MOST_FILLED: Final = 120
+"""Width of the widest of them; a longer line was not filled, and goes on in no other."""
+NARROWEST: Final = 40
+"""No text is fitted to less."""
+_FILLER: Final = "\0"
+_LABEL: Final = re.compile(r" *(?:- )?(?:\S+(?: \S+)* {2,})?")
+"""Indentation of a line, with its dash or its label where it has one."""
+_GAP: Final = re.compile(r"\S( {2,})(?=\S)")
+
+
+def fit_text(text: str, width: int) -> str:
+    """Return a text whose lines fit a width where words allow. A table (columns two spaces apart) that is too wide goes
+    on in parts below, each with its first column; a column that is too wide is wrapped.
+    """
+    return "\n".join(line for _, fitted in fitted_blocks(text, width) for line in fitted)
+
+
+def fitted_blocks(text: str, width: int) -> Iterator[tuple[list[str], list[str]]]:
+    """Give each table, each sentence and each other line of a text as it is, and in lines that fit; as `fit_text`."""
+    for block in _blocks(_spread(text).split("\n")):
+        lines = _fitted(block, max(width, NARROWEST))
+        yield [line.replace(_FILLER, "") for line in block], [line.replace(_FILLER, "") for line in lines]
+
+
+def _spread(text: str) -> str:
+    """A text with so many letters in a line as it takes columns: fillers follow wide letters."""
+    if text.isascii():
+        return text
+    return "".join(letter + _FILLER * (shown_width(letter) - 1) for letter in text)
+
+
+def is_row(line: str) -> bool:
+    """Whether a line is a row of a table: it has several columns beside its label."""
+    return len(_GAP.findall(line)) > 1
+
+
+def _blocks(lines: list[str]) -> Iterator[list[str]]:
+    """Tables, sentences with the lines on which they go on, and other lines one by one."""
+    block: list[str] = []
+    for line in lines:
+        if block and not _goes_on(block, line):
+            yield block
+            block = []
+        block.append(line)
+    if block:
+        yield block
+
+
+def _goes_on(block: list[str], line: str) -> bool:
+    last = block[-1]
+    if not line.strip() or not last.strip():
+        return False
+    if is_row(block[0]):
+        # Rows have a common indentation; one of them may have no more than a cell or two.
+        return is_row(line) or (_indent(line) >= _indent(block[0]) and bool(_GAP.search(line)))
+    if is_row(line) or _GAP.search(line):
+        return False
+    start = _start(block[0])
+    full = len(last) <= MOST_FILLED and len(last) + 1 + len(line.split()[0]) > FILLED
+    return full and start > 0 and _indent(line) == start
+
+
+def _indent(line: str) -> int:
+    return len(line) - len(line.lstrip(" "))
+
+
+def _start(line: str) -> int:
+    """Where the words of a line begin, after its label."""
+    found = _LABEL.match(line)
+    return found.end() if found else 0
+
+
+def _fitted(block: list[str], width: int) -> Iterator[str]:
+    if all(len(line) <= width for line in block):
+        yield from block
+    elif is_row(block[0]):
+        yield from _table(block, width)
+    else:
+        start = _start(block[0])
+        if start > width // 2:  # a label that leaves no room is a part of the sentence
+            start = _indent(block[0])
+        words = " ".join([block[0][start:], *(line.strip() for line in block[1:])])
+        yield from textwrap.wrap(
+            words,
+            width,
+            initial_indent=block[0][:start],
+            subsequent_indent=" " * start,
+            break_on_hyphens=False,
+            break_long_words=False,
+        )
+
+
+def _table(rows: list[str], width: int) -> Iterator[str]:
+    """A table in parts that fit, each with the columns that tell its rows apart."""
+    cells = _columns(rows)
+    count = next((n for n in range(1, len(cells)) if len(set(zip(*cells[:n], strict=True))) == len(rows)), 1)
+    first = ["".join(row) for row in zip(*cells[:count], strict=True)]
+    room = width - len(first[0])
+    if room < NARROWEST // 2:
+        yield from rows
+        return
+    parts: list[list[list[str]]] = [[]]
+    for column in cells[count:]:
+        longest = max(len(cell.rstrip()) for cell in column)
+        if parts[-1] and sum(len(each[0]) for each in parts[-1]) + longest > room:
+            parts.append([])
+        parts[-1].append(column)
+    for number, part in enumerate(parts):
+        if number:
+            yield ""
+        for label, *row in zip(first, _moved(part[0]), *part[1:], strict=True):
+            yield from _row(label + "".join(row[:-1]), row[-1], width)
+
+
+def _moved(column: list[str]) -> list[str]:
+    """A column as it follows another first column: two spaces from it."""
+    indent = min((_indent(cell) for cell in column if cell.strip()), default=0)
+    return [f"  {cell[indent:]}" for cell in column]
+
+
+def _row(head: str, last: str, width: int) -> Iterator[str]:
+    """A row; its last cell is filled where there is no room for it."""
+    if len((head + last).rstrip()) <= width:
+        yield (head + last).rstrip()
+        return
+    pieces = textwrap.wrap(last.strip(), max(width - len(head), NARROWEST // 2), break_long_words=False)
+    indent = " " * _indent(last)
+    head = head + indent if len(head + indent) + max(map(len, pieces)) <= width else head
+    yield head + pieces[0]
+    for piece in pieces[1:]:
+        yield " " * len(head) + piece
+
+
+def _columns(rows: list[str]) -> list[list[str]]:
+    """Cells of each column, all of one width with the spaces after them: cut where no row has a letter."""
+    length = max(map(len, rows))
+    padded = [row.ljust(length) for row in rows]
+    empty = [all(row[at] == " " for row in padded) for at in range(length)]
+    start = next(at for at in range(length) if not empty[at])
+    cuts = [0]
+    at = start
+    while at < length:
+        if empty[at]:
+            end = at
+            while end < length and empty[end]:
+                end += 1
+            # Numbers stand at the right of their columns: the spaces before them belong to them.
+            if end - at >= 2 and end < length:
+                cuts.append(at)
+            at = end
+        else:
+            at += 1
+    return [[row[first:last] for row in padded] for first, last in pairwise([*cuts, length])]

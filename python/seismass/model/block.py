@@ -1,17 +1,81 @@
-"""Block as users meet it: a rigid body on a floor, with its mass or mass ratio and its friction."""
+"""Blocks on floors, and the stops that hold them."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidScene
 from seismass.base.values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, refusal
+from seismass.base.views import Card
 from seismass.model.building import Building
-from seismass.model.stops import Stops
+
+
+class Stops(Value):
+    """Stops on either side of a block, fixed to what carries it: rails, walls of a bay, edges of a pallet place.
+
+    Parameters
+    ----------
+    clearance : float or pair of float
+        Slip (m) at which a stop touches, from the block's first place: one number for both sides, or towards minus and
+        towards plus; infinite: no stop on that side.
+    stiffness : float
+        Stiffness k of the contact (N/m).
+    damping : float, default 0.0
+        Viscous damper c of the contact (N s/m).
+
+    Raises
+    ------
+    InvalidScene
+        A value is not a number. Ranges are judged with the scene.
+
+    Notes
+    -----
+    The contact force is k e + c e' for a penetration e > 0 while that is not negative: a contact does not pull. Touch
+    and leave are events (`touch_stop`, `leave_stop`).
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> sm.Block(2, mass_ratio=0.5, mu=0.1, stops=sm.Stops(0.05, stiffness=2e6))
+    Block(floor=2, mass_ratio=0.5, mu=0.1, stops=Stops(clearance=0.05, stiffness=2e+06))
+    """
+
+    __slots__ = ("clearance", "damping", "stiffness")
+    clearance: tuple[float, float]
+    stiffness: float
+    damping: float
+
+    def __init__(self, clearance: float | Sequence[float], stiffness: float, damping: float = 0.0) -> None:
+        sides: Any = clearance
+        if not isinstance(sides, Sequence | np.ndarray) or isinstance(sides, str):
+            sides = (clearance, clearance)
+        if len(sides) != 2:
+            requirement = "one number, or two: towards minus and towards plus"
+            raise refusal(InvalidScene, "clearance", "stops", requirement, brief(clearance))
+        minus, plus = (as_number(side, "clearance", "stops", InvalidScene) for side in sides)
+        self._set(
+            clearance=(minus, plus),
+            stiffness=as_number(stiffness, "stiffness", "stops", InvalidScene),
+            damping=as_number(damping, "damping", "stops", InvalidScene),
+        )
+
+    @property
+    def numbers(self) -> tuple[float, float, float, float]:
+        """What the kernel takes: clearances towards minus and plus (m), stiffness (N/m), damper (N s/m)."""
+        return (*self.clearance, self.stiffness, self.damping)
+
+    def _arguments(self) -> dict[str, Any]:
+        return {"clearance": self.clearance, "stiffness": self.stiffness, "damping": self.damping}
+
+    def __repr__(self) -> str:
+        minus, plus = self.clearance
+        clearance = f"{plus:g}" if minus == plus else f"({minus:g}, {plus:g})"
+        damping = f", damping={self.damping:g}" if self.damping else ""
+        return f"Stops(clearance={clearance}, stiffness={self.stiffness:g}{damping})"
 
 
 class Block(Value):
@@ -235,3 +299,115 @@ def _on_floors(name: str, value: ArrayLike, floors: int) -> FloatArray:
         requirement = f"one number or a list of {floors} values, one per floor"
         raise refusal(InvalidScene, name, "blocks", requirement, f"{len(array)} values")
     return array
+
+
+DEFAULT_SLAB_MASS_RATIO: Final = 1.0
+"""Mass of the slab over that of floor 1, where neither `mass` nor `mass_ratio` is given: a mat like a floor."""
+
+
+class SlidingBase(Value, Card):
+    """A slab that carries the whole scene and slides on the ground: a mat, a flat slider, a friction pendulum.
+
+    Parameters
+    ----------
+    mu : float, optional
+        Friction coefficient between slab and ground, static and kinetic. Either it or `mu_s` is needed.
+    mu_s, mu_k : float, optional
+        Static and kinetic friction coefficient; `mu_k` defaults to `mu_s`.
+    radius : float, optional
+        Effective radius R of a friction pendulum (m): W/R is the restoring stiffness, 2 pi sqrt(R/g) the period. None:
+        a flat slider.
+    mass : float, optional
+        Mass of the slab (kg).
+    mass_ratio : float, optional
+        The same over the mass of floor 1. Default 1, where there is a building.
+
+    Raises
+    ------
+    InvalidScene
+        What is given contradicts itself or is not a number. Ranges are judged with the scene.
+
+    Notes
+    -----
+    The contact force N is the weight of slab, building, racks and goods, times 1 + a_v/g with a vertical motion; the
+    restoring force is N u/R for a slip u. While the slab sticks it is the ground, exactly: no spring stands for stick.
+    Floor
+    0 of the scene is the slab: goods and racks on it slide and stand there. Damping is that of the structure fixed at
+    its base.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> base = sm.SlidingBase(mu=0.06, radius=2.0)
+    >>> sm.Scene(sm.Building.uniform(2, 0.4), base=base)
+    Scene(2 storeys, T1 = 0.4 s, no block, sliding base)
+    """
+
+    __slots__ = ("mass", "mass_ratio", "mu_k", "mu_s", "radius")
+    mass: float | None
+    mass_ratio: float | None
+    mu_s: float
+    mu_k: float
+    radius: float | None
+
+    def __init__(
+        self,
+        mu: float | None = None,
+        *,
+        mu_s: float | None = None,
+        mu_k: float | None = None,
+        radius: float | None = None,
+        mass: float | None = None,
+        mass_ratio: float | None = None,
+    ) -> None:
+        def number(name: str, value: float) -> float:
+            return as_number(value, name, "base", InvalidScene)
+
+        if mass is not None and mass_ratio is not None:
+            raise refusal(InvalidScene, "mass", "base", "given either as mass or as mass_ratio", "both")
+        if mu is not None and (mu_s is not None or mu_k is not None):
+            raise refusal(InvalidScene, "mu", "base", "left out where mu_s or mu_k is given", brief(mu))
+        static = mu if mu_s is None else mu_s
+        if static is None:
+            raise refusal(InvalidScene, "mu", "base", "given, or mu_s", "neither")
+        self._set(
+            mass=None if mass is None else number("mass", mass),
+            mass_ratio=None if mass_ratio is None else number("mass_ratio", mass_ratio),
+            mu_s=number("mu" if mu_s is None else "mu_s", static),
+            mu_k=number("mu_k", static if mu_k is None else mu_k),
+            radius=None if radius is None else number("radius", radius),
+        )
+
+    def slab_mass(self, building: Building | None) -> float:
+        """Return the mass of the slab below a building (kg).
+
+        Raises
+        ------
+        InvalidScene
+            It is a ratio without a building, or in kg where the mass of the building is not stated.
+        """
+        if self.mass is not None:
+            if building is not None and not building.mass_is_stated:
+                requirement = "given as mass_ratio where the mass of the building is not stated"
+                raise refusal(InvalidScene, "mass", "base", requirement, f"{self.mass:g} kg")
+            return self.mass
+        if building is None:
+            got = "neither" if self.mass_ratio is None else f"mass_ratio {self.mass_ratio:g}"
+            raise refusal(InvalidScene, "mass", "base", "given in kg where there is no building", got)
+        ratio = DEFAULT_SLAB_MASS_RATIO if self.mass_ratio is None else self.mass_ratio
+        return ratio * float(building.mass[0])
+
+    def of_kernel(self, building: Building | None) -> tuple[float, float, float, float]:
+        """Return what the kernel takes: mass of the slab (kg), mu_s, mu_k, radius (m, infinite: flat)."""
+        radius = np.inf if self.radius is None else self.radius
+        return self.slab_mass(building), self.mu_s, self.mu_k, radius
+
+    def _arguments(self) -> dict[str, Any]:
+        return {name: getattr(self, name) for name in self.__slots__}
+
+    def __repr__(self) -> str:
+        equal = self.mu_s == self.mu_k
+        given = [f"mu={self.mu_s:g}"] if equal else [f"mu_s={self.mu_s:g}", f"mu_k={self.mu_k:g}"]
+        others = (("radius", self.radius), ("mass", self.mass), ("mass_ratio", self.mass_ratio))
+        given += [f"{name}={value:g}" for name, value in others if value is not None]
+        return f"SlidingBase({', '.join(given)})"

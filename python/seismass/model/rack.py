@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, Final, Unpack
 
 import numpy as np
@@ -11,12 +12,12 @@ from numpy.typing import ArrayLike
 from seismass import _kernel
 from seismass.base.errors import InvalidScene
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, refusal
+from seismass.base.values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, known_id, refusal
 from seismass.base.views import Card
-from seismass.model.block import Block
+from seismass.model.block import Block, Stops
 from seismass.model.building import Building, kernel_springs
+from seismass.model.codes import FROM_MEMORY
 from seismass.model.springs import SHAPE_FIELDS, Hysteresis, SpringShape, checked_names, documented, takes_springs
-from seismass.model.stops import Stops
 
 DEFAULT_RACK_DAMPING: Final = 0.03
 """Damping ratio of a rack in every mode, fixed at its base, with frame and goods attached."""
@@ -383,3 +384,33 @@ def _mass(block: RackBlock, floor_mass: float) -> float:
 
 
 Rack.__doc__ = documented(Rack.__doc__, SHAPE_FIELDS)
+
+
+@dataclass(frozen=True)
+class RackDirection:
+    """A direction of pallet racks, "down-aisle" (along the beams) or "cross-aisle" (along the braced frames), with its
+    default first period, frame and goods (s), range, source and how the source was checked.
+    """
+
+    name: str
+    period: float
+    low: float
+    high: float
+    source: str
+    status: str
+
+
+RACK_DIRECTIONS: Final = (
+    RackDirection(
+        "down-aisle", 1.5, 1.0, 2.5, "unbraced frames, FEMA 460 (2005) and tests that it quotes", FROM_MEMORY
+    ),
+    RackDirection("cross-aisle", 0.7, 0.4, 1.0, "braced frames, FEMA 460 (2005) and tests that it quotes", FROM_MEMORY),
+)
+"""Periods of racks by direction. The range is wide: state the period of the racks that stand there."""
+
+
+def rack_direction(name: str) -> RackDirection:
+    """Return a direction of racks by its name."""
+    names = tuple(each.name for each in RACK_DIRECTIONS)
+    chosen = known_id(name, names, "direction of racks")
+    return RACK_DIRECTIONS[names.index(chosen)]

@@ -1,17 +1,16 @@
 """Names of the module, imported when they are first used; `__init__.py` reads them here."""
 
 from .batch import simulate_many, stream_many, write_many
-from .grid.axes import GridAxis
-from .grid.design import StrengthDesign
+from .grid.columns import GridAxis
 from .grid.grid import Grid
+from .grid.sample import StrengthDesign
 from .long_table import long_table
-from .opensees_export import write_opensees
-from .plane_response import PlaneResponse
+from .opensees_export import SpringPath, spring_forces, write_opensees
+from .plane import PlaneResponse
 from .response import Response
 from .scene_file import SceneFile, read_scene
 from .scene_product import SceneProduct
 from .simulate import instruction_set, simulate
-from .spring_path import SpringPath, spring_forces
 
 __all__ = [
     "Grid",

@@ -28,16 +28,14 @@ from seismass.base.values import (
     printable,
     refusal,
 )
-from seismass.model.motion import HasMotion, Motion, MotionLike, as_motion, motion_names
 from seismass.model.scene import Scene
-from seismass.records.pair import Pair
-from seismass.runs.batch_tables import batch_table, heights_of_runs
-from seismass.runs.doubts import warn_of_doubts
+from seismass.motions.motion import HasMotion, Motion, MotionLike, as_motion, motion_names
+from seismass.motions.records.pair import Pair
+from seismass.runs.batch_tables import SceneRuns, batch_table, heights_of_runs
 from seismass.runs.grid.columns import IndexArray
 from seismass.runs.grid.grid import Grid
-from seismass.runs.plane_motion import MotionPair, PlaneMotion, is_motion_pair, motions_in_plane
-from seismass.runs.scene_runs import SceneRuns
-from seismass.runs.simulate import instruction_set
+from seismass.runs.plane import MotionPair, PlaneMotion, is_motion_pair, motions_in_plane
+from seismass.runs.simulate import instruction_set, warn_of_doubts
 
 DEFAULT_CHUNK: Final = 8192
 """Runs solved at once: enough to share propagators and to keep threads busy, in some tens of megabytes."""

@@ -13,7 +13,7 @@ from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.forks import require_polars
 from seismass.base.values import brief, refusal
 from seismass.model.scene import Scene
-from seismass.runs.grid.axes import TABLE_COLUMNS, table_of
+from seismass.runs.grid.columns import TABLE_COLUMNS, table_of
 from seismass.runs.grid.grid import Grid
 
 _PER_STOREY: Final = (

@@ -1,29 +1,157 @@
-"""Response of one run: peaks, residuals, histories, events, energies and the work that it took."""
+"""Response of one run: peaks, histories, events, and how they are shown."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final, TypedDict, cast
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, Protocol, TypedDict, cast
 
 import numpy as np
 import polars as pl
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from seismass import _kernel
 from seismass.base.errors import InvalidOption
 from seismass.base.forks import require_polars
 from seismass.base.values import FloatArray, frozen, read_only, refusal
-from seismass.base.views import view
-from seismass.model.motion import Motion
+from seismass.base.views import Views, view
 from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
-from seismass.runs.base_results import BaseResults
-from seismass.runs.rack_results import RackResults
-from seismass.runs.response_document import ResponseDocument
-from seismass.runs.response_views import ResponseAnimation, ResponsePlots
+from seismass.motions.motion import Motion
+from seismass.runs.response_parts import BaseResults, RackResults, ResponseDocument
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
     from seismass.model.codes import Use
-    from seismass.records import Record
+    from seismass.motions.records import Record
+
+
+DEFAULT_POINTS: Final = 200
+"""Number of times at which a run is solved again for figures of what grows along it."""
+
+
+class ResponsePlots(Views):
+    """Figures of a response: each method is the function of `seismass.plots` with its name."""
+
+    __slots__ = ()
+
+    @view
+    def drift(
+        self,
+        *,
+        storeys: int | Sequence[int] | None = None,
+        events: bool | Sequence[str] = True,
+        ax: Axes | Sequence[Axes] | None = None,
+    ) -> Figure:
+        """Draw the drift of storeys over time, with their peaks in continuous time and their events."""
+        raise NotImplementedError
+
+    @view
+    def slip(
+        self,
+        *,
+        blocks: int | Sequence[int] | None = None,
+        events: bool | Sequence[str] = True,
+        ax: Axes | Sequence[Axes] | None = None,
+    ) -> Figure:
+        """Draw the slip of blocks over time, with their peaks in continuous time, their events and their stops."""
+        raise NotImplementedError
+
+    @view
+    def rack_drift(
+        self,
+        *,
+        racks: int | Sequence[int] | None = None,
+        events: bool | Sequence[str] = True,
+        ax: Axes | Sequence[Axes] | None = None,
+    ) -> Figure:
+        """Draw the drift of the levels of racks over time, with their peaks in continuous time and their events."""
+        raise NotImplementedError
+
+    @view
+    def rack_profile(self, *, racks: int | Sequence[int] | None = None, ax: Sequence[Axes] | None = None) -> Figure:
+        """Draw the peaks of racks over their levels: drift, acceleration, spring force, and slip of their goods."""
+        raise NotImplementedError
+
+    @view
+    def contacts(self, *, blocks: int | Sequence[int] | None = None, ax: Axes | Sequence[Axes] | None = None) -> Figure:
+        """Draw the velocity with which blocks come to their stops, up where the stop is on the side of plus."""
+        raise NotImplementedError
+
+    @view
+    def acceleration(
+        self,
+        *,
+        floors: int | Sequence[int] | None = None,
+        events: bool | Sequence[str] = True,
+        ax: Axes | Sequence[Axes] | None = None,
+    ) -> Figure:
+        """Draw the absolute acceleration of floors over time, with their peaks and the yielding of the storey below."""
+        raise NotImplementedError
+
+    @view
+    def loops(
+        self,
+        *,
+        storeys: int | Sequence[int] | None = None,
+        events: bool | Sequence[str] = False,
+        ax: Axes | Sequence[Axes] | None = None,
+    ) -> Figure:
+        """Draw spring force against drift of storeys, over the backbone of each."""
+        raise NotImplementedError
+
+    @view
+    def slip_path(
+        self, *, blocks: int | Sequence[int] | None = None, points: int = DEFAULT_POINTS, ax: Axes | None = None
+    ) -> Figure:
+        """Draw the path that blocks have slipped over time, which only grows."""
+        raise NotImplementedError
+
+    @view
+    def energy(self, *, points: int = DEFAULT_POINTS, ax: Axes | None = None) -> Figure:
+        """Draw the energies of a run over time, relative to the moving ground, stacked; their sum is what came in."""
+        raise NotImplementedError
+
+    @view
+    def profile(
+        self,
+        *,
+        quantities: Sequence[str] = ("drift", "acceleration", "shear", "slip"),
+        limits: Mapping[str, float] | None = None,
+        ax: Axes | Sequence[Axes] | None = None,
+    ) -> Figure:
+        """Draw the peaks of a run over the height of the building, in continuous time, with limits."""
+        raise NotImplementedError
+
+    @view
+    def floor_spectra(
+        self,
+        *,
+        floors: int | Sequence[int] | None = None,
+        periods: ArrayLike | None = None,
+        damping: float = 0.05,
+        ax: Axes | None = None,
+    ) -> Figure:
+        """Draw the pseudo-acceleration spectrum of the ground and of floors, for what stands on them."""
+        raise NotImplementedError
+
+    @view
+    def events(self, *, ax: Axes | None = None) -> Figure:
+        """Draw when each storey, level of a rack and block had its events: a row for each, a marker for each kind."""
+        raise NotImplementedError
+
+
+class ResponseAnimation(Protocol):
+    """The animation of a run: `seismass.Animation`."""
+
+    def html(self) -> str:
+        """Return a page that needs nothing but itself."""
+
+    def write(self, path: str | Path, *, frames_per_second: float | None = None, speed: float = 1.0) -> None:
+        """Write a page (.html), a GIF (.gif) or a film (.mp4)."""
+
 
 EVENT_KINDS: Final = tuple(_kernel.Response.event_kinds())
 """Kinds of events: to a storey (yield, unload, reload, close, open), to a block, or to all blocks (lift, land)."""

@@ -11,24 +11,30 @@ import numpy as np
 
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, InvalidScene, InvalidSceneFile
-from seismass.base.input_kinds import SCENE_FILE, refuse_other_kind
-from seismass.base.input_table import FINITE, POSITIVE, Table, load_table
+from seismass.base.input_table import FINITE, POSITIVE, SCENE_FILE, Table, load_table, refuse_other_kind
 from seismass.base.units import ACCELERATION_UNITS
 from seismass.base.values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
 from seismass.base.views import Card
-from seismass.model.building import Building, as_fraction_of_weight
-from seismass.model.damping import Rayleigh
-from seismass.model.motion import Motion, check_size
+from seismass.model.building import Building, Rayleigh, as_fraction_of_weight
 from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
-from seismass.model.spring_laws import is_per_storey
-from seismass.model.springs import SPRING_FIELDS
-from seismass.records import Record, builtin_record, read_record
-from seismass.records.builtin import builtin_names, data_directory
-from seismass.runs.plane_motion import motions_in_plane
-from seismass.runs.scene_goods import GOODS_KEYS, read_base, read_block, read_rack
-from seismass.runs.scene_pair import PAIR_KEYS, pair_of_scene
-from seismass.runs.scene_walls import WALL_KEYS, check_walls, matrix_of_walls, with_walls
+from seismass.model.springs import SPRING_FIELDS, is_per_storey
+from seismass.motions.motion import Motion, check_size
+from seismass.motions.records import Record, builtin_record, read_record
+from seismass.motions.records.builtin import builtin_names, data_directory
+from seismass.runs.plane import motions_in_plane
+from seismass.runs.scene_goods import (
+    GOODS_KEYS,
+    PAIR_KEYS,
+    WALL_KEYS,
+    check_walls,
+    matrix_of_walls,
+    pair_of_scene,
+    read_base,
+    read_block,
+    read_rack,
+    with_walls,
+)
 
 _SPRING_KEYS: Final = (*SPRING_FIELDS, "heights", "gravity_load", "geometric_stiffness")
 _DAMPING_KEYS = {"modal": ("ratio",), "rayleigh": ("ratio", "modes"), "matrix": ("matrix",)}

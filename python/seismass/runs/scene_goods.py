@@ -1,19 +1,23 @@
-"""Blocks, stops, racks and base of a scene file: tables as values of `Block`, `Stops`, `Rack`, `SlidingBase`."""
+"""Goods, walls, and pairs of motions of a scene file."""
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 
-from seismass.base.errors import InvalidScene
-from seismass.base.input_table import Table
-from seismass.base.values import as_count, as_number, brief, refusal
-from seismass.model.block import Block
+from seismass.base.errors import InvalidOption, InvalidScene
+from seismass.base.input_table import FINITE, POSITIVE, Table
+from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, refusal
+from seismass.design.modes import positive_of_length, vibration_modes
+from seismass.design.walls import Wall
+from seismass.model.block import Block, SlidingBase, Stops
+from seismass.model.building import Building, changed_building
 from seismass.model.rack import Rack, RackBlock
-from seismass.model.sliding_base import SlidingBase
+from seismass.model.scene import Scene
 from seismass.model.springs import SHAPE_FIELDS, SPRING_FIELDS
-from seismass.model.stops import Stops
+from seismass.motions.records import Pair, builtin_pairs, find_pairs, read_pair
 
 _FRICTION: Final = ("mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity", "wear", "stops", "stops_y")
 GOODS_KEYS: Final = {
@@ -127,3 +131,111 @@ def _rack_block(table: Table, number: int, rack: int) -> RackBlock:
     table.excluded("mass_ratio", "mass")
     masses: dict[str, Any] = {key: table.number(key, np.nan) for key in ("mass", "mass_ratio") if key in table.values}
     return RackBlock(level, fixed=True, **masses)
+
+
+WALL_KEYS: Final = ("flexural_rigidity", "period", "alpha_h", "base_shear_share")
+"""Keys of the table; one of them is given."""
+
+
+def check_walls(walls: Table, building: Table) -> None:
+    """Refuse tables of walls and building that do not fit together, and unknown keys."""
+    walls.known(WALL_KEYS)
+    walls.needed(*WALL_KEYS)
+    walls.one_of(*WALL_KEYS)
+    if "stiffness_matrix" in building.values:
+        building.refuse("stiffness_matrix", "left out where walls are given", "both")
+    building.needed("heights")
+    if "period" in building.values:
+        for key in ("flexural_rigidity", "period"):
+            if key in walls.values:
+                requirement = f"left out where {building.key('period')}, that of storeys and walls together, is given"
+                walls.refuse(key, requirement, "both")
+
+
+def matrix_of_walls(walls: Table, building: Table) -> FloatArray | None:
+    """Return the stiffness (N/m) of walls that are given by themselves; None where they follow the storeys."""
+    by_itself = [key for key in ("flexural_rigidity", "period") if key in walls.values]
+    if not by_itself:
+        return None
+    lists = [building.values.get(key) for key in ("mass", "stiffness", "heights")]
+    count = next((len(each) for each in lists if isinstance(each, list)), 1)
+    if "storeys" in building.values:
+        count = building.count("storeys", least=1)
+    heights = _per_storey(building, "heights", count)
+    if by_itself == ["period"]:
+        mass = _per_storey(building, "mass", count)
+        return Wall.of_period(mass, heights, walls.number("period", np.nan, POSITIVE)).stiffness_matrix
+    rigidity = walls.per_storey("flexural_rigidity")
+    return Wall(heights, np.nan if rigidity is None else rigidity).stiffness_matrix
+
+
+def with_walls(building: Building, walls: Table, *, scaled: bool) -> Building:
+    """Return a building with walls that follow its storeys, by alpha H or their share of the base shear; `scaled`:
+    storeys and walls alike, so that together they have the first period of the storeys as given.
+    """
+    if "alpha_h" in walls.values:
+        wall = Wall.of_alpha_h(building, walls.number("alpha_h", np.nan, POSITIVE))
+    else:
+        wall = Wall.of_base_shear_share(building, walls.number("base_shear_share"))
+    if not scaled:
+        return wall.beside(building)
+    matrix = wall.stiffness_matrix
+    modes = vibration_modes(building.mass, building.stiffness, stiffness_matrix=matrix)
+    scale = float(modes.periods[0] / building.periods[0]) ** 2  # changes neither alpha H nor the share
+    return changed_building(building, stiffness=scale * building.stiffness, stiffness_matrix=scale * matrix)
+
+
+def _per_storey(building: Table, key: str, count: int) -> FloatArray:
+    value = building.values[key]
+    if isinstance(value, list):
+        return positive_of_length(as_array(value, key, "building", InvalidScene), key, count)
+    return positive_of_length(as_number(value, key, "building", InvalidScene), key, count)
+
+
+PAIR_KEYS: Final = ("first", "second", "vertical", "folder", "name", "builtin", "rotation", "strike", "scale")
+
+
+def pair_of_scene(top: Table, scene: Scene, folder: Path) -> Pair | None:
+    """Return the pair of a scene file, which stands in place of its motions; None where it has none."""
+    if "pair" not in top.values:
+        return None
+    for key in ("motion", "other_motion", "vertical_motion"):
+        top.excluded(key, "pair")
+    if scene.engine != "plane":
+        top.refuse("pair", "left out where there is no other_direction", "a table")
+    return pair_of_table(top.table("pair"), folder)
+
+
+def pair_of_table(table: Table, folder: Path) -> Pair:
+    """Return the pair that a table with `PAIR_KEYS` names; paths are relative to `folder`."""
+    table.known(PAIR_KEYS)
+    table.needed("first", "folder", "builtin")
+    table.one_of("first", "folder", "builtin")
+    if "first" in table.values:
+        table.needed("second")
+        up = folder / table.text("vertical") if "vertical" in table.values else None
+        pair = read_pair(folder / table.text("first"), folder / table.text("second"), up)
+    elif "folder" in table.values:
+        table.needed("name")
+        pair = _named(table, "name", list(find_pairs(folder / table.text("folder"))))
+    else:
+        pair = _named(table, "builtin", list(builtin_pairs()))
+    if "rotation" in table.values:
+        table.excluded("rotation", "strike")
+        pair = pair.rotated(table.number("rotation", need=FINITE))
+    if "strike" in table.values:
+        try:
+            pair = pair.fault_normal_parallel(table.number("strike", need=FINITE))
+        except InvalidOption as error:
+            table.refuse_as("strike", error)
+    return pair.scaled(table.number("scale", 1.0, POSITIVE))
+
+
+def _named(table: Table, key: str, pairs: list[Pair]) -> Pair:
+    """The pair of that name."""
+    name = table.text(key)
+    found = [pair for pair in pairs if pair.name == name]
+    if len(found) != 1:
+        known = ", ".join(pair.name for pair in pairs[:3])
+        table.refuse(key, f"the name of one of {len(pairs)} pairs, as {known}", brief(name))
+    return found[0]

@@ -11,13 +11,11 @@ import numpy as np
 import polars as pl
 
 from seismass.base.values import FloatArray, read_only
-from seismass.model.building import Building
-from seismass.model.damping import Rayleigh
+from seismass.model.building import Building, Rayleigh
 from seismass.model.springs import SPRING_FIELDS, is_default
-from seismass.runs.grid.axes import GridAxis
-from seismass.runs.grid.columns import Column
-from seismass.runs.grid.design import StrengthDesign
+from seismass.runs.grid.columns import Column, GridAxis
 from seismass.runs.grid.grid import Grid
+from seismass.runs.grid.sample import StrengthDesign
 
 _TABLES: Final = ("mass_ratio", "mu_s", "mu_k", "yield_shear_over_weight")
 """Columns whose values are rows of numbers per block or storey."""

@@ -18,30 +18,34 @@ from seismass.model.block import Block
 from seismass.model.building import Building, chain_kernel
 from seismass.model.scene import Scene
 from seismass.model.springs import SHAPE_FIELDS
-from seismass.runs.grid.axes import AXIS_OF, GridAxis, axes_of, described, table_of
-from seismass.runs.grid.buildings import (
+from seismass.runs.grid.columns import (
     ATTACHED_DAMPING,
     ATTACHED_OF,
+    AXIS_OF,
     CHANGING,
     AttachedDamping,
     AttachedOf,
     BuildingColumns,
-    changing_values,
-    given_buildings,
-)
-from seismass.runs.grid.columns import (
     Column,
+    GridAxis,
+    GridOptions,
     IndexArray,
+    Roof,
     as_given,
+    axes_of,
     axis_lengths,
     block_values,
+    changing_values,
+    described,
+    given_buildings,
+    grid_options,
     index_values,
     number_values,
     share_values,
+    table_of,
+    takes_grid_options,
 )
-from seismass.runs.grid.design import StrengthDesign
-from seismass.runs.grid.options import GridOptions, Roof, grid_options, takes_grid_options
-from seismass.runs.grid.sample import SampleMethod, sampled_arguments
+from seismass.runs.grid.sample import SampleMethod, StrengthDesign, sampled_arguments
 
 MAX_SCENES: Final = 2**53
 """Most scenes of a grid: beyond, doubles in which numbers of scenes may be read skip some."""

@@ -13,15 +13,14 @@ import numpy as np
 from markupsafe import Markup
 from numpy.typing import ArrayLike, NDArray
 
-from seismass.animation.shown import Run
-from seismass.animation.standing import Good, standing_goods
 from seismass.base.values import FloatArray, counted
 from seismass.media.page import page_html, templates
 from seismass.model.scene import Scene
 from seismass.runs.response import EVENT_KINDS
+from seismass.show.animation.animation import Good, Run, standing_goods
 
 if TYPE_CHECKING:
-    from seismass.animation.animation import Animation
+    from seismass.show.animation.animation import Animation
 
 SPEEDS: Final = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0)
 """Choices of speed."""

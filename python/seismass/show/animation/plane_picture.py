@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+import shutil
+import subprocess
+from collections.abc import Iterator
+from math import ceil
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, Protocol
 
 import numpy as np
 from PIL import Image, ImageDraw
 
-from seismass.base.values import FloatArray
-from seismass.media.roles import SLIDE
-from seismass.show.animation.canvas import (
+from seismass.base.errors import InvalidOption, MissingPackage
+from seismass.base.files import written_whole
+from seismass.base.values import FloatArray, as_path, as_positive, brief, refusal
+from seismass.media.style import SLIDE
+from seismass.show.animation.picture import (
     CURVES,
     FINER,
     INK,
@@ -25,7 +32,8 @@ from seismass.show.animation.canvas import (
 )
 
 if TYPE_CHECKING:
-    from seismass.animation.plane import PlaneAnimation
+    from seismass.show.animation.animation import Animation, PlaneAnimation
+
 
 SIDE: Final = 6.0
 """Side (m) of the floor as drawn."""
@@ -157,3 +165,128 @@ class PlanePicture(Frames):
                 left += 80
         self._time_axis(draw)
         return image
+
+
+GIF_FRAMES: Final = 12.5
+"""Default frames per second of a GIF, whose unit of time is 10 ms."""
+FILM_FRAMES: Final = 25.0
+"""Default frames per second of a film."""
+MOST_FRAMES: Final = 50.0
+"""Most frames per second: players show no more of a GIF."""
+COLOURS: Final = 32
+"""Colours of a GIF."""
+
+
+class Pictured(Protocol):
+    """What draws frames at any time."""
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height (pixels), both even."""
+
+    @property
+    def duration(self) -> float:
+        """Time of the last frame (s)."""
+
+    def sample(self) -> Image.Image:
+        """Return a frame in which every colour is to be seen."""
+
+    def frame(self, time: float, lasting: float = 0.0) -> Image.Image:
+        """Return the frame at a time (s), shown for `lasting`."""
+
+
+def write_film(picture: Pictured, path: Path, frames_per_second: float | None, speed: float) -> None:
+    """Write a GIF or an MP4, by the suffix of the path; see `Animation.write`."""
+    gif = path.suffix.lower() == ".gif"
+    default = GIF_FRAMES if gif else FILM_FRAMES
+    given = default if frames_per_second is None else frames_per_second
+    rate = as_positive(given, "frames_per_second", "animation", InvalidOption)
+    if rate > MOST_FRAMES:
+        raise refusal(InvalidOption, "frames_per_second", "animation", f"at most {MOST_FRAMES:g}", f"{rate:g}")
+    pace = as_positive(speed, "speed", "animation", InvalidOption)
+    ffmpeg = None if gif else shutil.which("ffmpeg")
+    if not gif and ffmpeg is None:
+        raise MissingPackage(
+            "ffmpeg of a film must be on the path (Debian, Ubuntu: apt-get install ffmpeg), or the file a .gif or "
+            ".html; got none"
+        )
+    with written_whole(path) as temporary:
+        if ffmpeg is None:
+            _write_gif(picture, temporary, rate, pace)
+        else:
+            _write_mp4(picture, temporary, rate, pace, ffmpeg)
+
+
+def _frames(picture: Pictured, rate: float, speed: float) -> Iterator[Image.Image]:
+    """Frames from the start to the end, which is one of them."""
+    count = ceil(picture.duration * rate / speed - 1e-6)
+    for number in range(count + 1):
+        yield picture.frame(min(number * speed / rate, picture.duration), lasting=speed / rate)
+
+
+def _write_gif(picture: Pictured, path: Path, rate: float, speed: float) -> None:
+    # One palette for all frames, of one in which everything is to be seen.
+    palette = picture.sample().quantize(COLOURS, dither=Image.Dither.NONE)
+    frames = (frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in _frames(picture, rate, speed))
+    first = next(frames)
+    each = max(20, round(100.0 / rate) * 10)
+    first.save(path, format="GIF", save_all=True, append_images=frames, duration=each, loop=0, optimize=True)
+
+
+def _write_mp4(picture: Pictured, path: Path, rate: float, speed: float, ffmpeg: str) -> None:
+    width, height = picture.size
+    command = [ffmpeg, "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}"]
+    command += ["-r", f"{rate:g}", "-i", "-", "-an", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"]
+    # A protocol and a whole path: a name that begins with "-" is an option, and one with ":" another protocol.
+    with subprocess.Popen(
+        [*command, f"file:{path.absolute()}"], stdin=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
+        assert process.stdin is not None
+        assert process.stderr is not None
+        try:
+            for frame in _frames(picture, rate, speed):
+                process.stdin.write(frame.tobytes())
+            process.stdin.close()
+        except BrokenPipeError:
+            pass  # ffmpeg has ended, and says why
+        except BaseException:
+            process.kill()
+            raise
+        said = process.stderr.read().decode(errors="replace").strip()
+    if process.returncode != 0:
+        raise OSError(f"ffmpeg of a film must end well; got {said or process.returncode}")
+
+
+SUFFIXES: Final = (".html", ".gif", ".mp4")
+"""Kinds of files that an animation is written as."""
+
+
+def write_animation(
+    animation: Animation, path: str | Path, *, frames_per_second: float | None = None, speed: float = 1.0
+) -> None:
+    """Write an animation; see `Animation.write`."""
+    target = as_path(path, "animation", InvalidOption)
+    suffix = target.suffix.lower()
+    if suffix not in SUFFIXES:
+        raise refusal(InvalidOption, "suffix", "animation", f"one of {', '.join(SUFFIXES)}", brief(target.suffix))
+    if suffix == ".html":
+        if frames_per_second is not None or speed != 1.0:
+            requirement = "left out for a page, which has a choice of speeds"
+            raise refusal(InvalidOption, "frames_per_second or speed", "animation", requirement, "a number")
+        with written_whole(target) as temporary:
+            temporary.write_text(animation.html(), encoding="utf-8")
+        return
+    from seismass.show.animation.picture import Picture
+
+    write_film(Picture(animation), target, frames_per_second, speed)
+
+
+def write_plane_animation(
+    animation: PlaneAnimation, path: str | Path, *, frames_per_second: float | None = None, speed: float = 1.0
+) -> None:
+    """Write an animation in two directions; see `PlaneAnimation.write`."""
+    target = as_path(path, "animation", InvalidOption)
+    if target.suffix.lower() not in SUFFIXES[1:]:
+        requirement = f"one of {', '.join(SUFFIXES[1:])} in two directions"
+        raise refusal(InvalidOption, "suffix", "animation", requirement, brief(target.suffix))
+    write_film(PlanePicture(animation), target, frames_per_second, speed)

@@ -2,18 +2,30 @@
 
 from __future__ import annotations
 
-from typing import Any, Final
+from collections.abc import Mapping
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 import polars as pl
 from markupsafe import Markup
 
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.media.isolate import isolated, sentence_html
-from seismass.media.page import facts_html, table_html
-from seismass.media.page_lists import long_html, whole_html
-from seismass.media.roles import MU, OMEGA
+from seismass.media.page import (
+    MOST_STOREYS,
+    LiveCase,
+    bullets_html,
+    facts_html,
+    figure_html,
+    long_html,
+    table_html,
+    text_html,
+    whole_html,
+)
+from seismass.media.page import PAGE as LIVE_PAGE
+from seismass.media.style import MU, OMEGA, isolated, lettered, sentence_html
+from seismass.media.svg import short_svg
 from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
+from seismass.show.animation.html import element_html
 from seismass.show.assessment.tables import AssessmentTables
 
 MOST_MOTIONS: Final = 12
@@ -250,3 +262,198 @@ def _goods(result: AssessmentTables) -> list[Markup]:
 def thousandth_text(value: float) -> str:
     """Return a value in SI units as thousands of them: kN, t."""
     return f"{1e-3 * value:.0f}"
+
+
+ALIKE = 1e-6
+"""By how much numbers may differ, relatively, that the live page has as one."""
+
+
+class OwnCase(NamedTuple):
+    """What the live page opens: the building (None where it cannot be shown, with `reasons`), and what is different
+    there, each a sentence without its stop.
+    """
+
+    case: LiveCase | None
+    reasons: tuple[str, ...]
+    differences: tuple[str, ...]
+
+
+def own_case(result: AssessmentTables) -> OwnCase:
+    """Return the case of an assessed building."""
+    given = result.document["input"]
+    storeys, goods = given["storeys"], [kind for kind in given["goods"] if not kind["attached"] and kind["mass"] > 0.0]
+    reasons = []
+    if len(storeys) > MOST_STOREYS:
+        reasons.append(f"it has {len(storeys)} storeys, and the live page solves up to {MOST_STOREYS}")
+    if given["other_direction"] is not None:
+        reasons.append("it moves in two directions")
+    if given["base"] is not None:
+        reasons.append("it stands on a sliding base")
+    if given["walls"]:
+        reasons.append("it has walls")
+    if any(kind["rack"] is not None for kind in goods):
+        reasons.append("its goods stand on racks")
+    if any(kind["stops"] is not None for kind in goods):
+        reasons.append("its goods have stops")
+    if given["damping_from_storey"] > 1:
+        reasons.append("its lowest storeys are not damped")
+    strength = [row["yield_shear"] for row in storeys]
+    if any(value is None for value in strength) and any(value is not None for value in strength):
+        reasons.append("some of its storeys yield and others stay elastic")
+    if reasons:
+        return OwnCase(None, tuple(reasons), ())
+    case, differences = _case(result, storeys, goods), _differences(result, storeys, goods)
+    if case.beyond:
+        return OwnCase(None, (f"its numbers are out of the range of the live page ({', '.join(case.beyond)})",), ())
+    return OwnCase(case, (), differences)
+
+
+def _case(result: AssessmentTables, storeys: list[dict[str, Any]], goods: list[dict[str, Any]]) -> LiveCase:
+    given = result.document["input"]
+    mass = np.array([row["mass"] for row in storeys])
+    heights = [row["height"] for row in storeys if row["height"] is not None]
+    weight = STANDARD_GRAVITY * float(mass.sum())
+    ratio, static, kinetic = np.zeros(len(storeys)), np.zeros(len(storeys)), np.zeros(len(storeys))
+    for kind in goods:
+        floor = kind["floor"] - 1
+        ratio[floor] += kind["mass"] / mass.mean()
+        # Several kinds become one with their mean friction.
+        static[floor] += kind["mass"] / mass.mean() * kind["mu_s"]
+        kinetic[floor] += kind["mass"] / mass.mean() * kind["mu_k"]
+    loaded = ratio > 0.0
+    least = [float(one["mu_s"]) for one in goods[:1]] or [0.2]
+    mu_s = np.where(loaded, static / np.where(loaded, ratio, 1.0), least[0])
+    mu_k = np.where(loaded, kinetic / np.where(loaded, ratio, 1.0), least[0])
+    elastic = any(row["yield_shear"] is None for row in storeys)
+    counted = result.code["share_of_design_live_load"] / result.present_share if result.present_share > 0.0 else 0.0
+    return LiveCase(
+        period=given["period_bare"],
+        damping=given["damping"],
+        overstrength=float(np.mean([row["overstrength"] for row in storeys])),
+        second_slope=float(np.mean([row["second_slope"] for row in storeys])),
+        height=float(np.mean(heights)) if heights else 3.5,
+        strength=() if elastic else [row["yield_shear"] / weight for row in storeys],
+        mass_ratio=ratio.tolist(),
+        mu_s=mu_s.tolist(),
+        mu_k=mu_k.tolist(),
+        counted=min(1.0, counted),
+    )
+
+
+def _differences(
+    result: AssessmentTables, storeys: list[dict[str, Any]], goods: list[dict[str, Any]]
+) -> tuple[str, ...]:
+    given = result.document["input"]
+    found = ["motions are the seven built-in ones, scaled to their own target, not those of this page"]
+    for name, words in (
+        ("mass", "floor masses are equal: their mean"),
+        ("stiffness", "storey stiffnesses are equal: those of the same first period"),
+        ("height", "storey heights are equal: their mean"),
+        ("overstrength", "Omega is one number: the mean"),
+        ("second_slope", "r2 is one number: the mean"),
+    ):
+        if not _alike([row[name] for row in storeys]):
+            found.append(words)
+    if any(row["height"] is None for row in storeys):
+        found.append("storeys are 3.5 m high, since heights are not known here")
+    if any(row["third_slope"] for row in storeys):
+        found.append("the slope after the second yield, r3, is 0")
+    if given["p_delta"]:
+        found.append("there is no P-Delta")
+    floors = [kind["floor"] for kind in goods]
+    if len(set(floors)) < len(floors):
+        found.append("kinds of goods on a floor are one, with their mean friction")
+    if given["collapse_drift_ratio"] is not None:
+        found.append("no storey counts as collapsed")
+    if result.present_share > 0.0 and result.code["share_of_design_live_load"] > result.present_share:
+        found.append("the model of the code has all goods present attached, no more")
+    return tuple(found)
+
+
+def _alike(values: list[float | None]) -> bool:
+    known = [value for value in values if value is not None]
+    return not known or max(known) - min(known) <= ALIKE * abs(max(known))
+
+
+class Pictures:
+    """Drawings by name, as figures of the page, each with the one for phones."""
+
+    def __init__(self, drawings: Mapping[str, str], for_phones: Mapping[str, str]) -> None:
+        self._drawings, self._for_phones = drawings, for_phones
+
+    def figure(self, name: str, caption: str, alt: str) -> Markup:
+        """Return one figure; nothing where there is no such drawing."""
+        if name not in self._drawings:
+            return Markup("")
+        narrow = short_svg(self._for_phones[name]) if name in self._for_phones else None
+        return figure_html(short_svg(self._drawings[name]), caption, alt, narrow=narrow)
+
+
+def names_of(result: AssessmentTables) -> list[str]:
+    """Return the names of the user's that sentences may contain."""
+    document = result.document
+    goods = [kind["name"] for kind in document["input"]["goods"]]
+    return [document["name"], document["suite"]["name"], *result.storey_names, *goods, *document["suite"]["motions"]]
+
+
+def motions_html(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
+    """Return on which motions the answer stands, their spectra, and their factors."""
+    given, target = result.document["input"], result.document["target"]
+    site = "" if target is None else " beside the site spectrum"
+    parts = [
+        text_html(sentence_html(f"The answer stands {result.document['on_motions']}.")),
+        pictures.figure(
+            "spectrum",
+            f"Spectra of the motions as they load the building{site}; first periods without goods and with all.",
+            f"Mean and scatter of the spectra of the motions{site}; first periods {given['period_bare']:.3g} and "
+            f"{given['period_attached']:.3g} s.",
+        ),
+    ]
+    if result.scaling is not None:
+        parts.append(
+            table_html(
+                result.scaling,
+                "Scaling factors: that of each motion is its own times the common one.",
+                headers={
+                    "motion": "number",
+                    "record": "motion",
+                    "individual_factor": "own factor",
+                    "common_factor": "common factor",
+                },
+                formats=dict.fromkeys(("individual_factor", "common_factor", "factor"), ".4f"),
+            )
+        )
+    return parts
+
+
+def in_motion_html(result: AssessmentTables) -> list[Markup]:
+    """Return the building under one motion, and the way to the live page."""
+    parts = []
+    if result.animation is not None:
+        about = result.animation["about"]
+        beside = (
+            f", beside a model with {100.0 * about['fraction']:.0f} % of the goods present attached, the code's share"
+        )
+        parts += [
+            text_html(
+                sentence_html(
+                    f"Under {about['motion']}, motion {about['number']}, scaled by {about['factor']:.3g} to a peak of "
+                    f"{about['peak_g']:.2f} g: the motion with the median drift of those under which goods slide"
+                    f"{beside if result.effective else ''}.",
+                    names_of(result),
+                )
+            ),
+            element_html(result.animation["element"]),
+        ]
+    return [*parts, *_live(result)]
+
+
+def _live(result: AssessmentTables) -> list[Markup]:
+    case, reasons, differences = own_case(result)
+    if case is None:
+        return [text_html(f"The live page cannot show this building: {'; '.join(reasons)}.")]
+    link = Markup(
+        '<a class="live" href="{page}#{address}">Open it in the live page</a> ({page} in the folder of this page, '
+        "which <code>seismass building</code> writes where the package carries the kernel for browsers). There:"
+    ).format(page=LIVE_PAGE, address=case.address)
+    return [text_html(link), bullets_html(f"{lettered(line)}." for line in differences)]

@@ -8,11 +8,9 @@ import polars as pl
 from markupsafe import Markup
 
 from seismass.assessment.models import ADVISED, BARE, NAMES
-from seismass.media.isolate import apart, isolated, sentence_html
-from seismass.media.page import table_html, text_html
-from seismass.media.page_lists import whole_html
-from seismass.show.assessment.box import answer_lines, box_class
-from seismass.show.assessment.drawing import building_drawing
+from seismass.media.page import table_html, text_html, whole_html
+from seismass.media.style import apart, isolated, sentence_html
+from seismass.show.assessment.figures import answer_lines, box_class, building_drawing
 from seismass.show.assessment.tables import AssessmentTables
 
 HEAD: Final = {"name": "Project", "number": "Number", "author": "Author", "checker": "Checked by", "date": "Date"}

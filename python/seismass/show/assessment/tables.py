@@ -10,16 +10,16 @@ from typing import Any, Final
 
 import polars as pl
 
-from seismass.animation import animate
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.base.errors import InvalidOption
 from seismass.base.files import read_file, read_table
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import brief, refusal
 from seismass.effective_mass import ByHand
-from seismass.effective_mass.curve import Kind
-from seismass.media.folder import as_written
+from seismass.effective_mass.models import Kind
+from seismass.media.result import as_written
 from seismass.model.scene import Scene
+from seismass.show.animation import animate
 from seismass.show.animation.html import element_content
 
 DOCUMENT: Final = "assessment.json"

@@ -11,8 +11,7 @@ from seismass.assessment.answer import analysis_table
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, REAL, REAL_HIGH, REAL_LOW
 from seismass.assessment.result import Assessment
 from seismass.effective_mass import ByHand
-from seismass.effective_mass.estimate import RULE, SAFE_RULE
-from seismass.effective_mass.structure_remarks import RULE_UNKNOWN
+from seismass.effective_mass.estimate import RULE, RULE_UNKNOWN, SAFE_RULE
 from seismass.media.text_table import number_text, text_table
 from seismass.model.codes import NOT_CHECKED
 

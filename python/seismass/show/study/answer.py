@@ -2,15 +2,122 @@
 
 from __future__ import annotations
 
+import textwrap
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Final, Protocol
 
 import numpy as np
 import polars as pl
 from markupsafe import Markup
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
+from seismass.base.units import STANDARD_GRAVITY
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
-from seismass.show.study.captions import StudyFrames
+from seismass.media.style import BLUE, EFFECTIVE, GREY, LAMBDA, MU, OMEGA, PERIOD_TICKS, VERMILION, plain
+from seismass.media.svg import CAPTION_CHARACTERS
+from seismass.media.text_table import change_text, number_text, text_line
+from seismass.studies.study import motions_text
+
+LEAST_WIDTH: Final = 7.0
+"""Least width of a figure with a legend of two columns (inches)."""
+
+
+class StudyFrames(Protocol):
+    """What figures of a study are drawn from: a `StudyResult`, or the tables of a folder."""
+
+    @property
+    def metadata(self) -> dict[str, Any]:
+        """Metadata, as `StudyResult.metadata`."""
+
+    @property
+    def responses(self) -> pl.DataFrame:
+        """One row per building, model, motion and storey."""
+
+    @property
+    def summary(self) -> pl.DataFrame:
+        """One row per building and storey."""
+
+    @property
+    def fractions(self) -> pl.DataFrame:
+        """One row per building."""
+
+    @property
+    def spectrum(self) -> pl.DataFrame:
+        """One row per period."""
+
+
+def suite_caption(result: StudyFrames, mu: float | None = None, *, inches: float = 9.0) -> str:
+    """Return a few lines, for a figure so many inches wide, on the motions, the parameters that decide the result (all
+    frictions unless `mu`), and the target spectrum.
+    """
+    suite, chosen = result.metadata["suite"], result.metadata["parameters"]
+    frictions = chosen["mu"] if mu is None else [mu]
+    damped = {
+        "bare": "modes of the bare building, one C for all models",
+        "loaded": "modes of the building with all its goods, one C for all models",
+        "own": "modes of each model",
+    }[chosen["damping_base"]]
+    springs = (
+        f"{OMEGA} = {chosen['overstrength']:g}, r2 = {chosen['second_slope']:g}, r3 = {chosen['third_slope']:g}, "
+        f"{'P-Delta' if chosen['p_delta'] else 'no P-Delta'}"
+    )
+    text = (
+        f"{motions_text(suite)} ({plain(suite['name'])}), scaled for T = {chosen['scaling_period']:g} s; "
+        f"{MU} = {', '.join(f'{value:g}' for value in frictions)}; {springs}; "
+        f"damping {100.0 * chosen['damping']:g} % in the {damped}; target: {plain(result.metadata['target']['label'])}"
+    )
+    return textwrap.fill(text, int(CAPTION_CHARACTERS * inches))
+
+
+def labels_of(values: pl.Series) -> dict[float, str]:
+    """Return what each value is called, in order: as short as they differ."""
+    ordered = values.unique().sort().to_list()
+    labels = ([f"{value:.{digits}g}" for value in ordered] for digits in range(6, 18))
+    return dict(zip(ordered, next(names for names in labels if len(set(names)) == len(names)), strict=True))
+
+
+def occupancy_title(occupancy: str, design: float, analysis: float) -> str:
+    """Return what a figure calls an occupancy: its name with lambda, or with that of the design and of the analysis."""
+    shares = f"{design:g}" if design == analysis else f"{design:g}, {analysis:g}"
+    return f"{plain(occupancy)}, {LAMBDA} = {shares}"
+
+
+def spectrum_figure(result: StudyFrames) -> Figure:
+    """Target, mean scaled and scaled spectra, with the range in which the mean must not be below the target."""
+    table = result.spectrum
+    figure = Figure(figsize=(6.4, 4.4), layout="constrained")
+    axes = figure.add_subplot()
+    periods = table["period"].to_numpy()
+    motions = [name for name in table.columns if name.startswith("motion_")]
+    for name in motions:
+        axes.plot(periods, table[name] / STANDARD_GRAVITY, color=GREY, linewidth=0.7, alpha=0.7)
+    axes.plot(periods, table["mean"] / STANDARD_GRAVITY, color=BLUE, linewidth=2.0)
+    axes.plot(periods, table["target"] / STANDARD_GRAVITY, color=VERMILION, linewidth=1.8, linestyle=(0, (5, 2)))
+    shortest, longest, _ = result.metadata["scaling"]["periods"]
+    axes.axvspan(shortest, longest, color=BLUE, alpha=0.07, linewidth=0.0)
+    axes.set_xscale("log")
+    axes.set_xlim(periods[0], periods[-1])
+    axes.set_ylim(0.0, None)
+    ticks = [tick for tick in PERIOD_TICKS if periods[0] <= tick <= periods[-1] * 1.0001]
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.minorticks_off()
+    axes.set_xlabel("period (s)")
+    damping = 100.0 * result.metadata["parameters"]["damping"]
+    axes.set_ylabel(f"pseudo-acceleration, {damping:g} % damping (g)")
+    axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
+    handles = [
+        Line2D([], [], color=BLUE, linewidth=2.0, label=f"mean of {motions_text(result.metadata['suite'])}, scaled"),
+        Line2D([], [], color=VERMILION, linewidth=1.8, linestyle=(0, (5, 2)), label="target"),
+        Line2D([], [], color=GREY, linewidth=0.7, label="each motion, scaled"),
+        Line2D([], [], color=BLUE, alpha=0.12, linewidth=8.0, label=f"range of scaling, {shortest:g} to {longest:g} s"),
+    ]
+    figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
+    label = textwrap.fill(f"Target: {plain(result.metadata['target']['label'])}", 90)
+    figure.supxlabel(label, fontsize=7.5)
+    return figure
+
 
 SHORT: Final = 0.1
 """By how much a rule's share may fall short of the effective fraction; the interval of a fraction is wider."""
@@ -237,3 +344,197 @@ def span(values: pl.Series) -> str:
 
 def _number(value: Any) -> float:
     return float("nan") if value is None else float(value)
+
+
+def findings_text(entries: list[dict[str, Any]]) -> str:
+    """Return the findings as a few lines to read."""
+    lines = []
+    several = len({entry["mu"] for entry in entries}) > 1
+    for entry in entries:
+        design, analysis = (100.0 * entry[f"lambda_{use}"] for use in ("design", "analysis"))
+        shares = f"{design:g} % of the live load"
+        if design != analysis:
+            shares += f" in the design, {analysis:g} % in the analysis"
+        friction = f", mu = {entry['mu']:g}" if several else ""
+        lines.append(f"{entry['occupancy']}{friction} ({entry['code']}: {shares})")
+        if any(entry["collapses"].values()):
+            counts = ", ".join(f"{model} {count}" for model, count in entry["collapses"].items())
+            lines.append(f"  collapsed runs            {counts}")
+        if entry["largest"] is None:
+            lines.append("  no storey has a result")
+            continue
+        count, more, top = (entry[key] for key in ("storeys_compared", "code_gives_more", "code_gives_more_top"))
+        growth = entry["growth"]
+        lines += [
+            f"  largest underestimation   {_place(entry['largest'])}",
+            *_scatter(entry["largest"]),
+            f"  smallest                  {_place(entry['smallest'])}",
+            f"  code model gives more     in {more} of {count} storeys, {top} of them top storeys",
+            f"  grows with alpha          {_growth_text(growth, 'alpha')}",
+            f"  grows with R              {_growth_text(growth, 'R')}",
+            *_first_storey_tables(entry["first_storey"]),
+        ]
+        if entry["storeys_without_result"]:
+            lines.append(
+                f"  without a mean            {entry['storeys_without_result']} storeys: a run collapsed or failed"
+            )
+    return "\n".join(lines)
+
+
+def _place(row: dict[str, Any]) -> str:
+    return (
+        f"{change_text(row['underestimation_percent'])} (storey {row['storey']} of {row['storeys']}, R = {row['R']:g}, "
+        f"alpha = {row['alpha']:g})"
+    )
+
+
+def _scatter(row: dict[str, Any]) -> list[str]:
+    """What the largest is made of, and how it scatters."""
+    median, low, high = (row[f"{name}_underestimation_percent"] for name in ("median", "p16", "p84"))
+    lines = [
+        f"    by mass, by sliding     {change_text(row['mass_percent'])} (all attached over code), "
+        f"{change_text(row['sliding_percent'])} (goods slide over all attached)",
+        f"    motion by motion        median {change_text(median)}, 16 to 84 %: {change_text(low)} to "
+        f"{change_text(high)}",
+    ]
+    if row["leave_one_out_record"] is not None:
+        lines.append(
+            f"    without one motion      {change_text(row['leave_one_out_percent'])} ({row['leave_one_out_record']})"
+        )
+    return lines
+
+
+def _growth_text(growth: dict[str, dict[str, int]], varied: str) -> str:
+    every, first = growth[varied], growth[f"{varied}_first_storey"]
+    return f"in {every['grows']} of {every['pairs']} steps, first storeys {first['grows']} of {first['pairs']}"
+
+
+def _first_storey_tables(rows: list[dict[str, Any]]) -> list[str]:
+    """Underestimation, what sliding does, and estimate of lambda side by side, a row for each R."""
+    alphas = sorted({row["alpha"] for row in rows})
+    at = {(row["R"], row["alpha"]): row for row in rows}
+    effective = any(row["effective"] is not None for row in rows)
+    shown: list[tuple[str, str, Callable[[float | None], str]]] = [
+        ("goods slide / code", "underestimation_percent", change_text),
+        ("goods slide / all", "sliding_percent", change_text),
+        ("lambda, estimate", "estimate", number_text),
+        *([(EFFECTIVE, "effective", number_text)] if effective else []),
+    ]
+    widths = (-20, *(max(7 * len(alphas), 19) + 2 for _ in shown))
+    lines = [
+        text_line(["first storeys, mean", *(title for title, *_ in shown)], widths),
+        text_line(["  alpha", *("".join(f"{alpha:>7g}" for alpha in alphas) for _ in shown)], widths),
+    ]
+    for factor in sorted({row["R"] for row in rows}):
+        cells = []
+        for _, name, form in shown:
+            values = [at.get((factor, alpha), {}).get(name) for alpha in alphas]
+            cells.append("".join(f"{form(value):>7}" for value in values))
+        lines.append(text_line([f"  R = {factor:g}", *cells], widths))
+    return lines
+
+
+DAMPING_TEXTS: Final = {
+    "bare": "in the modes of the bare building, one matrix for all models",
+    "loaded": "in the modes of the building with all its goods, one matrix for all models",
+    "own": "in the modes of each model's own masses",
+}
+"""Damping bases as they are printed."""
+
+
+def assumptions(metadata: dict[str, Any]) -> list[str]:
+    """Return everything that a study assumes, sentence by sentence, from `StudyResult.metadata`."""
+    chosen, suite, scaling = metadata["parameters"], metadata["suite"], metadata["scaling"]
+    shortest, longest, _ = scaling["periods"]
+    at_r1 = "yield at V_e" if chosen["yield_at_r1"] else "stay elastic"
+    lines = [
+        "Shear buildings: rigid floors of equal mass, storeys of equal stiffness, one direction, no loss of strength.",
+        f"Springs: trilinear with Masing unloading, Omega = {chosen['overstrength']:g}, r2 = "
+        f"{chosen['second_slope']:g}, r3 = {chosen['third_slope']:g}. The paper states Omega = 2 for its section 4 "
+        "only, and neither slope.",
+        f"Strength: V_y = V_e/R by response spectrum analysis ({chosen['combination'].upper()}) under the mean scaled "
+        f"spectrum, with the design's share of the live load as mass. Buildings of R = 1 {at_r1}.",
+        f"Damping: {100.0 * chosen['damping']:g} % {DAMPING_TEXTS[chosen['damping_base']]}.",
+        "Goods: one rigid block on every floor but the roof, Coulomb friction with mu_s = mu_k; no rocking, no impact.",
+        f"Motions: {motions_text(suite)} ({suite['name']}); one component each, all of equal weight in the means.",
+        f"Scaling: {scaling['method']}, for T = {chosen['scaling_period']:g} s: mean not below the target from "
+        f"{shortest:.3g} to {longest:.3g} s.",
+        f"Target: {metadata['target']['label']}.",
+        "P-Delta: the whole weight of building and goods, in every model alike."
+        if chosen["p_delta"]
+        else "P-Delta: none.",
+    ]
+    if chosen["collapse_drift_ratio"] is not None:
+        lines.append(f"Collapse: a storey whose drift reaches {chosen['collapse_drift_ratio']:g} of its height.")
+    for name, row in metadata["code"]["fractions"].items():
+        source = "; ".join(part for part in (row["clause"], row["status"]) if part)
+        lines.append(f"Code: {metadata['code']['name']}, {name}: {row['fraction']:g} of the live load ({source}).")
+    return lines
+
+
+def provenance(metadata: dict[str, Any]) -> dict[str, str]:
+    """Return from what the numbers of a study were made, by name."""
+    counts = metadata["counts"]
+    return {
+        "Program": f"seismass {metadata['package_version']}",
+        "Processor instructions": f"{metadata['instructions']}; the same bits wherever they are used",
+        "Format of the tables": f"version {metadata['schema_version']}",
+        "Inputs, SHA-256": metadata["inputs_sha256"],
+        "Analyses": f"{counts['analyses']} of {counts['buildings']} buildings, {counts['distinct']} distinct: "
+        f"{counts['completed']} completed, {counts['collapsed']} collapsed, {counts['failed']} failed",
+        **dict(_option(name, value) for name, value in metadata["parameters"].items()),
+    }
+
+
+_PARAMETERS: Final = {
+    "buildings": "Buildings",
+    "response_modification": "Response modification factors R",
+    "mass_ratios": "Goods over floor mass, \N{GREEK SMALL LETTER ALPHA}",
+    "occupancies": "Share of the goods that the code counts",
+    "code": "Code",
+    "mu": "Friction, \N{GREEK SMALL LETTER MU}",
+    "overstrength": "Overstrength, \N{GREEK CAPITAL LETTER OMEGA}",
+    "second_slope": "Slope after the first yield over the initial one, r2",
+    "third_slope": "Slope after the second yield over the initial one, r3",
+    "damping": "Damping ratio",
+    "damping_base": "Damping",
+    "scaling_period": "Period for which motions are scaled",
+    "combination": "Combination of modes",
+    "yield_at_r1": "Buildings of R = 1",
+    "height": "Storey height",
+    "p_delta": "P-Delta",
+    "collapse_drift_ratio": "Collapse",
+}
+"""Parameters in words."""
+
+
+def _option(name: str, value: Any) -> tuple[str, str]:
+    """A parameter in words, its value with its unit."""
+    if name == "buildings":
+        text = ", ".join(f"{storeys} storeys, {period:g} s" for storeys, period in value)
+    elif name == "occupancies":
+        text = ", ".join(
+            f"{use} {design:g}" + ("" if design == analysis else f" in the design, {analysis:g} in the analysis")
+            for use, design, analysis in value
+        )
+    elif name == "damping_base":
+        text = DAMPING_TEXTS[value]
+    elif name == "yield_at_r1":
+        text = "yield at V_e" if value else "stay elastic"
+    elif name == "collapse_drift_ratio":
+        text = "only where P-Delta says so" if value is None else f"at a drift of {value:g} of the height"
+    elif name == "combination":
+        text = value.upper()
+    else:
+        text = _plain_option(value)
+    unit = {"scaling_period": " s", "height": " m"}.get(name, "")
+    return _PARAMETERS[name], f"{text}{unit}"
+
+
+def _plain_option(value: Any) -> str:
+    """Numbers with commas, yes or no, a text."""
+    if isinstance(value, list | tuple):
+        return ", ".join(_plain_option(item) for item in value)
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"{value:g}" if isinstance(value, float) else str(value)

@@ -3,21 +3,29 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import polars as pl
 
+from seismass.base.errors import InvalidOption
 from seismass.base.files import written_whole
-from seismass.media.folder import PAGE, as_written, edited_files, write_folder
+from seismass.base.values import as_path
+from seismass.media.result import PAGE, as_written, edited_files, named_figure, write_folder
+from seismass.media.text_table import change_text, text_table
+from seismass.show.study.answer import DAMPING_TEXTS, findings_text
 from seismass.show.study.tables import ANIMATION, DOCUMENT, OPTIONAL_TABLES, READ, StudyTables, read_study_tables
-from seismass.study.columns import TABLES, units_of
+from seismass.studies.study.columns import TABLES, units_of
+from seismass.studies.study.run import StudyResult, motions_text
+from seismass.studies.study.sensitivity import Sensitivity
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from seismass.runs.batch import Progress
+
 
 _NUMBER: Final = r"[\d.]+(?:e[+-]\d+)?"
 FIGURE_FILE: Final = re.compile(
@@ -126,3 +134,119 @@ def _tables_document(metadata: dict[str, Any], tables: dict[str, pl.DataFrame]) 
             },
         }
     return {**made_from(metadata), "tables": described}
+
+
+_HEADS = ("choice", "setting", "largest", "smallest R", "largest R", "mass", "sliding")
+_VALUES = ("largest_percent", "least_R_percent", "most_R_percent", "mass_percent", "sliding_percent")
+
+
+def sensitivity_text(table: pl.DataFrame) -> str:
+    """Return `Sensitivity.table` as lines, one block per occupancy and friction coefficient."""
+    blocks = []
+    for title, rows in _groups(table):
+        lines = [
+            f"{title}: first storeys, underestimation (goods slide - code) / code",
+            *text_table([_HEADS, *rows], left=2),
+        ]
+        blocks.append("\n".join(lines))
+    notes = (
+        "largest: of all first storeys. smallest R, largest R: mean of those with the largest alpha, at that\n"
+        "R. mass, sliding: what the last one is made of, all attached over code and goods slide over all."
+    )
+    if (table["collapses"] > 0).any():
+        notes += "\n-: runs collapsed, and there is no mean."
+    return "\n".join([*blocks, notes])
+
+
+def sensitivity_markdown(table: pl.DataFrame) -> str:
+    """Return the table in Markdown, one table per occupancy and friction coefficient."""
+    parts = []
+    for title, rows in _groups(table):
+        lines = [f"| {' | '.join(_HEADS)} |", "| --- | --- | --: | --: | --: | --: | --: |"]
+        lines += [f"| {' | '.join(row)} |" for row in rows]
+        parts.append(f"{title}:\n\n" + "\n".join(lines))
+    return "\n\n".join(parts)
+
+
+def _groups(table: pl.DataFrame) -> list[tuple[str, list[list[str]]]]:
+    """Title and rows of text of each occupancy and friction coefficient; a choice is named once."""
+    groups = []
+    several = table["mu"].n_unique() > 1
+    for (occupancy, mu), rows in table.group_by("occupancy", "mu", maintain_order=True):
+        title = f"{occupancy}, mu = {mu:g}" if several else str(occupancy)
+        texts: list[list[str]] = []
+        before = None
+        for row in rows.iter_rows(named=True):
+            name = "" if row["choice"] == before else row["choice"]
+            before = row["choice"]
+            collapsed = f" ({row['collapses']} runs collapse)" if row["collapses"] else ""
+            texts.append([name, row["setting"] + collapsed, *(change_text(row[column]) for column in _VALUES)])
+        groups.append((title, texts))
+    return groups
+
+
+def study_text(result: StudyResult) -> str:
+    """Return the underestimation of drift by the code's model, with its scatter, as lines."""
+    document = result.to_dict()
+    head = f"Underestimation of mean peak drift, (goods slide - code) / code, code: {document['code']['name']}"
+    return f"{head}\n{findings_text(document['findings'])}"
+
+
+def figure_names(result: StudyResult) -> tuple[str, ...]:
+    """Return the names of the figures."""
+    from seismass.show.study.figures import drawings
+
+    return tuple(drawings(result))
+
+
+def study_figure(result: StudyResult, name: str | None = None) -> Figure:
+    """Return a figure by its name."""
+    import matplotlib as mpl
+
+    from seismass.media.style import STYLE, lay_out
+    from seismass.show.study.figures import drawings
+
+    with mpl.rc_context(STYLE):
+        return lay_out(drawings(result)[named_figure(result, name)]())
+
+
+def write_result(result: StudyResult, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
+    """Write a study by itself, without sensitivity and validations; see `StudyResult.write`."""
+    from seismass.show.study.tables import study_tables
+
+    return write_study(study_tables(result), as_path(folder, "study", InvalidOption), figures=figures)
+
+
+def text_of_sensitivity(result: Sensitivity) -> str:
+    """Return the table of a sensitivity as lines."""
+    return sensitivity_text(result.table)
+
+
+def figure_of_sensitivity(result: Sensitivity, name: str | None = None) -> Figure:
+    """Return the figure of a sensitivity."""
+    from seismass.show.study.figures import sensitivity_figure
+
+    named_figure(result, name)
+    return sensitivity_figure(result.table)
+
+
+def inputs_text(metadata: dict[str, Any]) -> str:
+    """Return motions, target, runs, springs, damping, code and remarks as lines, from the metadata of a study."""
+    counts, chosen, suite = metadata["counts"], metadata["parameters"], metadata["suite"]
+    none_recorded = ", none recorded" * (suite["synthetic"] == len(suite["motions"]))
+    lines = [f"suite    {suite['name']}: {motions_text(suite)}{none_recorded}"]
+    for motion in suite["motions"]:
+        lines.append(f"         {motion['motion']:>2}  x {motion['factor']:<7.4f} {motion['record']}")
+        lines += [f"{'':25}{remark}" for remark in motion["remarks"]]
+    lines += [
+        f"target   {metadata['target']['label']}",
+        f"runs     {counts['buildings']} buildings, {counts['analyses']} analyses, {counts['distinct']} distinct: "
+        f"{counts['completed']} completed, {counts['collapsed']} collapsed, {counts['failed']} failed",
+        f"springs  Omega = {chosen['overstrength']:g}, r2 = {chosen['second_slope']:g}, "
+        f"r3 = {chosen['third_slope']:g} (r2, r3: not the paper's numbers)",
+        f"damping  {100.0 * chosen['damping']:g} %, {DAMPING_TEXTS[chosen['damping_base']]}",
+    ]
+    for name, row in metadata["code"]["fractions"].items():
+        where = ", ".join(part for part in (row["clause"], row["status"]) if part)
+        lines.append(f"code     {metadata['code']['name']}, {name}: {row['fraction']:g} of the live load ({where})")
+    return "\n".join([*lines, *(f"remark   {remark}" for remark in metadata["remarks"])])

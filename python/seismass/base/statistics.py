@@ -1,0 +1,39 @@
+"""Quantiles that hold with infinite values."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from seismass.base.values import FloatArray
+
+QUANTILES: Final = {"p16": 0.16, "median": 0.50, "p84": 0.84}
+"""Shares of the quantiles that tables have; 16 and 84 % are one standard deviation of a normal distribution away."""
+
+
+def quantile(values: FloatArray, share: float) -> FloatArray:
+    """Return the quantile of each row, shape (rows, motions), linear between order statistics; infinity is the largest,
+    and a row with NaN gives NaN. `numpy.quantile` gives NaN where the next order statistic is infinite.
+    """
+    found = _at(np.sort(values.T, axis=0), np.full(len(values), share * (values.shape[1] - 1)))
+    return np.where(np.isnan(values).any(axis=1), np.nan, found)
+
+
+def interval_of(values: FloatArray, confidence: float) -> tuple[FloatArray, FloatArray]:
+    """Return the ends of the percentile interval over the first axis. NaN are left out; an end between a finite and an
+    infinite value is infinite.
+    """
+    ordered = np.sort(values, axis=0)  # NaN last
+    last = np.maximum(np.count_nonzero(~np.isnan(values), axis=0) - 1, 0)
+    tail = 0.5 * (1.0 - confidence)
+    return _at(ordered, tail * last), _at(ordered, (1.0 - tail) * last)
+
+
+def _at(ordered: FloatArray, place: FloatArray) -> FloatArray:
+    """Value at a place, from 0, between the rows of each column of ordered values, shape (rows, columns)."""
+    low, high = np.floor(place).astype(np.int64), np.ceil(place).astype(np.int64)
+    below, above = (np.take_along_axis(ordered, index[None], axis=0)[0] for index in (low, high))
+    with np.errstate(invalid="ignore"):
+        between = below + (place - low) * (above - below)
+    return np.asarray(np.where(below == above, below, np.where(np.isinf(above), above, between)))

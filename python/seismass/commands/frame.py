@@ -1,0 +1,261 @@
+"""What all commands share: a description, help, exit codes, the terminal, progress."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import shutil
+import sys
+import textwrap
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
+
+from seismass.media.text_table import fitted_blocks, is_row
+
+if TYPE_CHECKING:
+    from rich.progress import Task
+
+
+DONE: Final = 0
+FAILED: Final = 1
+BAD_INPUT: Final = 2
+INTERRUPTED: Final = 130
+"""After Ctrl-C, as shells give it: 128 + SIGINT."""
+ANY_COMMAND: Final = {DONE: "done", BAD_INPUT: "bad input", INTERRUPTED: "interrupted"}
+"""How every command may end."""
+RUNS: Final = {FAILED: "a run failed"}
+"""How a command that solves runs may end besides."""
+
+
+EXAMPLE: Final = "  seismass "
+"""How a line begins that is typed."""
+_HANGING: Final = re.compile(r" +(?:\S+(?: \S+)* {2,})?")
+"""Indentation of a line in a list, with its first column where there is one."""
+
+
+class HelpText(argparse.HelpFormatter):
+    """Fills paragraphs and indented lines of descriptions and epilogs; examples can still be typed."""
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        return "\n".join(_filled(text, width))
+
+
+def grouped(groups: Mapping[str, Sequence[str]]) -> type[HelpText]:
+    """Return the layout of help that lists commands by group, each of them with its names."""
+
+    class Grouped(HelpText):
+        def _format_action(self, action: argparse.Action) -> str:
+            listed = {command.dest: command for command in self._iter_indented_subactions(action)}
+            if not listed:
+                return super()._format_action(action)
+            self._indent()
+            # What argparse makes room for does not count that commands are indented.
+            longest = max(len(name) for name in listed) + self._current_indent
+            self._action_max_length = max(self._action_max_length, longest)
+            parts = ["".join(self._format_action(listed[name]) for name in names) for names in groups.values()]
+            self._dedent()
+            headings = (f"{'':{self._current_indent}}{group}:\n" for group in groups)
+            return "\n".join(heading + part for heading, part in zip(headings, parts, strict=True))
+
+    return Grouped
+
+
+def _filled(text: str, width: int) -> Iterator[str]:
+    paragraph: list[str] = []
+    for line in [*text.splitlines(), ""]:
+        if line and not line.startswith(" "):
+            paragraph.append(line)
+            continue
+        if paragraph:
+            yield from textwrap.wrap(" ".join(paragraph), width)
+            paragraph = []
+        if line.startswith(EXAMPLE):
+            yield from _example(line, width)
+        elif line:
+            start = _HANGING.match(line)
+            hanging = " " * min(start.end() if start else 0, width // 2)
+            yield from textwrap.wrap(line, width, subsequent_indent=hanging, break_on_hyphens=False)
+        else:
+            yield ""
+
+
+def _example(line: str, width: int) -> Iterator[str]:
+    """What is typed: whole, or going on in further lines as a shell takes them; what is said of it stands below."""
+    if len(line) <= width:
+        yield line
+        return
+    typed, _, said = line.strip().partition("    ")
+    together = re.sub(r"(?<= )(--\S+) (?!--)", "\\1\0", typed)  # an option and its value
+    pieces = textwrap.wrap(f"  {together}", width - 2, subsequent_indent=" " * 6, break_on_hyphens=False)
+    pieces = [piece.replace("\0", " ") for piece in pieces]
+    yield from (f"{piece} \\" for piece in pieces[:-1])
+    yield pieces[-1]
+    yield from textwrap.wrap(said.strip(), width, initial_indent=" " * 6, subsequent_indent=" " * 6)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Command:
+    """One subcommand: what it answers, examples without the name of the program, a function that adds its options, one
+    that runs and returns an exit code, and exit codes of its own beside `ANY_COMMAND`.
+    """
+
+    description: str
+    examples: str
+    options: Callable[[argparse.ArgumentParser], None]
+    run: Callable[[argparse.Namespace], int]
+    note: str = ""
+    codes: Mapping[int, str] = field(default_factory=dict)
+
+    @property
+    def epilog(self) -> str:
+        """Examples, note and exit codes."""
+        examples = "\n".join(f"  seismass {line}" for line in self.examples.strip().splitlines())
+        codes = ", ".join(f"{code} {meaning}" for code, meaning in sorted({**ANY_COMMAND, **self.codes}.items()))
+        parts = (f"examples:\n{examples}", self.note.strip("\n"), f"exit codes: {codes}")
+        return "\n\n".join(part for part in parts if part)
+
+    def add(self, subparsers: Any, name: str, help: str) -> None:
+        """Add the parser to those of the `seismass` command, with the line that lists it."""
+        parser = subparsers.add_parser(
+            name, help=help, description=self.description, epilog=self.epilog, formatter_class=HelpText
+        )
+        parser.register("type", Path, _path)
+        self.options(parser)
+        parser.set_defaults(run=self.timed)
+
+    def timed(self, args: argparse.Namespace) -> int:
+        """Run with the clock started, which `seconds` reads."""
+        args.started = time.perf_counter()
+        return self.run(args)
+
+
+def _path(text: str) -> Path:
+    """Read an argument of type Path; Path("") would be the current folder."""
+    if not text:
+        raise argparse.ArgumentTypeError("must be a path; got ''")
+    return Path(text)
+
+
+def seconds(args: argparse.Namespace) -> str:
+    """Return how long the command has taken, as it is printed."""
+    return f"{time.perf_counter() - args.started:.1f} s"
+
+
+def columns() -> int | None:
+    """Return the width of the terminal, which COLUMNS may state; None where standard output is not a terminal."""
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+
+
+def shows_bold() -> bool:
+    """Whether standard output is a terminal that shows bold letters, and they are wanted (https://no-color.org)."""
+    wanted = not os.environ.get("NO_COLOR") and os.environ.get("TERM") not in ("dumb", "unknown")
+    return sys.stdout.isatty() and wanted
+
+
+def show(text: str, answer: str = "") -> None:
+    """Print lines; those whose beginning matches the pattern `answer` are the answer and stand out."""
+    width = columns()
+    if width is None:
+        print(text)
+        return
+    pattern = re.compile(answer) if answer and shows_bold() else None
+    for block, lines in fitted_blocks(text, width):
+        whole = pattern is not None and not is_row(block[0]) and pattern.match(block[0])
+        for line in lines:
+            bold = whole or (pattern is not None and pattern.match(line))
+            if bold:
+                _print_bold(line)
+            else:
+                print(line)
+
+
+def _print_bold(line: str) -> None:
+    from rich.console import Console
+    from rich.text import Text
+
+    Console(markup=False, highlight=False, emoji=False).print(Text(line, "bold"), soft_wrap=True)
+
+
+Progress: TypeAlias = Callable[[int, int], None]
+"""Called with how much is done and how much there is."""
+
+
+@contextmanager
+def progress(unit: str = "runs") -> Iterator[Progress | None]:
+    """Give the callback that shows progress in `unit`, or None where standard error is no terminal. The bar is removed
+    at the end, also after an error or Ctrl-C.
+    """
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich import progress as rich_progress
+    from rich.console import Console
+
+    columns: list[Any] = [
+        rich_progress.BarColumn(),
+        f"{{task.completed:.0f}} of {{task.total:.0f}} {unit}",
+        _time_left_column(),
+    ]
+    # Standard output stays what it is, since it may be a file.
+    bar = rich_progress.Progress(
+        *columns, console=Console(stderr=True), transient=True, redirect_stdout=False, redirect_stderr=False
+    )
+    with bar:
+        stage = _Stage(bar)
+        yield stage.tell
+
+
+class _Stage:
+    """The bar of what is counted now: one function may count several things, one after another."""
+
+    def __init__(self, bar: Any) -> None:
+        self._bar = bar
+        self._task: Any = None
+        self._done = self._total = 0
+
+    def tell(self, done: int, total: int) -> None:
+        """Draw so much of so much; how much there is may turn out to be more on the way."""
+        ended = self._done == self._total != total
+        if self._task is None or ended or done < self._done:
+            if self._task is not None:
+                self._bar.remove_task(self._task)
+            self._task = self._bar.add_task("", total=total, completed=done, first=done, told=0.0)
+        self._done, self._total = done, total
+        (task,) = self._bar.tasks
+        self._bar.update(self._task, completed=done, total=total, told=task.elapsed or 0.0)
+
+
+def _time_left_column() -> Any:
+    from rich.progress import ProgressColumn
+    from rich.text import Text
+
+    from seismass.studies.campaign.engine import duration_text
+
+    class TimeLeft(ProgressColumn):
+        """The time left, at the rate so far."""
+
+        def render(self, task: Task) -> Text:
+            left = seconds_left(
+                int(task.completed),
+                int(task.total or 0),
+                task.fields["first"],
+                task.fields["told"],
+                task.elapsed or 0.0,
+            )
+            return Text("" if left is None else f"{duration_text(left)} left")
+
+    return TimeLeft()
+
+
+def seconds_left(done: int, total: int, first: int, told: float, now: float) -> float | None:
+    """Return the time left (s) at the rate so far; None before there is one. `first` runs were done when the work
+    began; `told` is the time (s) of the last progress and `now` the present, from then.
+    """
+    if done <= first or told <= 0.0:
+        return None
+    return max(told * (total - first) / (done - first) - now, 0.0)

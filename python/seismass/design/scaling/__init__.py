@@ -1,0 +1,27 @@
+"""Amplitude scaling of ground motions to a target spectrum, and selection of those whose shape is closest to it."""
+
+from seismass.design.scaling.asce7 import scale_asce7_10, scale_asce7_16
+from seismass.design.scaling.oscillator import FirstModeOscillator, first_mode_oscillator
+from seismass.design.scaling.pushover import PushoverScaling, scale_modal_pushover
+from seismass.motions.scaling.result import ScalingResult
+from seismass.motions.scaling.selection import Selection, select_records
+from seismass.motions.scaling.suite import scale_least_squares, scale_sa_t1
+
+__all__ = [
+    "FirstModeOscillator",
+    "PushoverScaling",
+    "ScalingResult",
+    "Selection",
+    "first_mode_oscillator",
+    "scale_asce7_10",
+    "scale_asce7_16",
+    "scale_least_squares",
+    "scale_modal_pushover",
+    "scale_sa_t1",
+    "select_records",
+]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

@@ -1,0 +1,1 @@
+"""Factors of motions by a target alone: mean squares, one period, selection by shape."""

@@ -1,0 +1,306 @@
+"""What scaling methods share: the arguments as they judge them, the spectra of the suite, and the result."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final, Literal, TypeAlias, get_args
+
+import numpy as np
+
+from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.values import (
+    FloatArray,
+    as_count,
+    as_number,
+    as_positive,
+    brief,
+    counted,
+    frozen,
+    is_one_of,
+    refusal,
+)
+from seismass.motions.motion import motion_names
+from seismass.motions.scaling.result import ScalingResult
+from seismass.motions.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
+from seismass.motions.spectra.elastic import check_not_zero
+
+
+@dataclass(frozen=True, eq=False)
+class SuiteSpectra:
+    """A suite with its unscaled spectra (m/s2, motions x periods) beside the target at the periods of comparison."""
+
+    names: tuple[str, ...]
+    period: float
+    damping: float
+    periods: FloatArray
+    target: FloatArray
+    spectra: FloatArray
+    target_label: str
+
+    def result(
+        self, method: str, individual: FloatArray, common: float = 1.0, notes: Iterable[str] = ()
+    ) -> ScalingResult:
+        """Return the result of these factors."""
+        return ScalingResult(**self.content(method, individual, common, notes))
+
+    def content(self, method: str, individual: FloatArray, common: float, notes: Iterable[str]) -> dict[str, Any]:
+        """Return the attributes of a result of these factors."""
+        factors = individual * common
+        scaled = factors[:, None] * self.spectra
+        mean = np.mean(scaled, axis=0)
+        return {
+            "names": self.names,
+            "individual": frozen(individual),
+            "common": common,
+            "factors": frozen(factors),
+            "periods": self.periods,
+            "target": self.target,
+            "mean": frozen(mean),
+            "spectra": frozen(scaled),
+            "governing_period": float(self.periods[int(np.argmin(mean / self.target))]),
+            "method": method,
+            "period": self.period,
+            "damping": self.damping,
+            "target_label": self.target_label,
+            "notes": tuple(notes),
+        }
+
+    def log_factors(self) -> FloatArray:
+        """Return the factors that bring each motion closest to the target, in the logarithm."""
+        factors: FloatArray = np.exp(np.mean(np.log(self.target) - np.log(self.spectra), axis=1))
+        return factors
+
+    def common_factor(self, individual: FloatArray, share: float) -> float:
+        """Return the factor that lifts the mean of the motions until it is nowhere below the share of the target."""
+        mean = np.mean(individual[:, None] * self.spectra, axis=0)
+        return float(np.max(share * self.target / mean))
+
+
+def suite_spectra(
+    records: Iterable[GroundMotion],
+    target: TargetSpectrum,
+    period: Any,
+    *,
+    damping: Any,
+    period_range: Any,
+    count: Any,
+    threads: int | None,
+    least: tuple[int, str] = (1, ""),
+) -> SuiteSpectra:
+    """Return the spectra of a suite at `count` periods over the range, in geometric spacing; `least` is the least
+    number of motions, and what asks for it. Other arguments as in `scale_asce7_10`.
+    """
+    suite = as_motions(records, "scaling")
+    number, clause = least
+    if len(suite) < number:
+        words = {3: "three", 11: "eleven"}.get(number, str(number))
+        raise refusal(InvalidMotion, "records", "scaling", f"at least {words} motions ({clause})", f"{len(suite)}")
+    checked_target(target)
+    fundamental = positive_period(period)
+    damping_ratio = as_number(damping, "damping", "scaling", InvalidOption)
+    points = as_count(count, "count", "scaling", InvalidOption, least=2)
+    shortest, longest = checked_range(period_range)
+    periods = fundamental * np.geomspace(shortest, longest, points)
+    ordinates = target(periods)
+    spectra = response_spectrum(suite, periods, damping_ratio, threads=threads)
+    check_not_zero(spectra)
+    return SuiteSpectra(
+        names=tuple(motion_names(suite)),
+        period=fundamental,
+        damping=damping_ratio,
+        periods=frozen(periods),
+        target=frozen(ordinates),
+        spectra=frozen(spectra),
+        target_label=target.label,
+    )
+
+
+def checked_target(target: Any) -> None:
+    """Refuse what is not a target spectrum."""
+    if not isinstance(target, TargetSpectrum):
+        raise refusal(InvalidOption, "target", "scaling", "a TargetSpectrum", brief(target))
+
+
+def positive_period(period: Any) -> float:
+    """Return a positive period (s)."""
+    return positive_number(period, "period")
+
+
+def positive_number(value: Any, name: str) -> float:
+    """Return a positive number."""
+    return as_positive(value, name, "scaling", InvalidOption)
+
+
+def checked_range(given: Any) -> tuple[float, float]:
+    """Return two positive multiples of the period, the smaller first."""
+    requirement = "two positive multiples of the period, the smaller first"
+    try:
+        shortest, longest = (as_number(value, "period_range", "scaling", InvalidOption) for value in given)
+    except (TypeError, ValueError) as error:
+        if isinstance(error, InvalidOption):
+            raise
+        raise refusal(InvalidOption, "period_range", "scaling", requirement, brief(given)) from None
+    if not (0.0 < shortest < longest < np.inf):
+        raise refusal(InvalidOption, "period_range", "scaling", requirement, brief(given))
+    return shortest, longest
+
+
+FORMS: Final = {
+    "asce7": "asce7:SDS:SD1[:TL]",
+    "asce7-22": "asce7-22:CSV",
+    "ec8": "ec8:TYPE:GROUND:AGR[:IMPORTANCE[:DAMPING]]",
+    "nzs1170": "nzs1170:CLASS:Z[:R[:KM]]",
+    "mean": "mean:RECORDS",
+}
+"""What may stand in place of a CSV, by name."""
+
+TARGET_HELP: Final = (
+    "target spectrum: a CSV of period (s) and Sa (g), or one of " + ", ".join(FORMS.values()) + "; accelerations in g"
+)
+
+
+ALIASES: Final = {"nzs": "nzs1170", "asce": "asce7"}
+"""Other names of the forms."""
+
+
+def target_of(text: str, folder: Path = Path()) -> TargetSpectrum:
+    """Return the target spectrum of a file, relative to `folder`, or of one of `FORMS`, with its numbers."""
+    from seismass.motions.spectra import TargetSpectrum
+    from seismass.motions.spectra.tables import read_table
+
+    name, colon, rest = text.partition(":")
+    name = ALIASES.get(name.lower(), name.lower())
+    if name not in FORMS or not colon:
+        if (colon or not Path(text).suffix) and not (folder / text).exists():
+            forms = ", ".join(FORMS.values())
+            raise InvalidOption(f"--target of command must be a CSV that is there or one of {forms}; got {text}")
+        return TargetSpectrum.from_csv(folder / text)
+    if not rest:
+        raise _refused(name, text)
+    if name == "asce7-22":
+        return TargetSpectrum.asce7_multi_period(*read_table(folder / rest, zero=True))
+    if name == "mean":
+        from seismass.motions.records.builtin import records_named
+
+        suite = records_named(folder / rest)
+        return TargetSpectrum.mean_of(suite, label=f"mean spectrum of {suite.name}, {counted(len(suite), 'motion')}")
+    words = rest.split(":")
+    least = {"asce7": 2, "ec8": 3, "nzs1170": 2}[name]
+    most = {"asce7": 3, "ec8": 5, "nzs1170": 4}[name]
+    if not least <= len(words) <= most or not all(words):
+        raise _refused(name, text)
+    if name == "asce7":
+        return TargetSpectrum.asce7(*(_number(word, name, text) for word in words))
+    if name == "ec8":
+        kind, ground, *numbers = words
+        keys = ("agr_g", "importance", "damping")
+        given: dict[str, Any] = dict(zip(keys, (_number(word, name, text) for word in numbers), strict=False))
+        return TargetSpectrum.eurocode8(int(kind) if kind.isdecimal() else 0, ground.upper(), **given)
+    site_class, *numbers = words
+    keys = ("z", "r", "fault_distance_km")
+    given = dict(zip(keys, (_number(word, name, text) for word in numbers), strict=False))
+    return TargetSpectrum.nzs1170(site_class.upper(), **given)
+
+
+def _number(word: str, name: str, text: str) -> float:
+    try:
+        return float(word)
+    except ValueError:
+        raise _refused(name, text) from None
+
+
+def _refused(name: str, text: str) -> InvalidOption:
+    return InvalidOption(f"--target of command must be {FORMS[name]}; got {text}")
+
+
+Space: TypeAlias = Literal["log", "linear"]
+"""Whether the squares are of ln A_t - ln SF A or of A_t - SF A."""
+
+
+def scale_least_squares(
+    records: Iterable[GroundMotion],
+    target: TargetSpectrum,
+    period: float = 1.0,
+    *,
+    space: Space = "log",
+    damping: float = 0.05,
+    period_range: tuple[float, float] = (0.2, 1.5),
+    count: int = 100,
+    threads: int | None = None,
+) -> ScalingResult:
+    """Return for each motion the factor of least squares between its spectrum and the target.
+
+    Parameters
+    ----------
+    records, target, period, damping, period_range, count, threads
+        As for `scale_asce7_10`; one motion is enough.
+    space : {"log", "linear"}
+        Differences of logarithms, or of ordinates, which weigh the periods of large ordinates.
+
+    Raises
+    ------
+    InvalidOption, InvalidMotion
+        As for `scale_asce7_10`, or another space.
+
+    Notes
+    -----
+    In the logarithm ln SF_i = mean over T_j of ln A_t - ln A_i; else SF_i = sum A_i A_t / sum A_i^2. The mean of the
+    suite may be below the target.
+    """
+    choice: Any = space
+    if not is_one_of(choice, get_args(Space)):
+        raise refusal(InvalidOption, "space", "scaling", "one of " + ", ".join(get_args(Space)), brief(space))
+    suite = suite_spectra(
+        records, target, period, damping=damping, period_range=period_range, count=count, threads=threads
+    )
+    if space == "log":
+        factors = suite.log_factors()
+    else:
+        squares: FloatArray = np.sum(suite.spectra**2, axis=1)
+        factors = suite.spectra @ suite.target / squares
+    note = "each motion is fitted by itself: nothing keeps the mean of the suite above the target"
+    return suite.result(f"least squares, {space}", factors, notes=(note,))
+
+
+def scale_sa_t1(
+    records: Iterable[GroundMotion],
+    target: TargetSpectrum,
+    period: float = 1.0,
+    *,
+    damping: float = 0.05,
+    period_range: tuple[float, float] = (0.2, 1.5),
+    count: int = 100,
+    threads: int | None = None,
+) -> ScalingResult:
+    """Return for each motion the factor by which its spectrum is the target at T1.
+
+    Parameters
+    ----------
+    records, target, damping, count, threads
+        As for `scale_asce7_10`; one motion is enough.
+    period : float
+        T1 (s).
+    period_range : tuple of float
+        Range of the comparison as multiples of T1, which the factors do not depend on.
+
+    Raises
+    ------
+    InvalidOption, InvalidMotion
+        As for `scale_asce7_10`.
+
+    Notes
+    -----
+    SF_i = A_t(T1)/A_i(T1), the elastic ratio to which `scale_modal_pushover` comes down for R = 1.
+    """
+    motions = as_motions(records, "scaling")
+    suite = suite_spectra(
+        motions, target, period, damping=damping, period_range=period_range, count=count, threads=threads
+    )
+    ordinates = response_spectrum(motions, [suite.period], suite.damping, threads=threads)[:, 0]
+    note = (
+        f"the motions meet the target at {suite.period:g} s alone: scatter at other periods, those of higher modes and "
+        "of a yielding building, is left as it is"
+    )
+    return suite.result("Sa(T1)", target(suite.period) / ordinates, notes=(note,))

@@ -1,1 +1,0 @@
-"""How an analysis of fragility looks."""

@@ -1,1 +1,0 @@
-"""How records, scaled and matched suites, and pulses look."""

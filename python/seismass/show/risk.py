@@ -1,0 +1,209 @@
+"""Figure and text of a risk-targeted share."""
+
+from __future__ import annotations
+
+import math
+import textwrap
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Final
+
+import matplotlib as mpl
+import numpy as np
+import polars as pl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+from seismass.base.values import FloatArray, counted
+from seismass.effective_mass.models import Kind
+from seismass.effective_mass.result import KIND_TEXTS as EFFECTIVE_KINDS
+from seismass.media.result import named_figure
+from seismass.media.style import (
+    ADVISED,
+    ATTACHED,
+    CODE,
+    EFFECTIVE,
+    GREY,
+    HAZARD,
+    INK,
+    OVER_MODEL,
+    SHARE,
+    SLIDE,
+    STYLE,
+    grid_lines,
+    model_name,
+    plain,
+)
+from seismass.media.svg import CAPTION_CHARACTERS
+from seismass.media.text_table import interval_text, number_text, text_line
+from seismass.show.effective_mass import STORAGE_CODES, mark_codes, marked_legend
+from seismass.show.slip import remark_lines
+
+if TYPE_CHECKING:
+    from seismass.studies.risk.targeted_share import RiskTargetedShare
+
+
+_WIDTH = 10.5
+
+
+def risk_figure(
+    result: RiskTargetedShare, name: str | None = None, *, codes: Mapping[str, float] | None = None
+) -> Figure:
+    """Return `RiskTargetedShare.plot`."""
+    named_figure(result, name)
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(_WIDTH, 5.0), layout="constrained")
+        left, right = figure.subplots(1, 2)
+        _hazard(left, result)
+        marks = STORAGE_CODES if codes is None else codes
+        _rates(right, result, marks)
+        caption = textwrap.fill(_caption(result), int(CAPTION_CHARACTERS * _WIDTH))
+        figure.supxlabel(f"{caption}{marked_legend(marks)}", fontsize=7.5)
+    return figure
+
+
+def _hazard(axes: Axes, result: RiskTargetedShare) -> None:
+    """Hazard on one axis, fragilities of the building and of the models on the other."""
+    from scipy.special import ndtr  # slow to import
+
+    hazard = result.hazard
+    axes.plot(
+        hazard.sa_g, hazard.annual_rate, color=HAZARD.colour, linewidth=1.6, marker=HAZARD.marker, label=HAZARD.name
+    )
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    label = result.measure.label
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.set_xlabel(f"{label} (g)")
+    axes.set_ylabel("annual rate of exceedance (1/year)")
+    grid_lines(axes)
+    other = axes.twinx()
+    at = np.geomspace(hazard.sa_g[0], hazard.sa_g[-1], 401)
+    for model, share, role, name in (
+        ("real", None, SLIDE, SLIDE.name),
+        ("attached", result.code_share, CODE, f"{CODE.name}, {result.code_share:g}"),
+        ("attached", 1.0, ATTACHED, ATTACHED.name),
+    ):
+        own = pl.col("share").is_null() if share is None else pl.col("share") == share
+        fit = result.fragilities.filter(own, model=model).row(0, named=True)
+        capacities = result.capacities.filter(own, model=model)["capacity"].sort().to_numpy()
+        if fit["dispersion"] > 0.0:
+            other.plot(at, ndtr(np.log(at / fit["median"]) / fit["dispersion"]), **role.look, linewidth=1.8, label=name)
+        levels: FloatArray = (np.arange(len(capacities)) + 0.5) / len(capacities)
+        other.plot(capacities, levels, color=role.colour, linestyle="", marker=role.marker, markersize=3.5)
+    other.set_ylim(0.0, 1.0)
+    other.set_xlim(hazard.sa_g[0], hazard.sa_g[-1])
+    other.set_ylabel(f"probability of {result.limit.text}")
+    handles = [*axes.get_legend_handles_labels()[0], *other.get_legend_handles_labels()[0]]
+    axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False)
+
+
+def _rates(axes: Axes, result: RiskTargetedShare, codes: Mapping[str, float]) -> None:
+    """Rate with goods that slide over that of models against the share, with its band, the answer and codes."""
+    curve = result.curve.drop_nulls("real_over_model")
+    share, ratio = curve["fraction"].to_numpy(), curve["real_over_model"].to_numpy()
+    banded = curve.drop_nulls("real_over_model_low")
+    percent = f"{100.0 * result.confidence:g} %"
+    if banded.height:
+        axes.fill_between(
+            banded["fraction"],
+            banded["real_over_model_low"],
+            banded["real_over_model_high"],
+            color=SLIDE.colour,
+            alpha=0.18,
+            linewidth=0.0,
+            label=f"{percent} interval over the motions",
+        )
+    axes.plot(share, ratio, color=SLIDE.colour, linewidth=2.0, label=f"{OVER_MODEL}, annual rate")
+    axes.axhline(1.0, color=INK, linewidth=0.8)
+    text = f"risk-targeted share {result.value:.2f}"
+    if result.interval is not None:
+        text += f" [{result.interval[0]:.2f}, {result.interval[1]:.2f}]"
+        axes.plot(result.interval, [1.0, 1.0], color=ADVISED.colour, linewidth=3.0, solid_capstyle="butt", zorder=4)
+    place = result.real / result.model
+    axes.plot([result.value], [place], **ADVISED.mark, markersize=7.0, label=text, zorder=5)
+    effective = result.effective
+    if effective is not None and np.isfinite(effective.value):
+        label = f"{EFFECTIVE} at the design intensity {effective.value:.2f}"
+        axes.axvline(effective.value, color=ADVISED.colour, linewidth=1.3, linestyle=(0, (1, 2)), label=label)
+    axes.set_yscale("log")
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.yaxis.set_minor_formatter(NullFormatter())
+    axes.set_xlim(-0.01, 1.01)
+    axes.set_xlabel(SHARE)
+    axes.set_ylabel(f"{OVER_MODEL}, annual rate\n(above 1: the model is unsafe)")
+    axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
+    mark_codes(axes, codes)
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=1, frameon=False)
+
+
+def _caption(result: RiskTargetedShare) -> str:
+    about = result.metadata
+    hazard = result.hazard.label or "hazard as given"
+    tail = "hazard extrapolated beyond its ends" if about["extrapolate"] else "hazard cut at its ends"
+    damping = "C of the building" if about["damping"] == "same" else "ratio in the model's own modes"
+    return plain(
+        f"{about['motions']} motions, scaled to all intensities; {result.estimator} fragilities; {hazard}, {tail}; "
+        f"damping of the models: {damping}"
+    )
+
+
+KIND_TEXTS: Final[dict[Kind, str]] = {
+    "stuck": "no goods slide up to the limit, so that all of them act as mass",
+    "root": "one share gives the annual rate with sliding goods",
+    "multiple": "several shares give the annual rate with sliding goods, the largest counts",
+    "zero": "no share gives a lower rate than sliding goods do, so that none needs to be attached",
+    "one": "even with all goods attached the model exceeds the limit less often than with sliding goods",
+}
+"""What each kind means."""
+_LABEL: Final = 21
+_RATES: Final = (-22, 34, 13, 26)
+_CHANGES: Final = (-30, 22, 10, 12, 16)
+
+
+def risk_text(result: RiskTargetedShare) -> str:
+    """Return `RiskTargetedShare.text`."""
+    percent = f"{100.0 * result.confidence:g} %"
+    about = result.metadata
+    motions = counted(about["motions"], "motion")
+    lines = [
+        f"risk-targeted share  {result.value:.3f}{_interval(result.interval, percent)}",
+        f"                     {KIND_TEXTS[result.kind]}",
+        f"limit                {result.limit.text} under {motions}; {result.measure.label}, "
+        f"{result.estimator} fragilities",
+        f"hazard               {result.hazard.label or 'as given'}: {result.hazard.sa_g[0]:g} to "
+        f"{result.hazard.sa_g[-1]:g} g{', extrapolated' if about['extrapolate'] else ''}",
+    ]
+    effective = result.effective
+    if effective is not None:
+        level = result.hazard.intensity(about["design_rate"])
+        at = f"at {level:.3g} g, {1.0 / about['design_rate']:.0f} years"
+        why = "" if math.isfinite(effective.value) else f": {EFFECTIVE_KINDS[effective.kind]}"
+        lines.append(f"effective fraction   {effective.value_text}{_interval(effective.interval, percent)} {at}{why}")
+    lines += [
+        "",
+        f"Annual rate of exceeding the limit, with its {percent} interval over the motions",
+        text_line(("model", "rate (1/year)", "in 50 years", "slide / model"), _RATES),
+    ]
+    for row in result.rates.iter_rows(named=True):
+        name = model_name(row["model"]) + (f", {row['share']:g}" if row["model"] == "code" else "")
+        rate = interval_text(row["rate"], row["rate_low"], row["rate_high"], ".3g")
+        ratio = interval_text(row["real_over_model"], row["real_over_model_low"], row["real_over_model_high"], ".2f")
+        ratio = "" if row["model"] == "real" else ratio
+        lines.append(text_line((name, rate, f"{100.0 * row['probability_50_years']:.2g} %", ratio), _RATES))
+    lines += [
+        "",
+        "What the share depends on",
+        text_line(("changed", "share", "kind", "slide rate", "slide / code"), _CHANGES),
+    ]
+    for row in result.sensitivity.iter_rows(named=True):
+        name = f"{row['parameter']} {row['setting']}".strip()
+        share = interval_text(row["value"], row["low"], row["high"], ".2f")
+        cells = (name, share, row["kind"], f"{row['real_rate']:.2g}", number_text(row["real_over_code"]))
+        lines.append(text_line(cells, _CHANGES))
+    return "\n".join([*lines, "", *remark_lines(result.remarks, _LABEL)])
+
+
+def _interval(ends: tuple[float, float] | None, percent: str) -> str:
+    return "" if ends is None else f" ({percent} interval {ends[0]:.2f} to {ends[1]:.2f})"

@@ -1,1 +1,0 @@
-"""How a risk-targeted share looks."""

@@ -1,1 +1,0 @@
-"""How slip demand looks."""

@@ -1,1 +1,0 @@
-"""How the validations of the paper look."""

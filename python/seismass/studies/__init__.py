@@ -1,0 +1,8 @@
+"""Studies of many runs: fragility, slip demand, annual rates, campaigns, the parametric study and its validations."""
+
+import lazy_loader
+
+# Names are those of __init__.pyi, imported when they are used.
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+
+del lazy_loader

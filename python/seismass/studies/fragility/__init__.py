@@ -1,0 +1,31 @@
+"""Fragility of buildings with sliding goods, and what a code's model makes of it: intensities, limit states, fits."""
+
+from seismass.studies.fragility.analysis import cloud_analysis, incremental_dynamic_analysis, multiple_stripes
+from seismass.studies.fragility.fragility import Fragility, fit_capacities, fit_cloud, fit_counts
+from seismass.studies.fragility.hunt import HuntAndFill
+from seismass.studies.fragility.limits import IntensityMeasure, LimitState, intensity_of, parse_limit
+from seismass.studies.fragility.result import FragilityAnalysis
+from seismass.studies.fragility.run import compared_models, solve_grid
+
+__all__ = [
+    "Fragility",
+    "FragilityAnalysis",
+    "HuntAndFill",
+    "IntensityMeasure",
+    "LimitState",
+    "cloud_analysis",
+    "compared_models",
+    "fit_capacities",
+    "fit_cloud",
+    "fit_counts",
+    "incremental_dynamic_analysis",
+    "intensity_of",
+    "multiple_stripes",
+    "parse_limit",
+    "solve_grid",
+]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

@@ -1,0 +1,25 @@
+"""Slip demand: how far goods slide, what that means at edges and walls, and whether they slide or rock."""
+
+from seismass.studies.slip.clearance import Clearance, exceedance_table, signed_peaks, wilson_interval
+from seismass.studies.slip.demand import SlipDemand, slip_demand
+from seismass.studies.slip.squat import Base, BlockSize, asce43, newmark_bound, newmark_pulse, parse_size
+
+__all__ = [
+    "Base",
+    "BlockSize",
+    "Clearance",
+    "SlipDemand",
+    "asce43",
+    "exceedance_table",
+    "newmark_bound",
+    "newmark_pulse",
+    "parse_size",
+    "signed_peaks",
+    "slip_demand",
+    "wilson_interval",
+]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

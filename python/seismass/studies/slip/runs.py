@@ -1,0 +1,356 @@
+"""Runs of a scene, of its goods on the ground, and of the building alone and with all goods attached."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray
+from seismass.effective_mass.models import ModelDamping, attached
+from seismass.model.block import Block
+from seismass.model.scene import Scene
+from seismass.motions.motion import Motion
+from seismass.motions.records.intensity import integrals, peak_velocity
+from seismass.runs.plane import PlaneMotion, PlaneResponse
+from seismass.runs.response import Response
+from seismass.runs.simulate import simulate
+from seismass.studies.slip.clearance import at_nodes, histories_at_nodes, places_of, signed_peaks, without_loose_goods
+from seismass.studies.slip.squat import Base, demand_in_g, estimates
+
+VECTOR = 2
+"""Place of the length of the vector among peaks of `PlaneResponse`."""
+
+
+@dataclass(frozen=True, slots=True)
+class PlaneSlip:
+    """Slip of the blocks in x and y (m), shape (blocks, 2), or (motions, blocks, 2): largest absolute, to each side, at
+    the end, and `alone`, the largest under the motion in that direction alone.
+    """
+
+    peak: FloatArray
+    plus: FloatArray
+    minus: FloatArray
+    residual: FloatArray
+    alone: FloatArray
+
+    @classmethod
+    def of_all(cls, solved: list[PlaneSlip]) -> PlaneSlip:
+        """Return the slips under all motions."""
+        return cls(*(np.array([getattr(each, field.name) for each in solved]) for field in fields(cls)))
+
+
+@dataclass(frozen=True, slots=True)
+class PlaneSolved:
+    """Runs of a scene under one pair. Acceleration (m/s2), velocity (m/s) and demand (acceleration over g + a_v) are
+    peak lengths of what a block stands on; in the building alone or with goods attached NaN on collapse.
+    """
+
+    slip: PlaneSlip
+    real: PlaneResponse
+    ground: PlaneResponse
+    moving: NDArray[np.bool_]
+    acceleration: FloatArray
+    velocity: FloatArray
+    demand: FloatArray
+    alone_acceleration: FloatArray
+    full_acceleration: FloatArray
+
+
+def solve_pair(
+    scene: Scene, on_the_ground: Scene, alone: Scene | None, full: Scene | None, motions: PlaneMotion
+) -> PlaneSolved:
+    """Solve a scene in two directions, its goods on the ground, and each direction by itself; `alone` and `full` (all
+    goods attached) are None where no goods stand on the building.
+    """
+    x, y = motions
+    nodes = np.array([place.node for place in places_of(scene)], dtype=np.int64)
+    real = simulate(scene, motions, histories=True, events=False)
+    ground_velocity = np.stack([integrals(each.acceleration, each.dt)[0] for each in motions], axis=1)
+    standing = np.concatenate([0.0 * ground_velocity[:, None, :], real.floor_velocity, real.rack_velocity], axis=1)
+    rate = real.block_velocity - standing[:, nodes]
+    sides = [
+        signed_peaks(real.slip[:, :, axis], rate[:, :, axis], x.dt, real.peak_slip[:, axis]) for axis in range(VECTOR)
+    ]
+    each_alone = [
+        simulate(one, motion, events=False).peak_slip for one, motion in zip(scene._directions(), motions, strict=True)
+    ]
+    ground_peak = float(np.hypot(x.acceleration, y.acceleration).max())
+    accelerations = _peaks_at_nodes(real, ground_peak)
+    speeds = np.nanmax(np.hypot(*np.moveaxis(standing + ground_velocity[:, None, :], -1, 0)), axis=0)
+    return PlaneSolved(
+        slip=PlaneSlip(
+            peak=real.peak_slip[:, :VECTOR],
+            plus=np.stack([plus for plus, _ in sides], axis=1),
+            minus=np.stack([minus for _, minus in sides], axis=1),
+            residual=real.residual_slip,
+            alone=np.stack(each_alone, axis=1),
+        ),
+        real=real,
+        ground=simulate(on_the_ground, motions, events=False),
+        moving=np.hypot(*np.moveaxis(rate[-1], -1, 0)) > 0.0,
+        acceleration=accelerations[nodes],
+        velocity=speeds[nodes],
+        demand=_demands_plane_runs(real, motions, accelerations)[nodes],
+        alone_acceleration=_without_goods(alone, motions, nodes, ground_peak),
+        full_acceleration=_without_goods(full, motions, nodes, ground_peak),
+    )
+
+
+def _peaks_at_nodes(response: PlaneResponse, ground: float) -> FloatArray:
+    """Peak length of the acceleration of the ground, the floors and the rack levels (m/s2)."""
+    of_floors, of_levels = (response.peak_floor_acceleration, response.peak_rack_acceleration)
+    return np.concatenate([[ground], of_floors[:, VECTOR], of_levels[:, VECTOR]])
+
+
+def _without_goods(scene: Scene | None, motions: PlaneMotion, nodes: NDArray[np.int64], ground: float) -> FloatArray:
+    """Peak acceleration under each block in a model without sliding goods; NaN after a collapse."""
+    if scene is None:
+        return np.full(len(nodes), ground)
+    response = simulate(scene, motions, events=False)
+    if response.status == "collapsed":
+        return np.where(nodes > 0, np.nan, ground)
+    return _peaks_at_nodes(response, ground)[nodes]
+
+
+def _demands_plane_runs(response: PlaneResponse, motions: PlaneMotion, peaks: FloatArray) -> FloatArray:
+    """Largest abs(a)/(g + a_v) of all nodes: in continuous time without vertical motion, of the samples with it."""
+    x, y = motions
+    if x.vertical is None:
+        demands: FloatArray = peaks / STANDARD_GRAVITY
+        return demands
+    ground = np.stack([x.acceleration, y.acceleration], axis=1)[:, None, :]
+    every = np.concatenate([ground, response.floor_acceleration, response.rack_acceleration], axis=1)
+    weight = STANDARD_GRAVITY + x.vertical
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = np.where(weight[:, None] > 0.0, np.hypot(every[..., 0], every[..., 1]) / weight[:, None], np.inf)
+    found: FloatArray = np.nanmax(share, axis=0)
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class SlipModels:
+    """The scene, its goods on the ground, and the building alone and with all goods attached (None without goods).
+    Racks stand in the latter two, empty or with all goods attached to their levels.
+    """
+
+    scene: Scene
+    ground: Scene
+    alone: Scene | None
+    full: Scene | None
+
+    @classmethod
+    def of(cls, scene: Scene, damping: ModelDamping) -> SlipModels:
+        """Return the models of a scene."""
+        goods = [on_ground(block) for block in scene.goods]
+        ground = Scene(None, goods, other_direction=scene.other_direction is not False)
+        if scene.racks:
+            alone, full = (without_loose_goods(scene, attached=share) for share in (False, True))
+            return cls(scene, ground, alone, full)
+        if not any(floor > 0 for floor in scene.block_floor):
+            return cls(scene, ground, None, None)
+        return cls(scene, ground, attached(scene, 0.0, damping), attached(scene, 1.0, damping))
+
+
+def on_ground(block: Block) -> Block:
+    """Return a block with the same friction on the ground, without stops, where its mass does not matter."""
+    return block.replace(floor=0, mass=1.0, mass_ratio=None, velocity=None, stops=None, stops_y=None)
+
+
+@dataclass(frozen=True, slots=True)
+class EstimateRow:
+    """Estimates of the slip (m) by name of one block (from 0) under one motion, that of the ground or of the block's
+    floor (or rack level) in the building alone; "rigid_block" is exact for that motion.
+    """
+
+    block: int
+    base: str
+    values: dict[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class SolvedMotion:
+    """What is kept of the runs under one motion, arrays of shape (blocks,) in SI units, slips up to a collapse;
+    `demand` is abs(a)/(g + a_v). In `plane` they are lengths, `plus` and `minus` in x, without estimates.
+    """
+
+    peak: FloatArray
+    plus: FloatArray
+    minus: FloatArray
+    residual: FloatArray
+    path: FloatArray
+    contact_force: FloatArray
+    contact_velocity: FloatArray
+    moving: NDArray[np.bool_]
+    collapsed: bool
+    ground_peak: FloatArray
+    ground_residual: FloatArray
+    acceleration: FloatArray
+    velocity: FloatArray
+    demand: FloatArray
+    alone_acceleration: FloatArray
+    full_acceleration: FloatArray
+    estimates: list[EstimateRow]
+    plane: PlaneSlip | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class SlipRuns:
+    """Runs under all motions: arrays of `SolvedMotion`, of shape (motions, blocks), and `collapsed` (motions,)."""
+
+    peak: FloatArray
+    plus: FloatArray
+    minus: FloatArray
+    residual: FloatArray
+    path: FloatArray
+    contact_force: FloatArray
+    contact_velocity: FloatArray
+    moving: NDArray[np.bool_]
+    collapsed: NDArray[np.bool_]
+    ground_peak: FloatArray
+    ground_residual: FloatArray
+    acceleration: FloatArray
+    velocity: FloatArray
+    demand: FloatArray
+    alone_acceleration: FloatArray
+    full_acceleration: FloatArray
+    plane: PlaneSlip | None = None
+
+    @classmethod
+    def of(cls, solved: list[SolvedMotion]) -> SlipRuns:
+        """Return the runs under all motions."""
+        names = [field.name for field in fields(cls) if field.name != "plane"]
+        in_plane = [each.plane for each in solved if each.plane is not None]
+        arrays = {name: np.array([getattr(each, name) for each in solved]) for name in names}
+        return cls(**arrays, plane=PlaneSlip.of_all(in_plane) if in_plane else None)
+
+    def or_infinite(self, values: FloatArray) -> FloatArray:
+        """Return values (motions, blocks) with infinity in runs that collapsed: goods of a fallen building are lost."""
+        return np.where(self.collapsed[:, None], np.inf, values)
+
+
+def solve_motion(models: SlipModels, motion: Motion, other: Motion | None = None) -> SolvedMotion:
+    """Solve the models under one motion, or in two directions under that in x and the other one in y."""
+    if other is not None:
+        return _solve_pair(models, (motion, other))
+    scene = models.scene
+    nodes = np.array([place.node for place in places_of(scene)], dtype=np.int64)
+    real = simulate(scene, motion, histories=True, events=False)
+    ground = simulate(models.ground, motion, events=False)
+    ground_velocity, _ = integrals(motion.acceleration, motion.dt)
+    base = _ground_base(motion, ground_velocity)
+    standing = histories_at_nodes(real, "floor_velocity", "rack_velocity", 0.0 * ground_velocity)
+    rate = real.block_velocity - standing[:, nodes]
+    plus, minus = signed_peaks(real.slip, rate, motion.dt, real.peak_slip)
+    alone = None if models.alone is None else simulate(models.alone, motion, histories=True, events=False)
+    full = None if models.full is None else simulate(models.full, motion, events=False)
+    rows = [
+        EstimateRow(number, "ground", {**estimates(base, block.mu_k), "rigid_block": float(ground.peak_slip[number])})
+        for number, block in enumerate(scene.goods)
+    ]
+    if alone is not None and alone.status == "completed":
+        rows += _floor_estimates(scene, alone, motion, ground_velocity)
+    accelerations = at_nodes(real, "peak_floor_acceleration", "peak_rack_acceleration", base.acceleration)
+    velocities = np.nanmax(np.abs(standing + ground_velocity[:, None]), axis=0)
+    velocities[0] = base.velocity
+    return SolvedMotion(
+        peak=real.peak_slip,
+        plus=plus,
+        minus=minus,
+        residual=real.residual_slip,
+        path=real.slip_path,
+        contact_force=real.peak_contact_force,
+        contact_velocity=real.peak_contact_velocity,
+        moving=np.abs(rate[-1]) > 0.0,
+        collapsed=real.status == "collapsed",
+        ground_peak=ground.peak_slip,
+        ground_residual=ground.residual_slip,
+        acceleration=accelerations[nodes],
+        velocity=velocities[nodes],
+        demand=_demands(real, motion, accelerations)[nodes],
+        alone_acceleration=_peaks(alone, nodes, base.acceleration),
+        full_acceleration=_peaks(full, nodes, base.acceleration),
+        estimates=rows,
+    )
+
+
+def _solve_pair(models: SlipModels, motions: PlaneMotion) -> SolvedMotion:
+    """Solve the models in two directions."""
+    found = solve_pair(models.scene, models.ground, models.alone, models.full, motions)
+    real, ground, sides = found.real, found.ground, found.slip
+    return SolvedMotion(
+        peak=real.peak_slip[:, VECTOR],
+        plus=sides.plus[:, 0],
+        minus=sides.minus[:, 0],
+        residual=np.hypot(*real.residual_slip.T),
+        path=real.slip_path,
+        contact_force=real.peak_contact_force.max(axis=1),
+        contact_velocity=real.peak_contact_velocity.max(axis=1),
+        moving=found.moving,
+        collapsed=real.status == "collapsed",
+        ground_peak=ground.peak_slip[:, VECTOR],
+        ground_residual=np.hypot(*ground.residual_slip.T),
+        acceleration=found.acceleration,
+        velocity=found.velocity,
+        demand=found.demand,
+        alone_acceleration=found.alone_acceleration,
+        full_acceleration=found.full_acceleration,
+        estimates=[],
+        plane=sides,
+    )
+
+
+def _ground_base(motion: Motion, velocity: FloatArray) -> Base:
+    return Base(
+        motion, motion.pga, float(peak_velocity(motion.acceleration, motion.dt, velocity)), _peak_vertical(motion)
+    )
+
+
+def _peak_vertical(motion: Motion) -> float:
+    return 0.0 if motion.vertical is None else float(np.abs(motion.vertical).max())
+
+
+def _peaks(response: Response | None, nodes: NDArray[np.int64], ground: float) -> FloatArray:
+    """Peak acceleration under each block in a model without sliding goods; NaN after a collapse."""
+    if response is None:
+        return np.full(len(nodes), ground)
+    if response.status == "collapsed":
+        return np.where(nodes > 0, np.nan, ground)
+    return at_nodes(response, "peak_floor_acceleration", "peak_rack_acceleration", ground)[nodes]
+
+
+def _demands(response: Response, motion: Motion, peaks: FloatArray) -> FloatArray:
+    """Largest abs(a)/(g + a_v) of all nodes: in continuous time without vertical motion, of the samples with it."""
+    if motion.vertical is None:
+        demands: FloatArray = np.concatenate([[motion.pga], peaks[1:]]) / STANDARD_GRAVITY
+        return demands
+    vertical = motion.vertical
+    every = histories_at_nodes(response, "floor_acceleration", "rack_acceleration", motion.acceleration)
+    return np.array([demand_in_g(history, vertical) for history in every.T])
+
+
+def _floor_estimates(scene: Scene, alone: Response, motion: Motion, ground_velocity: FloatArray) -> list[EstimateRow]:
+    """Estimates of the motion under goods in the building alone, and the exact slip of each block on it."""
+    rows = []
+    bases: dict[int, Base] = {}
+    peaks = at_nodes(alone, "peak_floor_acceleration", "peak_rack_acceleration", motion.pga)
+    accelerations = histories_at_nodes(alone, "floor_acceleration", "rack_acceleration", motion.acceleration)
+    velocities = histories_at_nodes(alone, "floor_velocity", "rack_velocity", 0.0 * ground_velocity)
+    for number, (block, place) in enumerate(zip(scene.goods, places_of(scene), strict=True)):
+        node = place.node
+        if node == 0:
+            continue
+        if node not in bases:
+            bases[node] = Base(
+                Motion(accelerations[:, node], motion.dt, motion.vertical),
+                float(peaks[node]),
+                float(np.abs(velocities[:, node] + ground_velocity).max()),
+                _peak_vertical(motion),
+            )
+        base = bases[node]
+        exact = simulate(Scene(None, [on_ground(block)]), base.motion, events=False)
+        values = {**estimates(base, block.mu_k), "rigid_block": float(exact.peak_slip[0])}
+        rows.append(EstimateRow(number, "floor", values))
+    return rows

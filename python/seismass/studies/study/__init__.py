@@ -1,0 +1,42 @@
+"""The parametric study of the 16WCEE paper, section 5: drift with sliding live load against drift by a code's rule.
+
+Each building is solved three times under each motion: as it is, with rigid blocks that may slide ("real"); as the code
+models it, with the fraction lambda of the blocks' mass attached and no block ("code"); and with all of their mass
+attached ("attached"). Attached against code is what the rest of the mass does, real against attached what sliding does.
+"""
+
+from seismass.studies.study.columns import TABLES
+from seismass.studies.study.parameters import (
+    KEYS,
+    MODELS,
+    DampingBase,
+    Model,
+    StudyBuilding,
+    StudyParameters,
+    study_buildings,
+)
+from seismass.studies.study.run import SCHEMA_VERSION, StudyResult, display_names, motions_text, run_study
+from seismass.studies.study.sensitivity import Sensitivity, study_sensitivity
+
+__all__ = [
+    "KEYS",
+    "MODELS",
+    "SCHEMA_VERSION",
+    "TABLES",
+    "DampingBase",
+    "Model",
+    "Sensitivity",
+    "StudyBuilding",
+    "StudyParameters",
+    "StudyResult",
+    "display_names",
+    "motions_text",
+    "run_study",
+    "study_buildings",
+    "study_sensitivity",
+]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)

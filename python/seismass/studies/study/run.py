@@ -1,0 +1,407 @@
+"""Running a parametric study: scaling, design, one batch of all models, the tables and what they were made from."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from itertools import chain, count
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Final
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+
+from seismass import _kernel
+from seismass.base.digest import inputs_digest, motion_contents
+from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.kept import NOTHING_KEPT, KeptResults
+from seismass.base.values import FloatArray, brief, content_hash, printable, refusal, same_content, short_repr
+from seismass.base.views import view
+from seismass.design.scaling import ScalingResult, scale_asce7_10
+from seismass.media.result import Result
+from seismass.model.plausibility import motion_remarks
+from seismass.model.scene import Scene
+from seismass.motions.motion import Motion
+from seismass.motions.records import Record, Suite
+from seismass.motions.spectra import TargetSpectrum, corner_period, mean_spectrum, response_spectrum
+from seismass.motions.spectra.target import target_remarks
+from seismass.runs.batch import solve_many
+from seismass.runs.simulate import instruction_set
+from seismass.studies.study.parameters import MODELS, StudyBuilding, StudyParameters, code_fractions, study_buildings
+from seismass.studies.study.tables import (
+    designs_table,
+    effective_fractions,
+    findings,
+    fractions_table,
+    responses_table,
+    summary_table,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+SCHEMA_VERSION: Final = 4
+"""Version of the tables and of the metadata that a study gives back; see docs/study_schema.md."""
+
+SPECTRUM_RANGE: Final = (0.05, 3.0)
+SPECTRUM_POINTS: Final = 200
+"""Periods (s) at which the spectra are tabulated for the figure, and those of the scaling; nothing is interpolated."""
+
+
+_METHODS: Final = {"ASCE 7-10": "ASCE/SEI 7-10, 16.1.3.1, two-step factors in the logarithm"}
+"""Methods of scaling as the metadata name them; others by their own name."""
+
+
+@dataclass(frozen=True, eq=False)
+class StudyResult(Result):
+    """Tables of a study; their columns are described in docs/study_schema.md.
+
+    Attributes
+    ----------
+    responses : polars.DataFrame
+        One row per building, model, motion and storey.
+    summary : polars.DataFrame
+        One row per building and storey: drift of each model over the motions with its scatter, the underestimation, how
+        much of it is due to mass and how much to sliding, and how much one motion carries.
+    fractions : polars.DataFrame
+        One row per building: eta, the two estimates of the effective fraction, and the fraction itself on request.
+    designs : polars.DataFrame
+        One row per building and storey: masses, V_e, V_y, periods.
+    spectrum : polars.DataFrame
+        Target, mean scaled and scaled spectra.
+    scaling : ScalingResult
+        Factors of the motions.
+    metadata : dict
+        Versions, digest of the inputs, parameters, motions, counts, remarks.
+    """
+
+    document: ClassVar[str] = "study"
+
+    responses: pl.DataFrame
+    summary: pl.DataFrame
+    fractions: pl.DataFrame
+    designs: pl.DataFrame
+    spectrum: pl.DataFrame
+    scaling: ScalingResult
+    metadata: dict[str, Any] = field(repr=False)
+
+    __repr__ = short_repr
+    __eq__ = same_content
+    __hash__ = content_hash
+
+    @property
+    @view
+    def text(self) -> str:
+        """What the study says: the underestimation of drift by the code's model, with its scatter."""
+        raise NotImplementedError
+
+    @property
+    def tables(self) -> dict[str, pl.DataFrame]:
+        """The tables by name: responses, summary, fractions, designs, spectrum, scaling."""
+        names = ("responses", "summary", "fractions", "designs", "spectrum")
+        return {name: getattr(self, name) for name in names} | {"scaling": self.scaling.table()}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the metadata and the findings as plain values."""
+        found = findings(self.summary, self.fractions, self.metadata["code"]["name"])
+        return {**self.metadata, "findings": found}
+
+    @property
+    @view
+    def figure_names(self) -> tuple[str, ...]:
+        """spectrum; underestimation, heat, slip and drift_R... for each R and friction; effective, where computed."""
+        raise NotImplementedError
+
+    @view
+    def plot(self, name: str | None = None) -> Figure:
+        """Return a figure of `figure_names`, by default the first.
+
+        Parameters
+        ----------
+        name : str, optional
+            Name of the figure.
+
+        Raises
+        ------
+        InvalidOption
+            There is no such figure.
+        """
+        raise NotImplementedError
+
+    @view
+    def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
+        """Write tables (Parquet and CSV), study.json, figures (SVG) and the page to a folder.
+
+        Returns
+        -------
+        list of Path
+            The files, in the order written.
+
+        Raises
+        ------
+        OSError
+            A file cannot be written; then none is changed.
+        """
+        raise NotImplementedError
+
+
+def run_study(
+    suite: Suite,
+    target: TargetSpectrum,
+    parameters: StudyParameters | None = None,
+    *,
+    scaling: ScalingResult | None = None,
+    effective: bool = False,
+    threads: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+    kept: KeptResults = NOTHING_KEPT,
+) -> StudyResult:
+    """Run the parametric study.
+
+    Parameters
+    ----------
+    suite : Suite
+        Motions, unscaled.
+    target : TargetSpectrum
+        Design spectrum.
+    parameters : StudyParameters, optional
+        The grid; default the paper's.
+    scaling : ScalingResult, optional
+        Factors of the motions, by whatever method; default those of `scale_asce7_10` towards the target.
+    effective : bool, default False
+        Compute the effective fraction of each building too, with its interval: a hundred times as many runs.
+    threads : int, optional
+        Number of threads; default all cores. The tables do not depend on it.
+    progress : callable, optional
+        Called with (analyses done, distinct analyses), then, with `effective`, with (buildings done, distinct ones).
+    kept : KeptResults, optional
+        What an interrupted study of the same inputs has left, and where this one leaves what is done.
+
+    Raises
+    ------
+    InvalidOption, InvalidMotion
+        A parameter is out of its range, or the suite cannot be scaled.
+    KeyboardInterrupt
+        Ctrl-C was pressed.
+    """
+    chosen = StudyParameters() if parameters is None else parameters
+    if not isinstance(suite, Suite):
+        raise refusal(InvalidMotion, "suite", "study", "a Suite of records", brief(suite))
+    given = scaling is not None
+    if scaling is None:
+        scaling = scale_asce7_10(
+            suite, target, chosen.scaling_period, damping=chosen.damping, between=False, threads=threads
+        )
+    else:
+        _check_scaling(scaling, len(suite))
+    factors = scaling.factors
+
+    def design_spectrum(periods: FloatArray) -> FloatArray:
+        return mean_spectrum(suite, factors, periods, chosen.damping, threads=threads)
+
+    spectrum = _spectrum(suite, target, scaling, chosen.damping, threads)
+    buildings = list(study_buildings(chosen, design_spectrum))
+    records = [record.scaled(factor) for record, factor in zip(suite, factors, strict=True)]
+    motions = [record.motion for record in records]
+    distinct, run_of, table = _solve(buildings, motions, threads, progress, kept)
+    names = display_names(suite)
+    responses = responses_table(buildings, names, table, run_of)
+    fractions = (
+        effective_fractions(buildings, records, chosen, threads=threads, progress=progress, kept=kept)
+        if effective
+        else None
+    )
+    status = table["status"].value_counts()
+    counts = dict(zip(status["status"], status["count"], strict=True))
+    return StudyResult(
+        responses=responses,
+        summary=summary_table(buildings, responses, names, chosen),
+        fractions=fractions_table(buildings, table, run_of, fractions, corner_period(design_spectrum)),
+        designs=designs_table(buildings, chosen),
+        spectrum=spectrum,
+        scaling=scaling,
+        metadata={
+            "schema_version": SCHEMA_VERSION,
+            "package_version": _kernel.VERSION,
+            "instructions": instruction_set(),
+            "inputs_sha256": study_digest(suite, target, chosen, factors if given else None),
+            "parameters": chosen.content(),
+            "code": _code_metadata(chosen),
+            "target": {"label": target.label, **target.parameters},
+            "suite": _suite_metadata(suite, names, scaling),
+            "scaling": _scaling_metadata(scaling),
+            "remarks": _remarks(buildings, motions, target, scaling),
+            "counts": {
+                "buildings": len(buildings),
+                "analyses": len(run_of),
+                "distinct": distinct,
+                "completed": counts.get("completed", 0),
+                "collapsed": counts.get("collapsed", 0),
+                "failed": counts.get("failed", 0),
+            },
+        },
+    )
+
+
+def _check_scaling(scaling: Any, motions: int) -> None:
+    known = isinstance(scaling, ScalingResult)
+    if not known or len(scaling.factors) != motions:
+        got = f"one of {len(scaling.factors)}" if known else brief(scaling)
+        raise refusal(InvalidOption, "scaling", "study", f"a ScalingResult of {motions} motions", got)
+
+
+def _solve(
+    buildings: list[StudyBuilding],
+    motions: list[Motion],
+    threads: int | None,
+    progress: Callable[[int, int], object] | None,
+    kept: KeptResults,
+) -> tuple[int, NDArray[np.int64], pl.DataFrame]:
+    """Number of distinct runs, the row of each analysis among them, and the rows."""
+    scenes = [building.scenes[model] for building in buildings for model in MODELS]
+    scene_numbers = {scene: number for number, scene in enumerate(dict.fromkeys(scenes))}
+    motion_numbers = {motion: number for number, motion in enumerate(dict.fromkeys(motions))}
+    of_motion = np.array([motion_numbers[motion] for motion in motions])
+    of_scene = np.array([scene_numbers[scene] for scene in scenes])
+    table = kept.of(
+        "runs", lambda: solve_many(list(scene_numbers), list(motion_numbers), threads=threads, progress=progress)
+    )
+    run_of = (of_scene[:, None] * len(motion_numbers) + of_motion[None, :]).ravel()
+    return len(table), run_of, table
+
+
+def _remarks(
+    buildings: list[StudyBuilding], motions: list[Motion], target: TargetSpectrum, scaling: ScalingResult
+) -> list[str]:
+    """What is unlikely about the inputs, each remark once."""
+    scenes = dict.fromkeys(building.scenes["real"] for building in buildings)
+    found = [*target_remarks(target), *scaling.doubts, *motion_remarks(motions)]
+    return list(dict.fromkeys([*found, *(remark for scene in scenes for remark in scene.remarks)]))
+
+
+def _code_metadata(chosen: StudyParameters) -> dict[str, Any]:
+    """Code with its fractions; no code where the occupancies have fractions of their own."""
+    if not chosen.follows_code:
+        return {"id": None, "name": "code", "fractions": {}}
+    rows = code_fractions(chosen.code)
+    return {
+        "id": chosen.code,
+        "name": rows["storage"].code,
+        "fractions": {
+            name: {"fraction": row.fraction, "clause": row.clause, "status": row.status} for name, row in rows.items()
+        },
+    }
+
+
+def _suite_metadata(suite: Suite, names: list[str], scaling: ScalingResult) -> dict[str, Any]:
+    return {
+        "name": suite.name,
+        "synthetic": sum(record.synthetic for record in suite),
+        "motions": [
+            {
+                "motion": number,
+                "record": name,
+                "file": None if record.source is None else printable(record.source.name),
+                "synthetic": record.synthetic,
+                "samples": record.samples,
+                "dt": record.dt,
+                "pga_g": record.pga_g,
+                "factor": float(factor),
+                "remarks": list(record.remarks),
+            }
+            for number, (record, name, factor) in enumerate(zip(suite, names, scaling.factors, strict=True), start=1)
+        ],
+    }
+
+
+def _scaling_metadata(scaling: ScalingResult) -> dict[str, Any]:
+    return {
+        "method": _METHODS.get(scaling.method, scaling.method),
+        "common_factor": float(scaling.common),
+        "periods": [float(scaling.periods[0]), float(scaling.periods[-1]), len(scaling.periods)],
+        "governing_period": float(scaling.governing_period),
+    }
+
+
+def motions_text(suite: dict[str, Any]) -> str:
+    """Return how many motions a study has, and of which kind, from the `suite` of its metadata."""
+    motions, synthetic = len(suite["motions"]), suite["synthetic"]
+    if synthetic == motions:
+        return f"{motions} synthetic motions"
+    kinds = f", {synthetic} synthetic and {motions - synthetic} recorded" if synthetic else ""
+    return f"{motions} motions{kinds}"
+
+
+def display_names(suite: Suite) -> list[str]:
+    """Return event and station of each recording where known, else its name; unique, repeats numbered from 2."""
+    names: list[str] = []
+    for number, record in enumerate(suite, start=1):
+        place = [] if record.synthetic else [part for part in (record.event, record.station) if part]
+        name = ", ".join(place) or record.name or f"motion {number}"
+        if name in names and place and record.name:
+            name = f"{name} ({record.name})"
+        numbered = (f"{name} ({repeat})" for repeat in count(2))
+        names.append(next(unused for unused in chain([name], numbered) if unused not in names))
+    return names
+
+
+def _spectrum(
+    suite: Suite, target: TargetSpectrum, scaling: ScalingResult, damping: float, threads: int | None
+) -> pl.DataFrame:
+    """Spectra over the usual periods and those of the scaling, as far as target and motions have them."""
+    shortest_of_motions = _kernel.SHORTEST_PERIOD_OVER_STEP * max(record.dt for record in suite)
+    shortest = max(min(SPECTRUM_RANGE[0], scaling.periods[0]), target.shortest, shortest_of_motions)
+    longest = min(max(SPECTRUM_RANGE[1], scaling.periods[-1]), target.longest)
+    periods = np.geomspace(shortest, longest, SPECTRUM_POINTS)
+    scaled = scaling.factors[:, None] * response_spectrum(suite, periods, damping, threads=threads)
+    motions = {f"motion_{number}": row for number, row in enumerate(scaled, start=1)}
+    return pl.DataFrame({"period": periods, "target": target(periods), "mean": scaled.mean(axis=0), **motions})
+
+
+def study_digest(
+    suite: Suite, target: TargetSpectrum, parameters: StudyParameters, factors: FloatArray | None = None
+) -> str:
+    """Return the digest of all that the numbers depend on: samples, target, parameters, factors where given."""
+    return inputs_digest(SCHEMA_VERSION, motion_contents(suite), target.parameters, parameters.content(), factors)
+
+
+SLIDES: Final = 0.01
+"""Mean peak slip (m) of goods that are seen to slide."""
+
+
+@dataclass(frozen=True, eq=False)
+class Example:
+    """A building of a study with its sliding goods under one of its motions: key columns, scaled record, and the name
+    of the motion in the study.
+    """
+
+    labels: dict[str, Any]
+    scene: Scene
+    record: Record
+    name: str
+
+
+def study_example(suite: Suite, parameters: StudyParameters, result: StudyResult) -> Example | None:
+    """Return the building of largest first-storey underestimation whose first-floor goods slide by `SLIDES` on average
+    (or of all), and the motion closest to that of the means; None where no run has a result.
+    """
+    first = result.summary.filter(storey=1).drop_nulls("underestimation_percent")
+    slides = first.filter((pl.col("mean_peak_slip") >= SLIDES) & (pl.col("R") > 1.0))
+    ranked = (slides if slides.height else first).sort("underestimation_percent", descending=True)
+    if not ranked.height:
+        return None
+    row = ranked.row(0, named=True)
+    runs = result.responses.filter(building=row["building"], storey=1).sort("motion")
+    real, code = (runs.filter(model=model)["peak_drift"].to_numpy() for model in ("real", "code"))
+    motion = int(np.argmin(np.abs(np.log(real / code) - np.log(row["ratio"]))))
+    factors = result.scaling.factors
+
+    def spectrum(periods: FloatArray) -> FloatArray:
+        return mean_spectrum(suite, factors, periods, parameters.damping)
+
+    building = list(study_buildings(parameters, spectrum))[row["building"] - 1]
+    name = result.metadata["suite"]["motions"][motion]["record"]
+    return Example(building.labels, building.scenes["real"], suite[motion].scaled(float(factors[motion])), name)

@@ -1,0 +1,296 @@
+"""What the choices that the paper does not state do to the study's headline numbers, one choice at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import TYPE_CHECKING, Any, ClassVar, Final, get_args
+
+import numpy as np
+import polars as pl
+
+from seismass.base.kept import NOTHING_KEPT, KeptResults
+from seismass.base.values import short_repr
+from seismass.base.views import view
+from seismass.design import Combination
+from seismass.design.scaling import ScalingResult, scale_modal_pushover
+from seismass.media.result import Result, finite_values
+from seismass.motions.matching import match_suite
+from seismass.motions.records import Suite
+from seismass.motions.spectra import TargetSpectrum
+from seismass.studies.study.columns import SENSITIVITY_COLUMNS
+from seismass.studies.study.parameters import MODELS, DampingBase, StudyParameters
+from seismass.studies.study.run import StudyResult, run_study
+from seismass.studies.study.tables import Drifts, drifts_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+AS_IS: Final = "as it is"
+"""The first choice: the study with its own parameters."""
+DAMPING_BASE: Final = "damping base"
+
+SECOND_SLOPES: Final = (0.0, 0.02, 0.1, 0.2)
+OVERSTRENGTHS: Final = (1.0, 1.5, 3.0)
+TILTS: Final = (-0.3, 0.3)
+"""Powers of the period (s) by which the target is multiplied: less and more demand at long periods, equal at 1 s."""
+SCALING_PERIODS: Final = (0.5, 1.5)
+MATCHED_RANGE: Final = (0.2, 1.5)
+"""Range of periods that motions are matched in, as multiples of the period of scaling."""
+MATCHED_TOLERANCE: Final = 0.10
+"""Largest misfit of their spectra, reached in a few passes. A closer match of single records takes up to thirty, whose
+last digits decide about the next pass; the mean of the suite is closer to the target than its records."""
+_KEYS: Final = ("occupancy", "mu", "R", "alpha", "storey")
+"""Columns of the summary by which its rows are grouped."""
+MOTIONS: Final = "motions"
+"""The choice how motions are brought to the target."""
+
+
+@dataclass(frozen=True)
+class _Change:
+    """One choice, its setting, and the study with it alone changed."""
+
+    choice: str
+    setting: str
+    parameters: StudyParameters
+    target: TargetSpectrum
+    motions: Callable[[], tuple[Suite, ScalingResult | None]]
+    """Makes the suite and its factors when the study is run: matching takes longer than all studies."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sensitivity(Result):
+    """Headline numbers of a study under one changed choice at a time.
+
+    Attributes
+    ----------
+    table : polars.DataFrame
+        One row per setting, occupancy and friction coefficient; columns in docs/study_schema.md.
+    metadata : dict
+        Metadata of the study as it is.
+    """
+
+    document: ClassVar[str] = "sensitivity"
+
+    table: pl.DataFrame
+    metadata: dict[str, Any] = field(repr=False)
+
+    __repr__ = short_repr
+
+    @property
+    @view
+    def text(self) -> str:
+        """The table as lines, one block per occupancy and friction coefficient."""
+        raise NotImplementedError
+
+    @property
+    def tables(self) -> dict[str, pl.DataFrame]:
+        """The table by its name: sensitivity."""
+        return {"sensitivity": self.table}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the rows, and the metadata of the study as it is, as plain values."""
+        document: dict[str, Any] = finite_values({"sensitivity": self.table.to_dicts(), "metadata": self.metadata})
+        return document
+
+    @property
+    def figure_names(self) -> tuple[str, ...]:
+        """sensitivity: a dot per choice and occupancy, beside lines of the study as it is."""
+        return ("sensitivity",)
+
+    @view
+    def plot(self, name: str | None = None) -> Figure:
+        """Return the figure: a dot per choice and occupancy, beside lines of the study as it is.
+
+        Raises
+        ------
+        InvalidOption
+            `name` is given and is not "sensitivity".
+        """
+        raise NotImplementedError
+
+
+def study_sensitivity(
+    suite: Suite,
+    target: TargetSpectrum,
+    parameters: StudyParameters | None = None,
+    *,
+    as_is: StudyResult | None = None,
+    threads: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+    kept: KeptResults = NOTHING_KEPT,
+) -> Sensitivity:
+    """Run the study again with each choice changed alone, from springs and damping to the statistic over records.
+
+    The statistic and the records left out change no run: the drifts are those of the study as it is, and with a record
+    left out the factors of the others stay.
+
+    Parameters
+    ----------
+    suite, target, parameters, threads
+        As for `run_study`.
+    as_is : StudyResult, optional
+        The study of these, where it has been run.
+    progress : callable, optional
+        Called with (studies done, studies in all).
+    kept : KeptResults, optional
+        What an interrupted call of the same inputs has left, and where this one leaves what is done.
+
+    Raises
+    ------
+    InvalidOption, InvalidMotion, KeyboardInterrupt
+        As for `run_study`.
+    """
+    chosen = StudyParameters() if parameters is None else parameters
+    changes = [*_changes(chosen, target, suite), *_motion_changes(chosen, target, suite, threads)]
+    if as_is is None:
+        as_is = run_study(suite, target, chosen, threads=threads)
+    own = drifts_of(as_is.responses, len(suite))
+    summary = as_is.summary
+    rows = _rows(AS_IS, "", summary, own, np.mean)
+    of_base: dict[str, Drifts] = {chosen.damping_base: own}
+    for number, change in enumerate(changes, start=1):
+        if progress is not None:
+            progress(number, len(changes) + 1)
+        table = kept.of(f"changed-{number}", partial(_study_of, change, threads))
+        drifts: Drifts = {model: np.array(table[model].to_list()) for model in MODELS}
+        rows += _rows(change.choice, change.setting, table, drifts, np.mean)
+        if change.choice == DAMPING_BASE:
+            of_base[change.parameters.damping_base] = drifts
+            if len(of_base) == len(get_args(DampingBase)):
+                mixed = {**of_base["loaded"], "code": of_base["own"]["code"]}
+                rows += _rows(DAMPING_BASE, "loaded, of the code model its own", summary, mixed, np.mean)
+    rows += _rows("statistic", "median", summary, own, np.median)
+    rows += _rows("statistic", "geometric mean", summary, own, _geometric_mean)
+    for left_out in _heaviest(as_is):
+        name = as_is.metadata["suite"]["motions"][left_out]["record"]
+        others: Drifts = {model: np.delete(values, left_out, axis=1) for model, values in own.items()}
+        rows += _rows("one record left out", name, summary, others, np.mean)
+    if progress is not None:
+        progress(len(changes) + 1, len(changes) + 1)
+    found = pl.DataFrame(rows, schema=list(SENSITIVITY_COLUMNS), orient="row").with_columns(
+        pl.col("collapses").cast(pl.UInt32)
+    )
+    return Sensitivity(found, as_is.metadata)
+
+
+def _study_of(change: _Change, threads: int | None) -> pl.DataFrame:
+    """Keys of the summary of a changed study, and the drifts of each model as a column of lists."""
+    suite, scaling = change.motions()
+    result = run_study(suite, change.target, change.parameters, scaling=scaling, threads=threads)
+    drifts = drifts_of(result.responses, len(suite))
+    lists = {model: pl.Series(values.tolist(), dtype=pl.List(pl.Float64)) for model, values in drifts.items()}
+    return result.summary.select(_KEYS).with_columns(**lists)
+
+
+def _changes(chosen: StudyParameters, target: TargetSpectrum, suite: Suite) -> Iterator[_Change]:
+    """Changes of parameters and of the target; settings that are the study's own are left out."""
+
+    def changed(choice: str, setting: str, spectrum: TargetSpectrum = target, **parameters: Any) -> _Change:
+        return _Change(choice, setting, replace(chosen, **parameters), spectrum, lambda: (suite, None))
+
+    for slope in SECOND_SLOPES:
+        if slope != chosen.second_slope:
+            third = min(chosen.third_slope, slope)
+            yield changed("r2", f"{slope:g}", second_slope=slope, third_slope=third)
+    if chosen.third_slope != chosen.second_slope:
+        yield changed("r3", f"{chosen.second_slope:g}, as r2", third_slope=chosen.second_slope)
+    for factor in OVERSTRENGTHS:
+        if factor != chosen.overstrength:
+            yield changed("Omega", f"{factor:g}", overstrength=factor)
+    at_r1 = not chosen.yield_at_r1
+    yield changed("R = 1", "yields at V_e" if at_r1 else "elastic", yield_at_r1=at_r1)
+    other: Combination = "cqc" if chosen.combination == "srss" else "srss"
+    yield changed("combination", other.upper(), combination=other)
+    for base in get_args(DampingBase):
+        if base != chosen.damping_base:
+            yield changed(DAMPING_BASE, base, damping_base=base)
+    if not chosen.p_delta:
+        yield changed("P-Delta", f"storeys of {chosen.height:g} m", p_delta=True)
+    for power in TILTS:
+        yield changed("target shape", f"times (T/1 s)^{power:g}", target.tilted(power))
+    for period in SCALING_PERIODS:
+        if period != chosen.scaling_period:
+            yield changed("scaling period", f"{period:g} s", scaling_period=period)
+
+
+def _motion_changes(
+    chosen: StudyParameters, target: TargetSpectrum, suite: Suite, threads: int | None
+) -> Iterator[_Change]:
+    """Changes of how motions are brought to the target: factors of modal pushover (period and springs of the study, a
+    setting per R above 1), and matched motions, scaled so that their mean is not below the target.
+    """
+    shortest, longest = (chosen.scaling_period * multiple for multiple in MATCHED_RANGE)
+
+    def pushover(reduction: float) -> tuple[Suite, ScalingResult]:
+        return suite, scale_modal_pushover(
+            suite,
+            target,
+            period=chosen.scaling_period,
+            reduction=reduction,
+            overstrength=chosen.overstrength,
+            second_slope=chosen.second_slope,
+            third_slope=chosen.third_slope,
+            damping=chosen.damping,
+            threads=threads,
+        )
+
+    def matched() -> tuple[Suite, None]:
+        result = match_suite(
+            suite,
+            target,
+            periods=(shortest, longest),
+            damping=chosen.damping,
+            tolerance=MATCHED_TOLERANCE,
+            threads=threads,
+        )
+        return result.suite, None
+
+    for reduction in chosen.response_modification:
+        if reduction > 1.0:
+            yield _Change(MOTIONS, f"modal pushover, R_y = {reduction:g}", chosen, target, partial(pushover, reduction))
+    setting = f"matched, {100.0 * MATCHED_TOLERANCE:g} %, {shortest:g} to {longest:g} s"
+    yield _Change(MOTIONS, setting, chosen, target, matched)
+
+
+def _heaviest(result: StudyResult) -> list[int]:
+    """Indices of the records that change the largest first-storey underestimation of an occupancy most."""
+    first = result.summary.filter(storey=1).drop_nulls("leave_one_out_motion")
+    rows = first.sort("underestimation_percent", descending=True).unique(
+        ["occupancy", "mu"], keep="first", maintain_order=True
+    )
+    return [int(number) - 1 for number in rows["leave_one_out_motion"].unique(maintain_order=True)]
+
+
+def _geometric_mean(values: Any, axis: int) -> Any:
+    with np.errstate(divide="ignore"):
+        return np.exp(np.log(values).mean(axis=axis))
+
+
+def _rows(
+    choice: str, setting: str, keys: pl.DataFrame, drifts: Drifts, statistic: Callable[..., Any]
+) -> list[tuple[Any, ...]]:
+    """Headline numbers of the first storeys by a statistic over the records; null where one is not finite."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        real, code, attached = (statistic(drifts[model], axis=1) for model in MODELS)
+        compared = {
+            "missed": 100.0 * (real / code - 1.0),
+            "mass": 100.0 * (attached / code - 1.0),
+            "sliding": 100.0 * (real / attached - 1.0),
+        }
+    collapses = sum(np.isinf(values).sum(axis=1) for values in drifts.values())
+    frame = keys.select(_KEYS).with_columns(
+        **{name: pl.Series(np.where(np.isfinite(values), values, np.nan)) for name, values in compared.items()},
+        collapses=pl.Series(collapses),
+    )
+    rows = []
+    for (occupancy, mu), first in frame.filter(storey=1).group_by("occupancy", "mu", maintain_order=True):
+        # NaN of one building is NaN of the mean and of the largest: no number is of fewer buildings.
+        heavy = first.filter(alpha=first["alpha"].max())
+        least, most = heavy.filter(R=first["R"].min()), heavy.filter(R=first["R"].max())
+        largest = np.max(first["missed"].to_numpy())
+        values = [largest, least["missed"].mean(), *(most[name].mean() for name in compared)]
+        known = [value if value is not None and np.isfinite(value) else None for value in values]
+        rows.append((choice, setting, occupancy, mu, *known, first["collapses"].sum()))
+    return rows

@@ -1,0 +1,410 @@
+"""The tables of a study from the rows of its batch: responses, summary with its scatter, and designs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from typing import Any, Final, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+
+from seismass.base.kept import NOTHING_KEPT, KeptResults
+from seismass.base.statistics import quantile
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray
+from seismass.effective_mass import effective_mass
+from seismass.effective_mass.estimate import best_estimate, conservative_estimate, exponent, height_ratio
+from seismass.effective_mass.models import building_of, goods_mass
+from seismass.model.scene import Scene
+from seismass.motions.records import Record
+from seismass.studies.study.columns import DESIGN_COLUMNS, FRACTION_COLUMNS, RESPONSE_COLUMNS, SUMMARY_COLUMNS
+from seismass.studies.study.parameters import KEYS, MODELS, Model, StudyBuilding, StudyParameters
+
+Drifts: TypeAlias = dict[Model, FloatArray]
+"""Peak drifts (m) by model, shape (rows, motions): infinite where the run collapsed, NaN where it failed."""
+
+_PER_STOREY: Final = (
+    "peak_drift",
+    "peak_drift_time",
+    "peak_drift_ratio",
+    "residual_drift",
+    "peak_floor_acceleration",
+    "peak_storey_shear",
+    "peak_slip",
+    "residual_slip",
+    "slip_path",
+)
+"""Columns of a batch that are lists per storey, or per block."""
+
+_TYPES: Final[dict[str, Any]] = {
+    "building": pl.UInt32,
+    "storeys": pl.UInt32,
+    "storey": pl.UInt32,
+    "motion": pl.UInt32,
+    "motions": pl.UInt32,
+    "run": pl.UInt32,
+    "leave_one_out_motion": pl.UInt32,
+    **{f"collapses_{model}": pl.UInt32 for model in MODELS},
+    **dict.fromkeys(("occupancy", "model", "record", "status", "reason", "leave_one_out_record", "kind"), pl.String),
+}
+
+
+def typed(columns: dict[str, Any], names: Sequence[str]) -> pl.DataFrame:
+    """Return columns as a frame, in the order of `names`; numbers are doubles unless they count, NaN is null."""
+    schema = {name: _TYPES.get(name, pl.Float64) for name in names}
+    doubles = [name for name, kind in schema.items() if kind == pl.Float64]
+    return pl.DataFrame({name: columns[name] for name in names}, schema=schema).with_columns(
+        pl.col(doubles).fill_nan(None)
+    )
+
+
+def key_columns(buildings: list[StudyBuilding], repeats: NDArray[np.int64] | int = 1) -> dict[str, pl.Series]:
+    """Return the key columns, each building's as often as `repeats` says."""
+    schema = {key: _TYPES.get(key, pl.Float64) for key in KEYS}
+    labels = pl.DataFrame([building.labels for building in buildings], schema=schema)
+    which = np.repeat(np.arange(len(buildings), dtype=np.uint32), repeats)
+    return labels[which].to_dict()
+
+
+def responses_table(
+    buildings: list[StudyBuilding], names: list[str], table: pl.DataFrame, run_of: NDArray[np.int64]
+) -> pl.DataFrame:
+    """One row per building, model, motion and storey; `run_of` is the row of `table` (one per distinct run) of each
+    analysis, building by building, model by model, motion by motion.
+    """
+    motion = np.tile(np.arange(len(names)), len(buildings) * len(MODELS))
+    model = np.tile(np.repeat(np.arange(len(MODELS)), len(names)), len(buildings))
+    storey = pl.col("storey") - 1
+
+    def per_storey(name: str) -> pl.Expr:
+        return pl.col(name).list.get(storey, null_on_oob=True)
+
+    frame = pl.DataFrame(
+        {
+            **key_columns(buildings, len(MODELS) * len(names)),
+            "model": pl.Series(MODELS, dtype=pl.String).gather(model),
+            "motion": motion + 1,
+            "record": pl.Series(names, dtype=pl.String).gather(motion),
+            "run": run_of + 1,
+        }
+    )
+    frame = pl.concat([frame, table.select("status", "reason", *_PER_STOREY)[run_of]], how="horizontal")
+    # Goods stand on every floor but the roof, so that blocks are numbered as the floors that carry them.
+    return (
+        frame.with_columns(pl.int_ranges(1, pl.col("storeys") + 1).alias("storey"))
+        .explode("storey")
+        .with_columns(
+            *(per_storey(name) for name in _PER_STOREY),
+        )
+        .with_columns(
+            (pl.col("peak_storey_shear") / (STANDARD_GRAVITY * pl.col("storeys"))).alias("peak_shear_over_weight"),
+        )
+        .select(pl.col(name).cast(_TYPES.get(name, pl.Float64)) for name in RESPONSE_COLUMNS)
+    )
+
+
+def drifts_of(responses: pl.DataFrame, motions: int) -> Drifts:
+    """Return the peak drifts of a table of responses, one row per building and storey, as the summary has them."""
+    found: Drifts = {}
+    value = pl.when(pl.col("status") == "collapsed").then(np.inf).otherwise("peak_drift").fill_null(np.nan)
+    ordered = responses.sort("building", "storey", "motion", maintain_order=True)
+    for model in MODELS:
+        rows = ordered.filter(pl.col("model") == model).select(value.alias("drift"))["drift"]
+        found[model] = rows.to_numpy().reshape(-1, motions)
+    return found
+
+
+def summary_table(
+    buildings: list[StudyBuilding], responses: pl.DataFrame, names: list[str], parameters: StudyParameters
+) -> pl.DataFrame:
+    """One row per building and storey: means, scatter, and what one record carries. A failed run makes statistics of
+    its model null; a collapse makes means null and counts as infinite drift in percentiles.
+    """
+    drifts = drifts_of(responses, len(names))
+    storeys = np.array([building.labels["storeys"] for building in buildings])
+    columns: dict[str, Any] = {
+        **key_columns(buildings, storeys),
+        "storey": np.concatenate([np.arange(1, count + 1) for count in storeys]),
+        "motions": np.full(storeys.sum(), len(names)),
+    }
+    for model, values in drifts.items():
+        means = _mean(values)
+        columns |= {
+            f"mean_peak_drift_{model}": means,
+            f"geometric_mean_peak_drift_{model}": _geometric_mean(values),
+            f"median_peak_drift_{model}": quantile(values, 0.5),
+            f"p16_peak_drift_{model}": quantile(values, 0.16),
+            f"p84_peak_drift_{model}": quantile(values, 0.84),
+            f"mean_peak_drift_ratio_{model}": means / parameters.height,
+            f"collapses_{model}": np.isinf(values).sum(axis=1),
+        }
+    slips = (
+        responses.filter(model="real")
+        .sort("building", "storey", "motion", maintain_order=True)["peak_slip"]
+        .to_numpy()
+        .reshape(-1, len(names))
+    )
+    columns["mean_peak_slip"] = np.where(np.isfinite(drifts["real"]).all(axis=1), slips.mean(axis=1), np.nan)
+    columns |= _comparison(drifts, names)
+    return typed(columns, list(SUMMARY_COLUMNS))
+
+
+def _comparison(drifts: Drifts, names: list[str]) -> dict[str, Any]:
+    """The models against each other."""
+    real, code = drifts["real"], drifts["code"]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        means = {model: _mean(values) for model, values in drifts.items()}
+        ratio = means["real"] / means["code"]
+        each = 100.0 * (real / code - 1.0)
+        found: dict[str, Any] = {
+            "ratio": ratio,
+            "ratio_mass": means["attached"] / means["code"],
+            "ratio_sliding": means["real"] / means["attached"],
+            "underestimation_percent": 100.0 * (ratio - 1.0),
+            "geometric_mean_underestimation_percent": 100.0 * (_geometric_mean(real) / _geometric_mean(code) - 1.0),
+            "median_underestimation_percent": quantile(each, 0.5),
+            "p16_underestimation_percent": quantile(each, 0.16),
+            "p84_underestimation_percent": quantile(each, 0.84),
+        }
+        without = 100.0 * ((_sum(real) - real) / (_sum(code) - code) - 1.0)
+    change = np.abs(without - found["underestimation_percent"][:, None])
+    known = np.isfinite(change).all(axis=1) & (len(names) > 1)
+    most = np.argmax(np.where(known[:, None], change, 0.0), axis=1)
+    found |= {
+        "leave_one_out_percent": np.where(known, without[np.arange(len(without)), most], np.nan),
+        "leave_one_out_motion": [int(number) + 1 if there else None for number, there in zip(most, known, strict=True)],
+        "leave_one_out_record": [names[number] if there else None for number, there in zip(most, known, strict=True)],
+    }
+    return found
+
+
+def _sum(values: FloatArray) -> FloatArray:
+    total: FloatArray = values.sum(axis=1, keepdims=True)
+    return total
+
+
+def _mean(values: FloatArray) -> FloatArray:
+    """Mean over the motions; NaN where one has no finite value."""
+    return np.where(np.isfinite(values).all(axis=1), values.mean(axis=1), np.nan)
+
+
+def _geometric_mean(values: FloatArray) -> FloatArray:
+    with np.errstate(divide="ignore", invalid="ignore"):
+        mean = np.exp(np.log(values).mean(axis=1))
+    return np.where(np.isfinite(values).all(axis=1), mean, np.nan)
+
+
+def designs_table(buildings: list[StudyBuilding], parameters: StudyParameters) -> pl.DataFrame:
+    """One row per building and storey: masses, V_e, V_y, periods, P-Delta."""
+    storeys = np.array([building.labels["storeys"] for building in buildings])
+    weight = np.repeat(STANDARD_GRAVITY * storeys, storeys)
+
+    def stacked(values: list[FloatArray]) -> FloatArray:
+        return np.concatenate(values)
+
+    code = [building.scenes["code"] for building in buildings]
+    real = [building.scenes["real"] for building in buildings]
+    strength = stacked([building.yield_shear for building in buildings]) / weight
+    columns: dict[str, Any] = {
+        **key_columns(buildings, storeys),
+        "storey": stacked([np.arange(1, count + 1) for count in storeys]),
+        "design_mass_ratio": stacked([building.design_mass for building in buildings]),
+        "analysis_mass_ratio": stacked([scene.building.mass for scene in code if scene.building is not None]),
+        "height": np.full(storeys.sum(), parameters.height),
+        "geometric_stiffness_ratio": stacked(
+            [scene.geometric_stiffness / scene.building.stiffness for scene in real if scene.building is not None]
+        ),
+        "design_period": stacked([building.analysis.modes.periods for building in buildings]),
+        "spectral_acceleration": stacked([building.analysis.ordinates for building in buildings]),
+        "elastic_shear_over_weight": stacked([building.analysis.storey_shear for building in buildings]) / weight,
+        "yield_shear_over_weight": np.where(np.isfinite(strength), strength, np.nan),
+    }
+    return typed(columns, list(DESIGN_COLUMNS))
+
+
+SHARES: Final = np.linspace(0.0, 1.0, 41)
+"""Shares at which models are solved before roots are refined: fewer than `effective_mass` takes by itself, as a study
+has dozens of buildings. Refined roots are the same."""
+
+
+class Fraction(NamedTuple):
+    """What a study takes from an `EffectiveMass`; the ends of its interval are None where there is none."""
+
+    value: float
+    kind: str
+    low: float | None
+    high: float | None
+    excess: float
+
+
+def fractions_table(
+    buildings: list[StudyBuilding],
+    table: pl.DataFrame,
+    run_of: NDArray[np.int64],
+    effective: dict[Scene, Fraction] | None,
+    corner: float,
+) -> pl.DataFrame:
+    """One row per building: C1, eta, both estimates, and lambda_eff where computed. C1 is the mean peak base shear of
+    the fully attached model over the full weight; null where a run of it collapsed or failed.
+    """
+    runs = run_of.reshape(len(buildings), len(MODELS), -1)[:, MODELS.index("attached")]
+    completed = (table["status"] == "completed").to_numpy()[runs].all(axis=1)
+    shear = table["peak_base_shear"].to_numpy()[runs].mean(axis=1)
+    weight = STANDARD_GRAVITY * np.array([_attached_mass(building.scenes["attached"]) for building in buildings])
+    coefficient = np.where(completed, shear / weight, np.nan)
+    mu = np.array([building.labels["mu"] for building in buildings])
+    with np.errstate(divide="ignore"):
+        eta: FloatArray = mu / coefficient
+    ratios, powers = (np.array(values) for values in zip(*_of_rule(buildings, table, runs, corner), strict=True))
+    columns: dict[str, Any] = {
+        **key_columns(buildings),
+        "base_shear_coefficient": coefficient,
+        "eta": eta,
+        "height_ratio": ratios,
+        "exponent": powers,
+        "estimate": best_estimate(eta, powers, ratios),
+        "conservative": conservative_estimate(eta, ratios),
+    }
+    found = [None if effective is None else effective[building.scenes["real"]] for building in buildings]
+    columns |= {
+        "effective": [np.nan if one is None else one.value for one in found],
+        "kind": [None if one is None else one.kind for one in found],
+        "low": [None if one is None else one.low for one in found],
+        "high": [None if one is None else one.high for one in found],
+        "excess": [None if one is None or one.kind != "one" else one.excess for one in found],
+    }
+    return typed(columns, list(FRACTION_COLUMNS))
+
+
+def _of_rule(
+    buildings: list[StudyBuilding], table: pl.DataFrame, runs: NDArray[np.int64], corner: float
+) -> Iterator[tuple[float, float]]:
+    """Yield h_g/h_m and the exponent of each building; it yields where its mean peak drift is above that of V_y."""
+    drifts = table["peak_drift"]
+    for building, own in zip(buildings, runs, strict=True):
+        bare = building_of(building.scenes["real"])
+        mean = np.mean([drifts[int(run)].to_numpy() for run in own], axis=0)
+        yields = bool((mean > bare.yield_shear / bare.stiffness).any())
+        ratio = height_ratio(goods_mass(building.scenes["real"]), bare.mass, bare.heights)
+        yield ratio, float(exponent(float(bare.periods[0]), corner, yields))
+
+
+def _attached_mass(scene: Scene) -> float:
+    return 0.0 if scene.building is None else float(scene.building.mass.sum())
+
+
+def effective_fractions(
+    buildings: list[StudyBuilding],
+    records: list[Record],
+    parameters: StudyParameters,
+    *,
+    threads: int | None = None,
+    progress: Callable[[int, int], object] | None = None,
+    kept: KeptResults = NOTHING_KEPT,
+) -> dict[Scene, Fraction]:
+    """Return the effective fraction of each distinct building with its goods. Damping is that of the study: the real
+    building's matrix, or with `damping_base="own"` the ratio in the modes of each model.
+    """
+    scenes = list(dict.fromkeys(building.scenes["real"] for building in buildings))
+    damping: Literal["same", "ratio"] = "ratio" if parameters.damping_base == "own" else "same"
+    found = {}
+    for number, scene in enumerate(scenes, start=1):
+        solve = partial(_solved, scene, records, damping, threads)
+        found[scene] = Fraction(*kept.of(f"effective-{number}", solve).row(0))
+        if progress is not None:
+            progress(number, len(scenes))
+    return found
+
+
+def _solved(
+    scene: Scene, records: list[Record], damping: Literal["same", "ratio"], threads: int | None
+) -> pl.DataFrame:
+    """A `Fraction` as a table of one row."""
+    one = effective_mass(scene, records, damping=damping, fractions=SHARES, threads=threads)
+    low, high = one.interval or (None, None)
+    types = {"value": pl.Float64, "kind": pl.String, "low": pl.Float64, "high": pl.Float64, "excess": pl.Float64}
+    return pl.DataFrame([Fraction(one.value, one.kind, low, high, one.excess)], schema=types, orient="row")
+
+
+ROUNDING: Final = 1e-7
+"""Underestimations (%) that differ by less are the same: drifts agree to 1e-9 of themselves."""
+
+_STOREY = ["occupancy", "storeys", "period", "storey"]
+_PLACE: Final = [
+    "underestimation_percent",
+    "storeys",
+    "period",
+    "R",
+    "alpha",
+    "storey",
+    "median_underestimation_percent",
+    "p16_underestimation_percent",
+    "p84_underestimation_percent",
+    "leave_one_out_percent",
+    "leave_one_out_record",
+]
+
+
+def findings(summary: pl.DataFrame, fractions: pl.DataFrame, code: str = "code") -> list[dict[str, Any]]:
+    """Return a dict per occupancy and friction in the order of the summary: counts and the extremes of underestimation
+    (%), how it grows with alpha and R, first storeys by R and alpha. Storeys without a mean are left out.
+    """
+    entries = []
+    keys = ["building", "eta", "estimate", "conservative", "effective"]
+    joined = summary.join(fractions.select(keys), on="building", how="left", maintain_order="left").with_columns(
+        mass_percent=100.0 * (pl.col("ratio_mass") - 1.0), sliding_percent=100.0 * (pl.col("ratio_sliding") - 1.0)
+    )
+    for (occupancy, mu), rows in joined.group_by("occupancy", "mu", maintain_order=True):
+        has_result = pl.col("underestimation_percent").is_finite()
+        known = rows.filter(has_result)
+        below = known.filter(pl.col("underestimation_percent") < -ROUNDING)
+        ranked = known.sort("underestimation_percent", descending=True)
+        place = [*_PLACE, "mass_percent", "sliding_percent"]
+        first = rows.filter(pl.col("storey") == 1)
+        compared = ("underestimation_percent", "mass_percent", "sliding_percent", *keys[1:])
+        means = first.group_by("R", "alpha").agg(_mean_of_all(name) for name in compared).sort("R", "alpha")
+        entries.append(
+            {
+                "occupancy": occupancy,
+                "mu": mu,
+                "code": code,
+                "lambda_design": rows["lambda_design"][0],
+                "lambda_analysis": rows["lambda_analysis"][0],
+                "storeys_compared": known.height,
+                "storeys_without_result": rows.height - known.height,
+                "collapses": {model: int(first[f"collapses_{model}"].sum()) for model in ("real", "code", "attached")},
+                "code_gives_more": below.height,
+                "code_gives_more_top": below.filter(pl.col("storey") == pl.col("storeys")).height,
+                "largest": _finite(ranked.select(place).row(0, named=True)) if known.height else None,
+                "smallest": _finite(ranked.select(place).row(-1, named=True)) if known.height else None,
+                "growth": {
+                    "alpha": _growth(rows, "alpha", "R"),
+                    "R": _growth(rows, "R", "alpha"),
+                    "alpha_first_storey": _growth(first, "alpha", "R"),
+                    "R_first_storey": _growth(first, "R", "alpha"),
+                },
+                "first_storey": [_finite(row) for row in means.to_dicts()],
+            }
+        )
+    return entries
+
+
+def _finite(row: dict[str, Any]) -> dict[str, Any]:
+    """The row with null for what is not finite, which JSON does not have."""
+    return {name: None if isinstance(value, float) and not np.isfinite(value) else value for name, value in row.items()}
+
+
+def _mean_of_all(name: str) -> pl.Expr:
+    """Mean over the buildings; null where one of them has no number, so that no mean is of fewer buildings."""
+    value = pl.col(name)
+    return pl.when(value.null_count() == 0).then(value.mean()).alias(name)
+
+
+def _growth(rows: pl.DataFrame, varied: str, fixed: str) -> dict[str, int]:
+    # Rows without a result stay in their places: rows on both sides of one are not a single step apart.
+    value = pl.col("underestimation_percent")
+    known = pl.when(value.is_finite()).then(value)
+    steps = rows.sort(varied).with_columns(known.diff().over([*_STOREY, fixed]).alias("step"))
+    return {"pairs": steps["step"].count(), "grows": int((steps["step"] > ROUNDING).sum())}
