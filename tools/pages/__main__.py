@@ -32,13 +32,16 @@ def main(arguments: list[str]) -> int:
             print(f"{name}: {error}", file=sys.stderr)
             code = 2
             continue
-        faults = page.faults()
         if check:
+            faults = page.faults()
             code = max(code, bool(faults))
+            said = [f"not current: {', '.join(faults)}" if faults else "current"]
         else:
             page.write()
-        kept = [part for part in page.parts if part not in page.asked]
-        print(f"{name}: {', '.join(faults) or 'current'}{'; not made: ' if kept else ''}{', '.join(kept)}")
+            said = ["written"]
+        if kept := [part for part in page.parts if part not in page.asked]:
+            said.append(f"not made: {', '.join(kept)}")
+        print(f"{name}: {'; '.join(said)}")
     return code
 
 
