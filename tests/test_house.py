@@ -53,8 +53,8 @@ def test_every_error_is_a_seismass_error_and_the_builtin_one() -> None:
 def test_import_leaves_what_is_slow_to_import_for_when_it_is_used() -> None:
     """Names of batches and studies bring NumPy and Polars, and no SciPy, Matplotlib or PyWavelets."""
     names = (
-        "seismass.simulate_many, seismass.studies.campaign.Campaign, seismass.effective_mass, "
-        "seismass.studies.fragility, seismass.assess"
+        "seismass.simulate_many, seismass.campaign.Campaign, seismass.effective_mass, "
+        "seismass.fragility, seismass.assess"
     )
     program = f"import sys, seismass; {names}; print(*sorted({{name.partition('.')[0] for name in sys.modules}}))"
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split()

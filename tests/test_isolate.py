@@ -7,7 +7,8 @@ import warnings
 import pytest
 from matplotlib.figure import Figure
 
-from seismass.media.style import STYLE, apart, isolated, plain, sentence_html, shortened
+from seismass.media.roles import apart, isolated, sentence_html
+from seismass.media.style import STYLE, plain, shortened
 
 ARABIC, CHINESE = "\u0645\u0633\u062a\u0648\u062f\u0639", "\u5009\u5eab"
 DOTS = "\N{HORIZONTAL ELLIPSIS}"

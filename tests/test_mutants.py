@@ -124,10 +124,10 @@ def test_page_counts_faults_that_are_faults(tools: dict[str, dict[str, Any]]) ->
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in page.splitlines() if line.startswith("|")]
     assert rows[2:] == [
         ["**Python, listed**", "2", "1", "50 %", "1", ""],
-        ["slip", "2", "1", "50 %", "1", ""],
+        ["studies", "2", "1", "50 %", "1", ""],
         ["**Python, drawn at random**", "2", "1", "50 % (9 to 91 %)", "0", "1"],
         ["cli", "1", "1", "100 %", "0", "1"],
-        ["risk", "1", "0", "0 %", "0", "0"],
+        ["studies", "1", "0", "0 %", "0", "0"],
     ]
     unseen, none = page.partition("## What no test sees")[2].split("## What is no fault")
     assert "- 2. two\n" in unseen and "- five\n" in unseen and "one" not in unseen

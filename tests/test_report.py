@@ -18,7 +18,7 @@ import seismass as sm
 from seismass.assessment.building_file import example_file
 from seismass.cli import main
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
-from seismass.media.style import LAMBDA, MU, lettered
+from seismass.media.roles import LAMBDA, MU, lettered
 from seismass.show.assessment.page import building_page
 from seismass.show.assessment.tables import assessment_tables
 from seismass.show.study.answer import answer, assumptions, compared_rules, one_line, percent
@@ -223,7 +223,7 @@ def test_page_of_a_study_of_several_frictions_without_validation(tmp_path: Path)
         (lambda out: (out / "summary.parquet").write_bytes(b"x"), "content of summary.parquet must be a Parquet table"),
         (lambda out: (out / "study.json").write_text("{"), "content of study.json must be JSON"),
         (lambda out: (out / "study.json").write_text("[]"), "content of study.json must be a JSON object; got list"),
-        (lambda out: (out / "study.json").write_text("{}"), "schema_version of study.json must be 3; got None"),
+        (lambda out: (out / "study.json").write_text("{}"), "schema_version of study.json must be 4; got None"),
         (lambda out: (out / "study.json").unlink(), "No such file"),
     ],
 )

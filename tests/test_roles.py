@@ -11,9 +11,9 @@ import pytest
 
 import seismass
 from seismass.assessment import models
-from seismass.media import style as roles
+from seismass.media import roles
 from seismass.media.page import templates
-from seismass.media.style import (
+from seismass.media.roles import (
     ALPHA,
     BLOCK_COLOURS,
     CSS_NAMES,
@@ -21,12 +21,12 @@ from seismass.media.style import (
     LAMBDA,
     MODELS,
     MU,
-    SERIES,
     Role,
     css,
     lettered,
     model_name,
 )
+from seismass.media.style import SERIES
 
 PACKAGE = Path(seismass.__file__).parent
 SHOWN = sorted((PACKAGE / "show").rglob("*.py"))
@@ -70,7 +70,9 @@ def test_no_template_names_the_colour_of_a_model_by_itself() -> None:
     """Colours of the style sheets are those of paper, ink, lines, links and verdicts."""
     of_roles = {colour.lower() for role in MODELS.values() for colour in (role.colour, role.text, role.dark)}
     of_roles -= {roles.ADVISED.text, roles.ADVISED.dark, roles.BARE.text, roles.BARE.dark}  # those of ink and soft ink
-    for path in itertools.chain(*((PACKAGE / part).rglob("*.*") for part in ("media/templates", "show/explore/templates"))):
+    for path in itertools.chain(
+        *((PACKAGE / part).rglob("*.*") for part in ("media/templates", "show/explore/templates"))
+    ):
         found = {colour.lower() for colour in re.findall(r"#[0-9a-fA-F]{6}\b", path.read_text(encoding="utf-8"))}
         assert not found & of_roles, path
 

@@ -408,8 +408,8 @@ FAULTS = [
      'acceleration=block.values * ACCELERATION_UNITS["mm/s2"]',
      "test_record_formats", ""),
     (201, "GeoNet: samples of the recorded motion are counted", "motions/records/formats/knet.py",
-     "_COUNTS: Final = slice(33, 36)",
-     "_COUNTS: Final = slice(30, 33)",
+     "_COUNTS_GEONET: Final = slice(33, 36)",
+     "_COUNTS_GEONET: Final = slice(30, 33)",
      "test_record_formats", ""),
 ]
 REASONS: dict[str, str] = {}

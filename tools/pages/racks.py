@@ -11,7 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pages.parts import ROOT, Page, table
-from seismass.media.style import GREY, INK, SERIES, STYLE, grid_lines
+from seismass.media.roles import GREY, INK
+from seismass.media.style import SERIES, STYLE, grid_lines
 
 SUITE: Final = "far_field"
 GOODS: Final = ("sliding", "fixed", "yielding")

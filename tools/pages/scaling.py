@@ -10,7 +10,7 @@ import seismass as sm
 from pages.parts import Page, table
 from seismass.design.scaling.oscillator import deformation_ratio
 from seismass.design.scaling.pushover import PushoverScaling
-from seismass.motions.spectra.inelastic import Oscillators
+from seismass.motions.spectra.inelastic import Oscillator, Oscillators
 
 REDUCTION: Final = 4.0
 TARGET: Final = sm.TargetSpectrum.asce7()
@@ -68,7 +68,7 @@ def factors_table(suite: sm.Suite, results: dict[str, sm.scaling.ScalingResult])
 def deformations(suite: sm.Suite, pushover: PushoverScaling, factors: np.ndarray) -> np.ndarray:
     """Return the peak deformation of the pushover's oscillator under scaled records (m)."""
     assert pushover.oscillator is not None
-    runner = Oscillators([pushover.oscillator.building], list(suite), float(factors.max()), None)
+    runner = Oscillators([pushover.oscillator.of_spectrum()], list(suite), float(factors.max()), None)
     return runner.peaks(np.zeros(len(suite), dtype=np.int64), np.arange(len(suite)), factors)
 
 
@@ -118,9 +118,9 @@ def ratios_table(folder: sm.Suite) -> str:
     rows = []
     for period in periods:
         elastic = sm.spectra.inelastic_spectrum(folder, [period], ductility=1.0, overstrength=1.0, second_slope=0.0)
-        building = sm.Building.uniform(1, period, yield_shear_over_weight=1.0, overstrength=1.0, second_slope=0.0)
+        oscillator = Oscillator(period, sm.STANDARD_GRAVITY, 0.05, 1.0, 0.0, 0.0)
         strengths = elastic.elastic_strength[:, 0]
-        runner = Oscillators([building], list(folder), float(max(reductions) / strengths.min()), None)
+        runner = Oscillators([oscillator], list(folder), float(max(reductions) / strengths.min()), None)
         cells = []
         for reduction in reductions:
             factor = reduction / strengths

@@ -11,7 +11,8 @@ import polars as pl
 from matplotlib.figure import Figure
 
 from pages.parts import ROOT, Page, table
-from seismass.media.style import BLUE, GREY, STYLE, VERMILION
+from seismass.media.roles import BLUE, GREY, VERMILION
+from seismass.media.style import STYLE
 
 sys.path.append(str(ROOT / "benchmarks"))
 

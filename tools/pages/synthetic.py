@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 
 import seismass as sm
 from pages.parts import Page, table
-from seismass.media.style import BLUE, GREY, INK, STYLE, VERMILION
+from seismass.media.roles import BLUE, GREY, INK, VERMILION
+from seismass.media.style import STYLE
 from seismass.motions.records.synthetic.seven import ALL_RECIPES, Recipe
 from seismass.motions.records.synthetic.site import SITE_RECIPES
 from seismass.studies.study import run_study

@@ -19,7 +19,7 @@ from seismass.effective_mass.estimate import rule_by_hand
 from seismass.effective_mass.models import base_of_model, frame_mass
 from seismass.effective_mass.runs import named_motions, solve
 from seismass.effective_mass.search import OWNER
-from seismass.media.style import MODELS
+from seismass.media.roles import MODELS
 from seismass.model.codes import NOT_CHECKED, VERIFIED
 from seismass.model.scene import Scene
 from seismass.motions.motion import MotionLike

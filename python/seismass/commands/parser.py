@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from typing import Final
 
 from seismass._kernel import VERSION
-from seismass.commands.frame import HelpText, grouped
+from seismass.commands.help_text import HelpText, grouped
 
 COMMANDS: Final = {
     "building": ("building", "your own building: how much of its live load to count as mass"),

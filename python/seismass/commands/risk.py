@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from seismass.commands.answer_output import give_answer
-from seismass.commands.frame import RUNS, Command, progress
+from seismass.commands.frame import Command, progress
+from seismass.commands.help_text import RUNS
 from seismass.commands.options import (
     add_answer_options,
     add_code_share_option,

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 from seismass.base.values import counted
 from seismass.commands.answer_output import write_figure
-from seismass.commands.frame import RUNS, Command, show
+from seismass.commands.frame import Command, show
+from seismass.commands.help_text import RUNS
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_json_option,

@@ -7,7 +7,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass.commands.frame import RUNS, Command
+from seismass.commands.frame import Command
+from seismass.commands.help_text import RUNS
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_reading_options,

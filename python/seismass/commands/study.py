@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING
 
 from seismass._kernel import VERSION
 from seismass.commands.answer_output import print_answer, write_answer
-from seismass.commands.frame import DONE, FAILED, Command, progress
+from seismass.commands.frame import Command, progress
+from seismass.commands.help_text import DONE, FAILED
 from seismass.commands.options import (
     CODE_HELP,
     SPRING_OPTIONS,

@@ -6,7 +6,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from seismass.commands.frame import RUNS, Command, show
+from seismass.commands.frame import Command, show
+from seismass.commands.help_text import RUNS
 from seismass.commands.options import add_out_option, check_files, numbers_option
 from seismass.motions.scaling.suite import TARGET_HELP
 

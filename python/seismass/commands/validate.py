@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 
 from seismass.commands.answer_output import give_answer
-from seismass.commands.frame import RUNS, Command, progress
+from seismass.commands.frame import Command, progress
+from seismass.commands.help_text import RUNS
 from seismass.commands.options import (
     add_answer_options,
     add_records_options,

@@ -33,7 +33,7 @@ from markupsafe import Markup, escape
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import refusal
-from seismass.media.style import SLIDE, css, isolated
+from seismass.media.roles import SLIDE, css, isolated
 from seismass.media.svg import figure_html
 
 __all__ = ["Format", "Section", "facts_html", "figure_html", "page_html", "table_html", "templates", "text_html"]

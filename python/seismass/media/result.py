@@ -21,7 +21,7 @@ from seismass.base.errors import InvalidOption, SeismassError
 from seismass.base.files import open_regular, read_file, write_table, written_whole
 from seismass.base.values import FloatArray, as_path, brief, refusal, short
 from seismass.base.views import view
-from seismass.media.style import CODE, SLIDE
+from seismass.media.roles import CODE, SLIDE
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

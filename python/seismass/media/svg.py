@@ -16,7 +16,8 @@ from matplotlib.figure import Figure
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import brief, refusal
-from seismass.media.style import BLUE, GREEN, GREY, INK, ORANGE, PAPER, PURPLE, SKY, STYLE, VERMILION, lay_out
+from seismass.media.roles import BLUE, GREEN, GREY, INK, ORANGE, PAPER, PURPLE, SKY, VERMILION
+from seismass.media.style import STYLE, lay_out
 
 FONTS: Final = "'DejaVu Sans', Verdana, sans-serif"
 """Fonts of inline figures. The second has the widths of the first, by which figures are laid out."""

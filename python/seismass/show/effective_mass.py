@@ -25,7 +25,7 @@ from seismass.effective_mass.estimate import (
 from seismass.effective_mass.live_load import LiveLoadUncertainty
 from seismass.effective_mass.result import EffectiveMass
 from seismass.media.result import named_figure
-from seismass.media.style import (
+from seismass.media.roles import (
     ADVISED,
     ALPHA,
     ATTACHED,
@@ -42,9 +42,9 @@ from seismass.media.style import (
     SKY,
     SLIDE,
     SLIDE_HIGH,
-    STYLE,
     lettered,
 )
+from seismass.media.style import STYLE
 from seismass.media.text_table import text_line
 from seismass.model.codes import MARK, NOT_CHECKED, code_fraction
 

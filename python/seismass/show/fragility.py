@@ -17,20 +17,8 @@ from matplotlib.patches import Patch
 
 from seismass.base.values import FloatArray, counted
 from seismass.media.result import named_figure
-from seismass.media.style import (
-    GREY,
-    INK,
-    LIMIT,
-    MODELS,
-    PAPER,
-    SERIES,
-    SLIDE,
-    STYLE,
-    grid_lines,
-    model_name,
-    plain,
-    say,
-)
+from seismass.media.roles import GREY, INK, LIMIT, MODELS, PAPER, SLIDE, model_name
+from seismass.media.style import SERIES, STYLE, grid_lines, plain, say
 from seismass.media.text_table import ends_text, number_text
 from seismass.studies.fragility.limits import LimitState
 from seismass.studies.fragility.result import FragilityAnalysis

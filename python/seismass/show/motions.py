@@ -17,7 +17,8 @@ from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, counted, refusal
 from seismass.media.result import named_figure
-from seismass.media.style import BLUE, GREEN, GREY, INK, ORANGE, PERIOD_TICKS, STYLE, VERMILION, plain
+from seismass.media.roles import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
+from seismass.media.style import PERIOD_TICKS, STYLE, plain
 from seismass.media.svg import CAPTION_CHARACTERS
 from seismass.media.text_table import text_line
 from seismass.motions.pulses.extraction import (

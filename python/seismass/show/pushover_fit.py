@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 
 from seismass.design import PushoverFit
 from seismass.media.result import named_figure
-from seismass.media.style import BLUE, INK, STYLE, VERMILION, columns, grid_lines
+from seismass.media.roles import BLUE, INK, VERMILION
+from seismass.media.style import STYLE, columns, grid_lines
 from seismass.media.text_table import text_table
 
 _ROW: Final = 4

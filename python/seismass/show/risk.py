@@ -18,7 +18,7 @@ from seismass.base.values import FloatArray, counted
 from seismass.effective_mass.models import Kind
 from seismass.effective_mass.result import KIND_TEXTS as EFFECTIVE_KINDS
 from seismass.media.result import named_figure
-from seismass.media.style import (
+from seismass.media.roles import (
     ADVISED,
     ATTACHED,
     CODE,
@@ -29,11 +29,9 @@ from seismass.media.style import (
     OVER_MODEL,
     SHARE,
     SLIDE,
-    STYLE,
-    grid_lines,
     model_name,
-    plain,
 )
+from seismass.media.style import STYLE, grid_lines, plain
 from seismass.media.svg import CAPTION_CHARACTERS
 from seismass.media.text_table import interval_text, number_text, text_line
 from seismass.show.effective_mass import STORAGE_CODES, mark_codes, marked_legend

@@ -15,7 +15,8 @@ from matplotlib.lines import Line2D
 
 from seismass.base.values import counted
 from seismass.media.result import named_figure
-from seismass.media.style import GREY, INK, LIMIT, MU, SERIES, SLIDE, STYLE, grid_lines, plain, say
+from seismass.media.roles import GREY, INK, LIMIT, MU, SLIDE
+from seismass.media.style import SERIES, STYLE, grid_lines, plain, say
 from seismass.media.svg import CAPTION_CHARACTERS
 from seismass.media.text_table import interval_text, number_text, text_line
 from seismass.studies.slip.squat import TITLES

@@ -14,7 +14,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from seismass.media.result import named_figure
-from seismass.media.style import ALPHA, ATTACHED, BLOCK_COLOURS, BLUE, GREY, INK, MU, SLIDE, STYLE, VERMILION
+from seismass.media.roles import ALPHA, ATTACHED, BLOCK_COLOURS, BLUE, GREY, INK, MU, SLIDE, VERMILION
+from seismass.media.style import STYLE
 from seismass.media.text_table import text_line
 from seismass.studies.validation import Claim, Validation
 from seismass.studies.validation.shaking_table import CENTRAL, DAMPINGS, FRICTIONS, MASS_RATIOS, Platform

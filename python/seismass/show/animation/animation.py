@@ -14,7 +14,7 @@ from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content
 from seismass.base.views import Card, view
 from seismass.effective_mass.models import attached_scene
-from seismass.media.style import SLIDE
+from seismass.media.roles import SLIDE
 from seismass.model.codes import Use, code_fraction
 from seismass.model.scene import Scene, rack_levels, spring_names
 from seismass.motions.motion import Motion, MotionLike, as_motion

@@ -11,7 +11,7 @@ from matplotlib import get_data_path
 from PIL import Image, ImageDraw, ImageFont
 
 from seismass.base.values import FloatArray
-from seismass.media.style import ATTACHED, BARE, CODE, SLIDE, YIELDS, Role
+from seismass.media.roles import ATTACHED, BARE, CODE, SLIDE, YIELDS, Role
 from seismass.model.scene import rack_levels
 from seismass.show.animation.animation import GROUND_HEIGHT, Good, Run, standing_goods
 

@@ -15,7 +15,7 @@ from PIL import Image, ImageDraw
 from seismass.base.errors import InvalidOption, MissingPackage
 from seismass.base.files import written_whole
 from seismass.base.values import FloatArray, as_path, as_positive, brief, refusal
-from seismass.media.style import SLIDE
+from seismass.media.roles import SLIDE
 from seismass.show.animation.picture import (
     CURVES,
     FINER,

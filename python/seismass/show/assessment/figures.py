@@ -18,9 +18,9 @@ from seismass.assessment.result import Assessment, shown_figures
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, counted
 from seismass.media.result import named_figure
-from seismass.media.style import ADVISED as ADVISED_ROLE
-from seismass.media.style import BARE as BARE_ROLE
-from seismass.media.style import (
+from seismass.media.roles import ADVISED as ADVISED_ROLE
+from seismass.media.roles import BARE as BARE_ROLE
+from seismass.media.roles import (
     EFFECTIVE,
     GREY,
     INK,
@@ -29,17 +29,14 @@ from seismass.media.style import (
     MODELS,
     MU,
     OVER_MODEL,
-    PERIOD_TICKS,
     SHARE,
     SLIDE,
     SPECTRUM,
-    STYLE,
     TARGET,
     apart,
-    plain,
     sentence_html,
-    shortened,
 )
+from seismass.media.style import PERIOD_TICKS, STYLE, plain, shortened
 from seismass.model.codes import AS_STATED, MARK, NOT_CHECKED, VERIFIED
 from seismass.show.assessment.tables import AssessmentTables, Fraction, assessment_tables
 from seismass.show.effective_mass import STORAGE_CODES, marked_legend

@@ -29,7 +29,7 @@ from seismass.media.page import (
     text_html,
 )
 from seismass.media.result import PAGE, as_written, check_out, edited_files, write_folder
-from seismass.media.style import EFFECTIVE, ETA, LAMBDA, MU, OMEGA, OVER_MODEL, lettered, sentence_html
+from seismass.media.roles import EFFECTIVE, ETA, LAMBDA, MU, OMEGA, OVER_MODEL, lettered, sentence_html
 from seismass.media.text_table import number_text
 from seismass.show.assessment.page_input import Pictures, in_motion_html, input_html, motions_html, names_of
 from seismass.show.assessment.sheet import NOT_COVERED, sheet_html, signed_percent

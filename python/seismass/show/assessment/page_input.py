@@ -22,7 +22,7 @@ from seismass.media.page import (
     whole_html,
 )
 from seismass.media.page import PAGE as LIVE_PAGE
-from seismass.media.style import MU, OMEGA, isolated, lettered, sentence_html
+from seismass.media.roles import MU, OMEGA, isolated, lettered, sentence_html
 from seismass.media.svg import short_svg
 from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
 from seismass.show.animation.html import element_html

@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from seismass.assessment.models import ADVISED, BARE, NAMES
 from seismass.media.page import table_html, text_html, whole_html
-from seismass.media.style import apart, isolated, sentence_html
+from seismass.media.roles import apart, isolated, sentence_html
 from seismass.show.assessment.figures import answer_lines, box_class, building_drawing
 from seismass.show.assessment.tables import AssessmentTables
 

@@ -21,7 +21,7 @@ from seismass.design.scaling import scale_asce7_10
 from seismass.effective_mass import effective_mass
 from seismass.effective_mass.models import bootstrap_counts
 from seismass.media.page import page_html, templates
-from seismass.media.style import CODE, SLIDE, YIELDS
+from seismass.media.roles import CODE, SLIDE, YIELDS
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import Building
 from seismass.model.codes import MARK, NOT_CHECKED, code_fraction
@@ -56,14 +56,14 @@ class Bin:
 BINS: Final = (
     Bin(0.0, 0.2, 0.0, 0.0, 0.03),
     Bin(0.2, 0.3, 0.0, 0.0, 0.13),
-    Bin(0.3, 0.4, 0.0, 0.07, 0.24),
+    Bin(0.3, 0.4, 0.0, 0.08, 0.24),
     Bin(0.4, 0.5, 0.0, 0.26, 0.41),
-    Bin(0.5, 0.6, 0.09, 0.38, 0.55),
+    Bin(0.5, 0.6, 0.09, 0.38, 0.54),
     Bin(0.6, 0.7, 0.28, 0.52, 0.68),
     Bin(0.7, 0.8, 0.48, 0.68, 0.84),
     Bin(0.8, 1.0, 0.68, 0.85, 0.95),
     Bin(1.0, 1.2, 0.87, 0.97, 1.0),
-    Bin(1.2, 1.5, 0.94, 1.0, 1.0),
+    Bin(1.2, 1.5, 0.95, 1.0, 1.0),
     Bin(1.5, 2.0, 0.99, 1.0, 1.0),
     Bin(2.0, None, 1.0, 1.0, 1.0),
 )

@@ -16,22 +16,8 @@ from seismass.base.errors import InvalidOption
 from seismass.base.statistics import quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_number, brief, refusal
-from seismass.media.style import (
-    ALPHA,
-    BLOCK_COLOURS,
-    BLUE,
-    GREY,
-    INK,
-    LIMIT,
-    MU,
-    PAPER,
-    SKY,
-    STYLE,
-    grid_lines,
-    plain,
-    say,
-    single,
-)
+from seismass.media.roles import ALPHA, BLOCK_COLOURS, BLUE, GREY, INK, LIMIT, MU, PAPER, SKY
+from seismass.media.style import STYLE, grid_lines, plain, say, single
 from seismass.studies.fragility.fragility import fit_counts
 
 _LABELS: Final[dict[str, tuple[str, float]]] = {

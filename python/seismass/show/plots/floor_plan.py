@@ -15,7 +15,8 @@ from matplotlib.patches import Rectangle
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_positive, brief, refusal
-from seismass.media.style import BLUE, GREY, INK, ORANGE, PAPER, STYLE, VERMILION, grid_lines
+from seismass.media.roles import BLUE, GREY, INK, ORANGE, PAPER, VERMILION
+from seismass.media.style import STYLE, grid_lines
 from seismass.runs.plane import PlaneResponse
 
 OWNER: Final = "floor plan"

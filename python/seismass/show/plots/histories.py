@@ -15,26 +15,8 @@ from matplotlib.patches import Patch
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_count, brief, is_one_of, refusal
-from seismass.media.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    INK,
-    PAPER,
-    PURPLE,
-    RING,
-    SERIES,
-    STYLE,
-    VERMILION,
-    YIELDS,
-    Panels,
-    grid_lines,
-    panels,
-    ring,
-    say,
-    single,
-    zero_line,
-)
+from seismass.media.roles import BLUE, GREEN, GREY, INK, PAPER, PURPLE, VERMILION, YIELDS
+from seismass.media.style import RING, SERIES, STYLE, Panels, grid_lines, panels, ring, say, single, zero_line
 from seismass.model.scene import goods_names, spring_names
 from seismass.runs.response import DEFAULT_POINTS, EVENT_KINDS, Response
 from seismass.runs.simulate import simulate

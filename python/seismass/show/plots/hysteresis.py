@@ -16,22 +16,8 @@ from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.design import Pushover
-from seismass.media.style import (
-    BLUE,
-    GREY,
-    INK,
-    LIMIT,
-    PURPLE,
-    SERIES,
-    STYLE,
-    VERMILION,
-    columns,
-    grid_lines,
-    panels,
-    say,
-    single,
-    zero_line,
-)
+from seismass.media.roles import BLUE, GREY, INK, LIMIT, PURPLE, VERMILION
+from seismass.media.style import SERIES, STYLE, columns, grid_lines, panels, say, single, zero_line
 from seismass.model.building import Building
 from seismass.model.scene import floor_name, goods_levels, goods_names, rack_levels, spring_names
 from seismass.runs.response import Response

@@ -19,7 +19,8 @@ from seismass.base.errors import InvalidOption
 from seismass.base.statistics import quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_number, brief, is_one_of, refusal
-from seismass.media.style import BLUE, GREY, INK, LIMIT, PERIOD_TICKS, SERIES, STYLE, columns, grid_lines, say, single
+from seismass.media.roles import BLUE, GREY, INK, LIMIT
+from seismass.media.style import PERIOD_TICKS, SERIES, STYLE, columns, grid_lines, say, single
 from seismass.motions.motion import Motion
 from seismass.motions.spectra import response_spectrum
 from seismass.runs.response import Response

@@ -15,7 +15,8 @@ from matplotlib.lines import Line2D
 
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
-from seismass.media.style import BLUE, EFFECTIVE, GREY, LAMBDA, MU, OMEGA, PERIOD_TICKS, VERMILION, plain
+from seismass.media.roles import BLUE, EFFECTIVE, GREY, LAMBDA, MU, OMEGA, VERMILION
+from seismass.media.style import PERIOD_TICKS, plain
 from seismass.media.svg import CAPTION_CHARACTERS
 from seismass.media.text_table import change_text, number_text, text_line
 from seismass.studies.study import motions_text

@@ -18,7 +18,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from seismass.effective_mass.estimate import best_estimate, conservative_estimate
-from seismass.media.style import (
+from seismass.media.roles import (
     ALPHA,
     ATTACHED,
     BLOCK_COLOURS,
@@ -33,10 +33,8 @@ from seismass.media.style import (
     PAPER,
     SKY,
     SLIDE,
-    STYLE,
-    lay_out,
-    plain,
 )
+from seismass.media.style import STYLE, lay_out, plain
 from seismass.show.study.answer import (
     LEAST_WIDTH,
     StudyFrames,

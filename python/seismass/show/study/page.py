@@ -19,7 +19,7 @@ from seismass.media.page import (
     table_html,
     text_html,
 )
-from seismass.media.style import ALPHA, ATTACHED, CODE, ETA, MU, SLIDE, lettered, sentence_html
+from seismass.media.roles import ALPHA, ATTACHED, CODE, ETA, MU, SLIDE, lettered, sentence_html
 from seismass.media.svg import short_svg
 from seismass.show.animation.html import element_html
 from seismass.show.study.answer import (

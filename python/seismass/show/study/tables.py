@@ -16,7 +16,7 @@ from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import brief, refusal
 from seismass.effective_mass.estimate import RULE, RULE_IN_WORDS, SAFE_RULE
 from seismass.media.page import table_html
-from seismass.media.style import ATTACHED, CODE, EFFECTIVE, ETA, SLIDE, lettered
+from seismass.media.roles import ATTACHED, CODE, EFFECTIVE, ETA, SLIDE, lettered
 from seismass.show.animation import animate
 from seismass.show.animation.html import element_content
 from seismass.show.study.answer import percent
