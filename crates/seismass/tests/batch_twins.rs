@@ -424,7 +424,7 @@ fn two_directions() {
         names.push((0, *name));
     }
     assert!(names.len() > 9, "{names:?}");
-    let x = motion();
+    let x = motion().with_duration(2.4).unwrap();
     let y: Vec<f64> = x.acceleration().iter().rev().map(|a| 0.77 * a).collect();
     let mut motions = vec![PlaneMotion::new(x.clone(), y.clone()).unwrap()];
     for changed in changed_motions(&x) {
