@@ -83,7 +83,7 @@ impl SlideSeries {
         }
         let product = |i: usize, j: usize| dot(self.relative[i], self.relative[j]) - self.length[i] * self.length[j];
         let mut squares = dot(self.relative[0], r) + (1..k.div_ceil(2)).map(|i| product(i, k - i)).sum::<f64>();
-        if k % 2 == 0 {
+        if k.is_multiple_of(2) {
             squares += 0.5 * product(k / 2, k / 2);
         }
         self.length[k] = squares / self.length[0];
