@@ -12,7 +12,6 @@ from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
 from seismass.motions.motion import Motion, MotionLike, as_motion
 from seismass.motions.records.record import Record
-from seismass.runs.grid.grid import Grid
 from seismass.runs.plane import MotionPair, PlaneResponse, is_motion_pair, motions_in_plane
 from seismass.runs.response import Response
 
@@ -162,6 +161,8 @@ def warn_of_doubts(scenes: Any, motions: Any) -> None:
 
 def _listed(scenes: Any) -> list[Scene]:
     """The first scenes of a batch; what is not a scene is refused elsewhere."""
+    from seismass.runs.grid.grid import Grid  # one run needs no grid
+
     if isinstance(scenes, Grid):
         try:
             return [scenes.scene(1)]
