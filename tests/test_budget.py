@@ -20,7 +20,7 @@ LINES = """
 assessment 5222   base 1619   commands 3916   design 3403   design/scaling 834   effective_mass 2978   media 1607
 model 3282   motions 377   motions/matching 1480   motions/pulses 1066   motions/records 3672
 motions/records/formats 3619   motions/records/synthetic 1118   motions/scaling 801   motions/spectra 1596
-runs 3325   runs/grid 1564   show 3121   show/animation 1520   show/assessment 2024   show/explore 289
+runs 3326   runs/grid 1564   show 3121   show/animation 1520   show/assessment 2024   show/explore 289
 show/plots 1836   show/study 2023   studies 8   studies/campaign 1611   studies/fragility 3171   studies/risk 1594
 studies/slip 1775   studies/study 1772   studies/validation 1227   top 86
 """
