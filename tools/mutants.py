@@ -77,7 +77,7 @@ pub fn sign(k: u32) -> f64 {
 
 
 def run(command: list[str], cwd: Path, seconds: float, **variables: str) -> tuple[int, str]:
-    """Exit code and output of a program, which ends after so much CPU time, or four times that by the clock."""
+    """Exit code and output of a program, which ends after so much CPU time, or twenty times that by the clock."""
     # Of all programs of the machine it is the first to end where memory does.
     limited = 'echo 1000 2>/dev/null >/proc/self/oom_score_adj; ulimit -t "$0" && exec "$@"'
     with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as output:
@@ -90,15 +90,15 @@ def run(command: list[str], cwd: Path, seconds: float, **variables: str) -> tupl
             start_new_session=True,
         )
         try:
-            code = process.wait(4 * seconds)
-        except subprocess.TimeoutExpired:
-            code = -signal.SIGKILL
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(20 * seconds)
         finally:
-            with suppress(ProcessLookupError):
+            # Its number is its group's for as long as nobody has waited for it.
+            if process.poll() is None:
                 os.killpg(process.pid, signal.SIGKILL)
-            process.wait()
+                process.wait()
         output.seek(0)
-        return code, output.read()
+        return process.returncode, output.read()
 
 
 def copied(to: Path) -> Path:
