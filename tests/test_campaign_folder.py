@@ -188,7 +188,7 @@ def test_edited_inputs_of_a_folder_are_refused(tmp_path: Path, name: str) -> Non
         "",
         "null",
         '{"kind": "seismass campaign"}',
-        '{"kind": "seismass campaign", "schema_version": 2, "parts": "x"}',
+        '{"kind": "seismass campaign", "schema_version": 3, "parts": "x"}',
     ],
 )
 def test_a_damaged_manifest_is_an_error_of_the_package(tmp_path: Path, text: str) -> None:

@@ -28,7 +28,7 @@ from seismass.show.explore.page import BINS, CASES, RESAMPLES
 
 ROOT = Path(__file__).parents[1]
 HERE = Path(__file__).parent / "explorer"
-TEMPLATES = ROOT / "python" / "seismass" / "explore" / "templates"
+TEMPLATES = ROOT / "python" / "seismass" / "show" / "explore" / "templates"
 SUITE = sm.builtin_suite("seven")
 FACTORS = sm.scaling.scale_asce7_10(SUITE, sm.TargetSpectrum.asce7(), between=False).factors
 MOTIONS = [record.scaled(factor) for record, factor in zip(SUITE, FACTORS, strict=True)]
