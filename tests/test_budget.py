@@ -149,3 +149,7 @@ def test_names_at_the_top_of_the_repository() -> None:
 def test_runs_of_the_kernel_are_asked_in_few_places() -> None:
     found = {place for place, text in TEXTS.items() if "_kernel.simulate" in text}
     assert found <= set(KERNEL_RUNS.split()), "call runs.batch or runs.simulate, or name the file here"
+
+
+def test_every_line_of_slow_tests_names_one(unused_lines: list[str]) -> None:
+    assert unused_lines == [], "remove the lines from tests/slow.txt"
