@@ -10,9 +10,13 @@ from typing import Any, Final
 import polars as pl
 import pytest
 
-from pages.parts import NoRecordings, made, names
+from pages.effective_mass import far_field_components
+from pages.parts import NoRecordings, Page, made, names
+from pages.risk import limits
+from pages.sensitivity import part
+from pages.study import placed, study_of
 from seismass.effective_mass import EffectiveMassMap
-from seismass.motions.records import read_suite
+from seismass.motions.records import builtin_suite, read_suite
 from seismass.studies.study import StudyResult, sensitivity
 
 ROOT = Path(__file__).parents[1]
@@ -42,8 +46,6 @@ def test_a_page_says(file: str, said: str) -> None:
 
 def study_says(result: StudyResult) -> None:
     """The numbers in its words are those of the study already."""
-    from pages.study import placed
-
     rows = placed(result.summary)
     yielding, elastic = rows.filter(pl.col("R") > 1.0), rows.filter(R=1.0)
     first, middle, top = (yielding.filter(place=place) for place in ("first", "middle", "top"))
@@ -112,6 +114,14 @@ def slip_says(floors_of: list[str]) -> None:
 
 
 def risk_says(names: dict[str, Any]) -> None:
+    # Of twelve rows of the built-in suite one for each friction, with other limits; of four of the recordings one.
+    page = Page(ROOT / "docs" / "risk.md")
+    of = {"limits": limits(names, builtin_suite("seven"), [(0.1, 0.03), (0.2, 0.005), (0.3, 0.01)])}
+    if page.shared:
+        of["far_field"] = limits(names, far_field_components(page.records), [(0.2, 0.02)])
+    for key, lines in of.items():
+        shown = page.text.partition(f"<!-- {key} -->")[2].partition(f"<!-- end of {key} -->")[0]
+        assert set(lines) <= set(shown.splitlines()), key
     # Slopes change rates by factors and the share by little; the limit changes the share.
     rows = {(row["parameter"], row["setting"]): row for row in names["answer"].sensitivity.iter_rows(named=True)}
     steep, flat = rows["hazard slope", "x 1.25"], rows["hazard slope", "x 0.75"]
@@ -132,9 +142,6 @@ SAYS: Final[dict[str, Callable[[Any], None]]] = {
 
 def test_rows_of_the_sensitivity_to_recordings_are_current(shared: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Those that take a single study beside that of docs/study.md; the others take minutes."""
-    from pages.sensitivity import part
-    from pages.study import study_of
-
     page = (ROOT / "docs" / "sensitivity.md").read_text(encoding="utf-8")
     recorded = page.partition("## Recorded motions\n\n")[2].partition("\n\n## Built-in")[0]
     changes = sensitivity._changes
