@@ -87,7 +87,7 @@ FILES: list[tuple[str, str | bytes, dict[str, object], str]] = [
     ("a.txt", "NDATA: 61\n" + COLUMN, {"unit": "g", "dt": 0.01}, r"points of a.txt must be 61, .*; got 60"),
     ("a.txt", "Velocity (m/s2)\n" + COLUMN, {"dt": 0.01}, r"quantity of a.txt must be acceleration; got velocity"),
     ("a.txt", "displacements\n" + COLUMN, {"dt": 0.01, "unit": "g"}, r"quantity of a.txt .*; got displacement"),
-    ("a.txt", "units: g/10\n" + COLUMN, {"dt": 0.01}, r"unit of a.txt must be given .* another; got 'g/10'"),
+    ("a.txt", "units: g/10\n" + COLUMN, {"dt": 0.01}, r"unit of a.txt must be given .* states g/10: unit= says which"),
     ("a.txt", COLUMN, {"unit": "g"}, r"dt of a.txt must be given, .*; got none"),
     ("a.txt", COLUMN, {"dt": 0.01}, r"unit of a.txt must be given .*; got none"),
     (

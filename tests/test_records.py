@@ -157,7 +157,8 @@ def test_unit_stated_in_a_header(text: str, unit: str | None) -> None:
     ("text", "unit"),
     [
         ("UNITS OF 0.1 G", "0.1 G"),
-        ("UNITS OF .01 M/S2", ".01 M/S2 and m/s2"),
+        ("UNITS OF .02 M/S2", ".02 M/S2"),
+        ("UNITS OF .01 M/S2", None),  # that is cm/s2
         ("units: g/10", "g/10"),
         ("(g) or (m/s2)", "g and m/s2"),
         ("UNITS OF G", None),

@@ -46,20 +46,56 @@ _SPELLINGS: Final = {
     **dict.fromkeys(("%g", "% g", "(%g)", "percent g", "percent of g", "% of g"), "%g"),
 }
 _SECOND: Final = r"s(?:e[cg])?"
-_PER_SECOND_SQUARED = re.compile(
-    rf"(?<![a-z])([a-z]+)[ \t]*/[ \t]*(?:"
+_PER_SECOND_SQUARED: Final = (
+    rf"(?:(?P<length>[a-z]+)[ \t]*/[ \t]*(?:"
     rf"{_SECOND}(?:[ \t]*/[ \t]*{_SECOND}(?![a-z])|[ \t]*(?:\*\*|\^)?[ \t]*(?:2(?![\d.])|²))"
     rf"|\({_SECOND}[ \t]*(?:/|\*|\.)[ \t]*{_SECOND}\))"
-    r"|(?<![a-z])(mm|cm|m|in|ft)[ \t]*[.*]?[ \t]*s(?:ec)?[ \t]*(?:\*\*|\^)?[ \t]*(?:-2(?![\d.])|⁻²)",
+    r"|(?P<short>mm|cm|m|in|ft)[ \t]*[.*]?[ \t]*s(?:ec)?[ \t]*(?:\*\*|\^)?[ \t]*(?:-2(?![\d.])|⁻²))"
+)
+_MENTION = re.compile(
+    rf"(?<![^\W\d_]|[/%]){_PER_SECOND_SQUARED}|(?<![^\W\d]|[/%])(?P<gal>gals?\b(?!\.))"
+    r"|(?<![^\W\d]|[/%.*])(?P<g>(?:%|percent|per cent)[ \t]*(?:of[ \t]+)?g|mg|milli-?[ \t]?g|g)(?:'s)?(?![^\W_])"
+    r"(?![ \t]*[/*^])",
     re.IGNORECASE,
 )
-_GAL = re.compile(r"\bgals?\b", re.IGNORECASE)
-_PART_OF_G: Final = r"(?:%|percent)[ \t]*(?:of[ \t]+)?g|mg|milli-?[ \t]?g|g"
-_BRACKETED_G = re.compile(rf"[(\[][ \t]*({_PART_OF_G})(?:'s)?[ \t]*[)\]]", re.IGNORECASE)
-_IN_G = re.compile(rf"\bacc[a-z.]*[ \t]+in[ \t]+({_PART_OF_G})(?:'s)?(?!\w)(?![ \t]*[/*^])", re.IGNORECASE)
-_UNITS_OF = re.compile(r"\bunits?[ \t]*(?:of\b|[:=])[ \t]*([^\s].*)", re.IGNORECASE)
+_UNIT_WORD: Final = (
+    r"(?:units?|unidad(?:es)?|unidades?|unità|unita|unités?|unites?|einheit(?:en)?|birim[iı]?|birimleri)"
+)
+_HEADS: Final = (
+    rf"{_UNIT_WORD}|acc\w*|acel\w*|accél\w*|beschl\w*|ivme(?:si|leri)?|ускорени\w*|加速度|единиц\w*|単位|单位"
+    r"|a[gc]?|a[gc]?[xyz]|[ux]g|data|datos|dati|dados|données|donnees|daten|samples?|muestras|campioni|amostras"
+    r"|values?|valores|valori|valeurs|werte|amplitudes?|amplitud|ordinates"
+)
+_NEUTRAL: Final = (
+    r"in|of|is|are|the|all|each|both|and|to|time|series|serie|history|histories|record|records|recorded|registro"
+    r"|ground|motion|strong|accelerogram\w*|trace|input|base|component\w*|comp|channels?|chan|ch|columns?|horizontal"
+    r"|vertical|corrected|uncorrected|processed|unprocessed|unscaled|scaled|raw|filtered|baseline|bandpass|given"
+    r"|expressed|measured|stored|written|measurement|si|en|de|del|della|delle|dei|di|da|das|do|dos|la|las|los|el|le|les"
+    r"|des|du|em|im|der|die|den|von|y|e|et|und|expresad\w*|espress\w*|exprim\w*|station|sensor|instrument|corregid\w*"
+    r"|components|absolute|relative|total|deg|degrees|azimuth|dir|direction"
+)
+_COMPASS: Final = (
+    r"[nsewouvzhltxy]|[ns][sn]|[ewo][ewo]|ud|up|down|north|south|east|west|norte|sur|sul|sud|nord|süd|este|leste|oeste"
+    r"|est|ovest|ouest|ost|vert\w*|hn[nez12]|[behls][hngl][nez12]|long\w*|trans\w*|fn|fp"
+)
+_HEAD = re.compile(_HEADS)
+_WORD = re.compile(rf"{_HEADS}|{_NEUTRAL}|{_COMPASS}")
+_DIRECTION = re.compile(_COMPASS)
+_VALUE_BEFORE = re.compile(r"\d[\d.,]*(?:[ed][+-]?\d+)?[ \t]*$", re.IGNORECASE)
+_VALUE_AFTER = re.compile(r"[ \t'\")\]]*(?:[:=][ \t]*[+-]?\.?\d|[ \t][+-]?\d*\.\d)")
+_JOINED = re.compile(
+    r"(?:[\s:=,&(\[{'\"]+|(?<=[\s:=(\[,])(?:s|secs?|seconds?)(?=[\s,&])|(?<=[\s,])(?:and|y|et|und)(?=\s))+$",
+    re.IGNORECASE,
+)
+_OR = re.compile(r"[\s)\]]*(?:or|and|=|,|/)?[\s(\[]*", re.IGNORECASE)
+_ALONE = re.compile(r"[\s)\]]*(?:[,;]|$|or\b)", re.IGNORECASE)
+_CLAUSES = re.compile(r"[,;:|\t=)\]]|\s{2,}|(?<!acc)(?<!accel)(?<!acel)(?<!comp)\.\s", re.IGNORECASE)
+_PLURAL = re.compile(rf"\b({_UNIT_WORD})\((?:s|es|en)\)", re.IGNORECASE)
+_BARE = re.compile(r"(?:[\W_]|\b(?:s|ms|secs?|seconds?|or|and)\b)*", re.IGNORECASE)
+_UNITS_OF = re.compile(
+    rf"\b{_UNIT_WORD}[ \t]*(?:of[ \t]+(?=[\d.]*[^:=.,;]*(?:[.,;]|$))|[:=][ \t]*)([^\s].*)", re.IGNORECASE
+)
 _UNIT_LIKE = re.compile(r"[/%\d]|count|volt|digit", re.IGNORECASE)
-_G = re.compile(rf"[(\[]?[ \t]*(?:g(?:'s|ravity)?|({_PART_OF_G}))(?!\w)(?![ \t]*[/*^])", re.IGNORECASE)
 
 
 def acceleration_factor(unit: Any, owner: str, kind: type[SeismassError]) -> float:
@@ -77,11 +113,25 @@ def unit_by_name(name: str) -> str | None:
     another unit.
     """
     text = name.strip().lower()
-    return _SPELLINGS.get(text) or (stated_unit(text) if _PER_SECOND_SQUARED.fullmatch(text.strip("()[]")) else None)
+    whole = re.fullmatch(_PER_SECOND_SQUARED, text.strip("()[]"), re.IGNORECASE)
+    found = _name_of(whole) if whole else _SPELLINGS.get(text)
+    return found if found in ACCELERATION_UNITS else None
+
+
+def unit_named(text: str) -> str | None:
+    """Return the acceleration unit that a text names which is about nothing else, such as "gal (cm/s/s)"."""
+    found = {_name_of(mention) for mention in _MENTION.finditer(text)}
+    return found.pop() if len(found) == 1 and found <= set(ACCELERATION_UNITS) else None
+
+
+def units_elsewhere(text: str) -> list[str]:
+    """Return the units that a header names without a number before them, whatever it says them of, but g."""
+    found = {_name_of(one) for one in _MENTION.finditer(text) if not _VALUE_BEFORE.search(text[: one.start()])}
+    return sorted(found & set(ACCELERATION_UNITS) - {"g"})
 
 
 def stated_unit(text: str) -> str | None:
-    """Return the acceleration unit that a header states, or None where it states none, several or another."""
+    """Return the acceleration unit that a header states of its samples, or None: none, several or another."""
     found = stated_units(text)
     return found[0] if len(found) == 1 and found[0] in ACCELERATION_UNITS else None
 
@@ -92,29 +142,59 @@ def unknown_unit(text: str) -> str | None:
 
 
 def stated_units(text: str) -> list[str]:
-    """Return every unit that a header states, by its name in `ACCELERATION_UNITS` if it is there, in order."""
-    found = {_per_second_squared(first or second) for first, second in _PER_SECOND_SQUARED.findall(text)}
-    found |= {_part_of_g(name) for name in (*_BRACKETED_G.findall(text), *_IN_G.findall(text))}
-    if _GAL.search(text):
-        found.add("cm/s2")
-    for said in _UNITS_OF.findall(text):
-        of_g = _G.match(said)
-        if of_g:
-            found.add(_part_of_g(of_g[1] or "g"))
-        elif said[0] in ".0123456789" or not found:
-            found.add(said.strip()[:30])
+    """Return every unit that a header states of its samples, by its name in `ACCELERATION_UNITS` if it is there.
+
+    A unit counts behind words of a short list that say so ("units:", "acceleration in", "data ("), or alone in its
+    line; behind a number or other words (a peak, a threshold, a conversion) it is that of something else.
+    """
+    found: set[str] = set()
+    for line in _PLURAL.sub(r"\1", text).splitlines():
+        bare = _BARE.fullmatch(_MENTION.sub("", line)) is not None
+        found |= {_name_of(one) for one in _MENTION.finditer(line) if bare or _is_of_samples(line, one)}
+        for said in _UNITS_OF.finditer(line):
+            time = re.search(r"(?i)\btime\s*$", line[: said.start()])
+            if not time and _allowed(line[: said.start(1)]) and (said[1][0] in ".0123456789" or not found):
+                found.add(_multiple(said[1]) or said[1].strip()[:30])
     return sorted(found)
 
 
-def _per_second_squared(length: str) -> str:
-    name = length.lower()
-    return f"{_LENGTHS.get(name, name)}/s2"
+def _multiple(said: str) -> str | None:
+    """Return the unit that "0.01 m/s2" is, or None."""
+    mention = _MENTION.search(said)
+    number = re.fullmatch(r"(\d*\.?\d+)[ \t]*", said[: mention.start()]) if mention else None
+    size = float(number[1]) * ACCELERATION_UNITS.get(_name_of(mention), 0.0) if mention and number else 0.0
+    return next((name for name, unit in ACCELERATION_UNITS.items() if abs(unit - size) < 1e-9 * unit), None)
 
 
-def _part_of_g(said: str) -> str:
-    """Return g, mg or %g for a spelling of it."""
-    name = said.lower()
-    return "%g" if name[0] in "%p" else "mg" if name[0] == "m" else "g"
+def _is_of_samples(line: str, mention: re.Match[str]) -> bool:
+    before = line[: mention.start()]
+    *_, last = [None, *_MENTION.finditer(before)]
+    if last and _OR.fullmatch(before, last.end()):
+        return _is_of_samples(line, last)
+    if _VALUE_BEFORE.search(before) or _VALUE_AFTER.match(line, mention.end()):
+        return False
+    words = _allowed(before)
+    bracket = before.rstrip()[-1:] in ("(", "[") or not line[mention.end() :].strip()
+    if not re.search(r"\w", before) and _ALONE.match(line, mention.end()):
+        return True
+    return any(_HEAD.fullmatch(word) for word in words) or (bracket and any(map(_DIRECTION.fullmatch, words)))
+
+
+def _allowed(before: str) -> list[str]:
+    """Return the words of the clause that ends a text, where all of them may stand between a unit and the samples."""
+    clause = _CLAUSES.split(_JOINED.sub("", before))[-1]
+    words = re.findall(r"[^\W\d_]+", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", clause).casefold())
+    return words if all(map(_WORD.fullmatch, words)) else []
+
+
+def _name_of(mention: re.Match[str]) -> str:
+    """Return the name of the unit that was found in a text."""
+    said = mention.groupdict()
+    length = (said["length"] or said["short"] or "").lower()
+    if length:
+        return f"{_LENGTHS.get(length, length)}/s2"
+    part = (said.get("g") or "").lower()
+    return "cm/s2" if not part else "%g" if part[0] in "%p" else "mg" if part[0] == "m" else "g"
 
 
 def contradiction(text: str, unit: str) -> str | None:

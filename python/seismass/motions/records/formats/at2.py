@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 from seismass.base.errors import RecordFormatError
-from seismass.base.units import ACCELERATION_UNITS, contradiction, stated_unit, unknown_unit
+from seismass.base.units import ACCELERATION_UNITS, contradiction, stated_unit, units_elsewhere, unknown_unit
 from seismass.base.values import printable
 from seismass.motions.records.formats.common import (
     LINE_WIDTH,
@@ -222,7 +222,8 @@ def _agreed_step(step: float, dt: float | None, written: str, file: str, remarks
 
 
 def _agreed_unit(header: str, unit: str | None, file: str) -> str:
-    stated, unknown = stated_unit(header), unknown_unit(header)
+    stated = stated_unit(header)
+    unknown = unknown_unit(header) or (None if stated else " and ".join(units_elsewhere(header)))
     against = contradiction(header, unit) if unit else None
     if against:
         raise RecordFormatError(f"unit of {file} must be that of its header, {against}; got {unit}")

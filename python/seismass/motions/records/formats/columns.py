@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 import struct
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
@@ -17,7 +17,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass.base.errors import RecordFormatError
-from seismass.base.units import ACCELERATION_UNITS, contradiction, stated_unit, unit_by_name, unknown_unit
+from seismass.base.units import (
+    ACCELERATION_UNITS,
+    contradiction,
+    stated_unit,
+    unit_by_name,
+    units_elsewhere,
+    unknown_unit,
+)
 from seismass.base.values import as_count, printable
 from seismass.motions.records.formats.common import (
     NO_COUNT,
@@ -92,7 +99,7 @@ def parse_channels(text: str, source: Path, arguments: Arguments) -> tuple[Chann
     if columns == 1:
         if is_cut_off(tokens):
             raise _cut_off(table, tokens[-1])
-        found = [_Column(values, labels[0] if labels else None, "1")]
+        found = [_Column(values, replace(labels[0], unit="") if labels else None, "1")]  # a title may name any unit
         _check_points(table, len(values), remarks)
         if max(counts) > 1:
             remarks.append(f"samples are taken line after line, {max(counts)} in each")
@@ -249,18 +256,20 @@ def _step(table: Table, steps: dict[str, float | None], samples: int, remarks: l
 
 
 def _unit(table: Table, unit: str | None, label: Label | None) -> str:
-    """Return the unit of a column: that of its label, else that of the header, which a given one must equal."""
+    """Return the unit that the label of a column and the header state; of two, or of none, the given one decides."""
     own = unit_by_name(label.unit) if label and label.unit else None
-    text = f"({own})" if own else table.text
+    others = (line for line in table.header if label is None or label.text not in line)
+    text = "\n".join((f"units: {own}", *others)) if own else table.text
     against = contradiction(text, unit) if unit else None
     if against:
         raise RecordFormatError(f"unit of {table.file} must be that of its header, {against}; got {unit}")
-    stated = own or stated_unit(table.text)
+    stated = stated_unit(text)
     if not (unit or stated):
-        unknown = unknown_unit(table.text)
+        unknown, other = unknown_unit(text), " and ".join(units_elsewhere(text))
+        said = f"states {printable(unknown)}" if unknown else f"names {other}, and not of its samples" if other else ""
         raise RecordFormatError(
-            f"unit of {table.file} must be given ({', '.join(ACCELERATION_UNITS)}), the file states "
-            + (f"another; got {unknown!r}" if unknown else "none; got none")
+            f"unit of {table.file} must be given ({', '.join(ACCELERATION_UNITS)}), the file "
+            + (f"{said}: unit= says which; got none" if said else "states none; got none")
         )
     return unit or stated or ""
 

@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 
 from seismass.base.errors import RecordFormatError
-from seismass.base.units import ACCELERATION_UNITS, stated_unit, unit_by_name
+from seismass.base.units import ACCELERATION_UNITS, stated_unit, unit_named
 from seismass.base.values import printable
 from seismass.motions.records.formats.common import (
     LINE_WIDTH,
@@ -333,7 +333,7 @@ def _step_unam(said: str, dt: float | None, file: str) -> float:
 
 
 def _unit(said: str, file: str) -> str:
-    unit = stated_unit(said) or unit_by_name(said.partition("(")[0].strip())
+    unit = unit_named(said)
     if unit is None:
         raise RecordFormatError(
             f"unit of {file} must be one of {', '.join(ACCELERATION_UNITS)}; got {printable(said)[:30]!r}"

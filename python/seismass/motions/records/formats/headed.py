@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass.base.errors import RecordFormatError
-from seismass.base.units import ACCELERATION_UNITS, stated_unit, unit_by_name
+from seismass.base.units import ACCELERATION_UNITS, unit_by_name, unit_named
 from seismass.base.values import printable
 from seismass.motions.records.formats.common import (
     LINE_WIDTH,
@@ -216,7 +216,7 @@ def _unit(header: Header, words: str, file: str) -> str:
     if isinstance(header.unit, str):
         return header.unit
     said = _found(header.unit, words)
-    unit = unit_by_name(said.strip(" .()")) or stated_unit(f"({said})")
+    unit = unit_by_name(said.strip(" .()")) or unit_named(said)
     if unit is None:
         raise RecordFormatError(f"unit of {file} must be one of {', '.join(ACCELERATION_UNITS)}; got {said[:30]!r}")
     return unit

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass.base.errors import RecordFormatError
-from seismass.base.units import stated_units, unit_by_name
+from seismass.base.units import unit_by_name
 from seismass.motions.records.formats.common import LINE_WIDTH, LONGEST_STEP, SHORTEST_STEP, last_digits
 from seismass.motions.records.formats.fixed import uniform_step
 
@@ -183,7 +183,7 @@ def _kind(words: str, unit: str) -> str:
 
 
 def _is_acceleration(unit: str) -> bool:
-    return unit_by_name(unit) is not None or unit_by_name(f"({unit})") is not None
+    return unit_by_name(unit) is not None
 
 
 def _direction(words: str) -> str:
@@ -299,16 +299,6 @@ def spectrum_named(header: str) -> str | None:
     """Return what a header calls a spectrum or a hazard curve, where it speaks of no motion; else None."""
     found = _SPECTRUM.search(header)
     return found.group().lower() if found and not _MOTION.search(header) else None
-
-
-def units_of(labels: list[Label]) -> list[str]:
-    """Return the acceleration units that labels state, without doubles."""
-    found: list[str] = []
-    for label in labels:
-        unit = unit_by_name(label.unit) or next(iter(stated_units(f"({label.unit})")), None)
-        if unit and unit not in found:
-            found.append(unit)
-    return found
 
 
 FIRST_TIME: Final = 1.5
