@@ -268,7 +268,7 @@ def test_where_a_sensor_stands(tmp_path: Path) -> None:
     suite = read_suite(tmp_path)
     assert [record.component for record in suite] == ["EW2"]
     reasons = {item.file.name: item.reason for item in suite.excluded}
-    assert reasons["deck.V2c"] == "in a structure by its header: Deck, mid-span"
+    assert reasons["deck.V2c"] == ("in a structure, or not said to be of the ground, by its header: Deck, mid-span")
     assert reasons["deep.EW1"] == "below the surface by its header: borehole"
     first = read_records(tmp_path / "roof.V2")[0]
     assert (first.place, first.component, first.azimuth) == ("Roof", "90 DEG", 90.0)

@@ -58,9 +58,7 @@ _MENTION = re.compile(
     r"(?![ \t]*[/*^])",
     re.IGNORECASE,
 )
-_UNIT_WORD: Final = (
-    r"(?:units?|unidad(?:es)?|unidades?|unità|unita|unités?|unites?|einheit(?:en)?|birim[iı]?|birimleri)"
-)
+_UNIT_WORD: Final = r"(?:units?|unidad(?:es)?|unidades?|unità|unita|unités?|unites?|einheit(?:en)?|birim\w*)"
 _HEADS: Final = (
     rf"{_UNIT_WORD}|acc\w*|acel\w*|accél\w*|beschl\w*|ivme(?:si|leri)?|ускорени\w*|加速度|единиц\w*|単位|单位"
     r"|a[gc]?|a[gc]?[xyz]|[ux]g|data|datos|dati|dados|données|donnees|daten|samples?|muestras|campioni|amostras"

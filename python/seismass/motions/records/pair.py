@@ -18,7 +18,7 @@ from seismass.base.errors import InvalidMotion, InvalidOption, RecordFormatError
 from seismass.base.values import FloatArray, Value, as_number, as_path, brief, is_one_of, printable, refusal
 from seismass.base.views import Card
 from seismass.motions.records.formats.labels import azimuth_of, is_vertical
-from seismass.motions.records.read import files_below, read_record, vertical_reason
+from seismass.motions.records.read import files_below, off_ground, read_record, vertical_reason
 from seismass.motions.records.record import Record
 from seismass.motions.records.suite import Excluded, read_file
 
@@ -477,7 +477,11 @@ def find_pairs(folder: str | os.PathLike[str], *, lengths: Literal["shorter", "p
             excluded.append(Excluded(file, read))
             continue
         for record in read:
-            groups.setdefault(_group(file, record), []).append(record)
+            elsewhere = off_ground(record)
+            if elsewhere:
+                excluded.append(Excluded(file, elsewhere if len(read) == 1 else f"{record.name}: {elsewhere}"))
+            else:
+                groups.setdefault(_group(file, record), []).append(record)
     pairs: list[Pair] = []
     for records in groups.values():
         for together in _sorted_out(records):

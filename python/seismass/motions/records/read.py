@@ -403,12 +403,13 @@ _VERTICAL_NAME = re.compile(
     r"|(?:UP|VERT?|DWN|[BH][NH]Z)\.?$",  # joined to a station code: HECVER, TCUUP.
     re.IGNORECASE,
 )
-_GROUND: Final = re.compile(r"\bfree[- ]?field\b|\bground\b(?![- ]+fl)|\bgrnd\b(?![- ]+fl)|\bat grade\b", re.IGNORECASE)
-_STRUCTURE: Final = re.compile(
-    r"\b(?:roof|penthouse|floor|flr|fl|level|lvl|stor(?:e?y|ies)|basement|bsmt|bldg|wall|column|col|beam|girder|slab"
-    r"|deck|bent|abut(?:ment)?|abt|pier|cap|footing|ftg|pile|span|mid-?span|hinge|arch|cable|anchorage|tower|dam|crest"
-    r"|gallery|galleries|parapet|mezzanine|atrium|diaphragm|truss|stack|tank|foundation|fdn|isolat(?:or|ors|ion))\b",
+_GROUND: Final = re.compile(
+    r".*\bfree[- ]?field\b|(?:(?:at|on|the|site|array|geotech\w*|north|south|east|west|[nsew]{1,2})[\W_]+)*"
+    r"(?:ground\b(?![- ]+(?:fl|st(?:or|\b))|\s+and\b)|grnd\b(?![- ]+fl)|grade\b|surface\b|(?:instrument |small )?shelter\b)",
     re.IGNORECASE,
+)
+_NO_PLACE: Final = re.compile(
+    r"[\W_]*(?:unknown|other|none|n/?a|not (?:stated|known|given)|see co?mm?e?nts?)?[\W_]*", re.IGNORECASE
 )
 _BELOW: Final = re.compile(
     r"\bbore-?\s?hole\b|\bdown-?\s?hole\b|\bdepth\b(?!\s*[=:]?\s*0+(?:\.0*)?\s*m)|\b\d+(?:\.\d+)?\s*(?:m|meters|ft|feet)\s+"
@@ -421,12 +422,12 @@ def off_ground(record: Record) -> str | None:
     """Return why a record is not of the ground surface: its place in a structure or below the ground; None where it is,
     or where it states no place.
     """
-    if not record.place:
+    if _NO_PLACE.fullmatch(record.place):
         return None
     if _BELOW.search(record.place):
         return f"below the surface by its header: {record.place}"
-    if _STRUCTURE.search(record.place) and not _GROUND.search(record.place):
-        return f"in a structure by its header: {record.place}"
+    if not _GROUND.match(record.place):
+        return f"in a structure, or not said to be of the ground, by its header: {record.place}"
     return None
 
 

@@ -54,7 +54,8 @@ _PEAK_V1 = re.compile(
 _COUNT_V2 = re.compile(r"^\s*(\d+)\s+POINTS OF INSTRUMENT-", re.IGNORECASE | re.MULTILINE)
 _COUNT_V1 = re.compile(r"NO\. OF POINTS\s*=\s*(\d+)", re.IGNORECASE)
 _LENGTH = re.compile(rf"RECORD LENGTH\s*=\s*({_NUMBER})\s*SEC", re.IGNORECASE)
-_CHANNEL = re.compile(r"CHAN\s+(?P<number>\d+)\s*:\s*(?P<component>[^(\n]*)", re.IGNORECASE)
+_CHANNEL = re.compile(r"CHAN\s+(?P<number>\d+)\s*:\s*(?P<said>[^\n]*)", re.IGNORECASE)
+_NUMBER_AT_STATION = re.compile(r"\(\s*STA[^)]*\)", re.IGNORECASE)
 _STATION = re.compile(r"STATION\s+(?:NO\.|ID\.)\s*(?P<code>\w+)?", re.IGNORECASE)
 _WIDE_GAP = re.compile(r"\s{2,}|\s*(?=\blocation:)", re.IGNORECASE)
 _AGENCY = re.compile(r"PROCESSED:\s*[\d/]*\s*,\s*([A-Z]+)", re.IGNORECASE)
@@ -258,9 +259,11 @@ def _channel(
     if channels and not several and int(channels[1]) > 1:
         remarks.append(f"the station has {channels[1]} channels; this file has one")
     place = _CHANNEL.search("\n".join(titles[5:9]))
-    # The place in a building stands further right, with or without its word.
-    component, _, where = _WIDE_GAP.sub("\n", place["component"].strip()).partition("\n") if place else ("", "", "")
-    where = " ".join(where.split()).removeprefix("Location:").strip()
+    # The place in a building stands further right, with or without its word; a number at the station may be between.
+    said = _NUMBER_AT_STATION.sub("   ", place["said"]).strip() if place else ""
+    component, _, where = _WIDE_GAP.sub("\n", said).partition("\n")
+    component = component.partition("(")[0].strip()
+    where = re.sub(r"^Location:\s*", "", " ".join(where.split()), flags=re.IGNORECASE)
     contradiction = direction_remark(component, angle, _VERTICAL)
     if contradiction:
         remarks.append(contradiction)
