@@ -69,7 +69,7 @@ WRITTEN = (
     "CHAN  1:  90 DEG  (STA CHN:  7)             {}",
     "Chan  1: 90 Deg Location: {}",
 )
-"""How the line of a CSMIP channel has its place: with the word or further right, with the number at the station or not."""
+"""How the line of a CSMIP channel has its place: with its word or further right, with or without another number."""
 
 
 def test_which_places_are_of_the_ground() -> None:

@@ -66,15 +66,15 @@ _HEADS: Final = (
 )
 _NEUTRAL: Final = (
     r"in|of|is|are|the|all|each|both|and|to|time|series|serie|history|histories|record|records|recorded|registro"
-    r"|ground|motion|strong|accelerogram\w*|trace|input|base|component\w*|comp|channels?|chan|ch|columns?|horizontal"
+    r"|ground|motion|strong|accelerogram\w*|trace|input|component\w*|comp|channels?|chan|ch|columns?|horizontal"
     r"|vertical|corrected|uncorrected|processed|unprocessed|unscaled|scaled|raw|filtered|baseline|bandpass|given"
     r"|expressed|measured|stored|written|measurement|si|en|de|del|della|delle|dei|di|da|das|do|dos|la|las|los|el|le|les"
     r"|des|du|em|im|der|die|den|von|y|e|et|und|expresad\w*|espress\w*|exprim\w*|station|sensor|instrument|corregid\w*"
-    r"|components|absolute|relative|total|deg|degrees|azimuth|dir|direction"
+    r"|unfiltered|filtr\w*|gefiltert|roh|crud\w*|brut\w*|grezz\w*|original|ham|korrig\w*|corrig\w*|corrett\w*|processad\w*|deg|degrees|azimuth?|az|dir|direction|fault|normal|parallel|radial|tangential"
 )
 _COMPASS: Final = (
-    r"[nsewouvzhltxy]|[ns][sn]|[ewo][ewo]|ud|up|down|north|south|east|west|norte|sur|sul|sud|nord|süd|este|leste|oeste"
-    r"|est|ovest|ouest|ost|vert\w*|hn[nez12]|[behls][hngl][nez12]|long\w*|trans\w*|fn|fp"
+    r"[nsewouvzhltxydpkgb]|[ns][sn]|[ewo][ewo]|ud|up|down|north|south|east|west|norte|sur|sul|sud|nord|süd|este|leste|oeste"
+    r"|est|ovest|ouest|ost|kuzey|güney|doğu|bat\u0131|düşey|vert\w*|kg|db|hn[nez12]|[behls][hngl][nez12]|long\w*|trans\w*|fn|fp"
 )
 _HEAD = re.compile(_HEADS)
 _WORD = re.compile(rf"{_HEADS}|{_NEUTRAL}|{_COMPASS}")
@@ -176,6 +176,17 @@ def _is_of_samples(line: str, mention: re.Match[str]) -> bool:
     if not re.search(r"\w", before) and _ALONE.match(line, mention.end()):
         return True
     return any(_HEAD.fullmatch(word) for word in words) or (bracket and any(map(_DIRECTION.fullmatch, words)))
+
+
+def is_plain(label: str) -> bool:
+    """Whether a label has no words but those of accelerations of the ground, their directions and processing."""
+    words = re.findall(r"[^\W\d_]+", label.casefold())
+    return all(map(_WORD.fullmatch, words))
+
+
+def names_unit(text: str) -> bool:
+    """Whether a text names an acceleration unit, of whatever."""
+    return _MENTION.search(text) is not None
 
 
 def _allowed(before: str) -> list[str]:

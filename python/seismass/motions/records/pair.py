@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import re
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
 from itertools import takewhile
@@ -20,7 +21,7 @@ from seismass.base.views import Card
 from seismass.motions.records.formats.labels import azimuth_of, is_vertical
 from seismass.motions.records.read import files_below, off_ground, read_record, vertical_reason
 from seismass.motions.records.record import Record
-from seismass.motions.records.suite import Excluded, read_file
+from seismass.motions.records.suite import Excluded, excluded_record, read_file, recorded_once
 
 
 def between(first: float, second: float) -> float:
@@ -468,6 +469,7 @@ def find_pairs(folder: str | os.PathLike[str], *, lengths: Literal["shorter", "p
         raise RecordFormatError(f"folder of pairs must be a directory; got {printable(str(directory))}")
     excluded: list[Excluded] = []
     groups: dict[tuple[str, ...], list[Record]] = {}
+    found: list[Record] = []
     for file in files_below(directory):
         try:
             read = read_file(file)
@@ -476,12 +478,13 @@ def find_pairs(folder: str | os.PathLike[str], *, lengths: Literal["shorter", "p
         if isinstance(read, str):
             excluded.append(Excluded(file, read))
             continue
-        for record in read:
-            elsewhere = off_ground(record)
-            if elsewhere:
-                excluded.append(Excluded(file, elsewhere if len(read) == 1 else f"{record.name}: {elsewhere}"))
-            else:
-                groups.setdefault(_group(file, record), []).append(record)
+        excluded += [excluded_record(one, reason) for one in read if (reason := off_ground(one))]
+        found += [one for one in read if not off_ground(one)]
+    found, twice = recorded_once(found)
+    excluded += twice
+    several = Counter(record.source for record in found)
+    for record in found:
+        groups.setdefault(_group(record, several[record.source] > 1), []).append(record)
     pairs: list[Pair] = []
     for records in groups.values():
         for together in _sorted_out(records):
@@ -496,19 +499,20 @@ def _file(record: Record) -> str:
     return "" if record.source is None else printable(str(record.source))
 
 
-def _group(file: Path, record: Record) -> tuple[str, ...]:
-    """What components of one recording share."""
+def _group(record: Record, several: bool) -> tuple[str, ...]:
+    """What components of one recording share: those of a file of several that says no more share the file."""
+    file = record.source or Path(record.name)
     sequence = _SEQUENCE.match(file.name)
     if sequence:
         return str(file.parent), "RSN", sequence[1]
     if record.event and record.station:
         return str(file.parent), "header", record.event.lower(), record.station.lower()
-    return str(file.parent), "name", _stem(record.name)
+    return str(file.parent), "name", file.name if several else _stem(record.name)
 
 
 def _stem(name: str) -> str:
     """A name without the direction it ends in."""
-    return _DIRECTION.sub(lambda end: end["level"] or "", name).lower()
+    return _DIRECTION.sub(lambda end: end["level"] or "", re.sub(r" channel \S+$", "", name)).lower()
 
 
 def _sorted_out(records: list[Record]) -> list[list[Record]]:

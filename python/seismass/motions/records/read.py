@@ -8,6 +8,7 @@ import math
 import os
 import re
 import tempfile
+import unicodedata
 import zipfile
 import zlib
 from collections.abc import Iterator
@@ -391,6 +392,8 @@ def decoded(content: bytes, source: Path) -> str:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError:
         text = content.decode("latin-1")
+    if not text.isascii():
+        text = unicodedata.normalize("NFC", text)  # letters and their accents together, as patterns have them
     text = text.rstrip("\x1a\r\n\t ")  # DOS ended files with a control character
     if not text:
         raise RecordFormatError(f"content of {source.name} must be a record; got an empty file")
@@ -405,7 +408,7 @@ _VERTICAL_NAME = re.compile(
 )
 _GROUND: Final = re.compile(
     r".*\bfree[- ]?field\b|(?:(?:at|on|the|site|array|geotech\w*|north|south|east|west|[nsew]{1,2})[\W_]+)*"
-    r"(?:ground\b(?![- ]+(?:fl|st(?:or|\b))|\s+and\b)|grnd\b(?![- ]+fl)|grade\b|surface\b|(?:instrument |small )?shelter\b)",
+    r"(?:gr(?:ou)?nd\b(?![- ]+(?:fl|st(?:or|\b)))|grade\b|surface\b|(?:instrument |small )?shelter\b)",
     re.IGNORECASE,
 )
 _NO_PLACE: Final = re.compile(

@@ -6,15 +6,17 @@ import csv
 import io
 import math
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Final
 
+import numpy as np
 import polars as pl
 
 from seismass.base.errors import InvalidMotion, RecordFormatError
 from seismass.base.files import open_regular
-from seismass.base.units import stated_unit
+from seismass.base.units import names_unit
 from seismass.base.values import as_path, brief, printable, refusal
 from seismass.base.views import view
 from seismass.motions.records.formats import COLUMNS, NotRead
@@ -202,7 +204,8 @@ def suite_of_file(
     records = read_records(path, dt=dt, unit=unit, format=format, skip=skip)
     if len(records) == 1:
         return Suite(records[0].name, records)
-    taken = tuple(record for record in records if not reason_to_leave(record))
+    once, twice = recorded_once([record for record in records if not reason_to_leave(record)])
+    taken = tuple(once)
     if not taken:
         vertical = sum(vertical_reason(record) is not None for record in records)
         others = len(records) - vertical
@@ -212,7 +215,7 @@ def suite_of_file(
         )
     reasons = ((record.name, reason_to_leave(record)) for record in records)
     left_out = tuple(Excluded(path, f"{name}: {reason}") for name, reason in reasons if reason)
-    return Suite(printable(path.stem), taken, left_out)
+    return Suite(printable(path.stem), taken, (*left_out, *twice))
 
 
 def _read_directory(directory: Path) -> Suite:
@@ -233,7 +236,11 @@ def _read_directory(directory: Path) -> Suite:
         raise RecordFormatError(
             f"records of directory {directory} must be at least one horizontal record; got {_counted(excluded)}"
         )
-    return Suite(printable(directory.resolve().name), tuple(_with_copies(records)), tuple(excluded))
+    records, twice = recorded_once(records)
+    offset = {number: is_uncorrected(record) and _offset(record) for number, record in enumerate(records)}
+    excluded += [*twice, *(excluded_record(records[at], reason) for at, reason in offset.items() if reason)]
+    taken = tuple(record for number, record in enumerate(records) if not offset[number])
+    return Suite(printable(directory.resolve().name), taken, tuple(sorted(excluded, key=lambda one: one.file)))
 
 
 def named_after(suite: Suite, archive: Path, names: dict[Path, str]) -> Suite:
@@ -282,7 +289,7 @@ def _read_columns(file: Path, head: str, size: int) -> tuple[Record, ...] | str:
         if is_row_of_numbers(line):
             break
         header.append(line)
-    if len(header) == len(lines) or stated_unit("\n".join(header)) is None or size > LARGEST_COLUMNS:
+    if len(header) == len(lines) or not names_unit("\n".join(header)) or size > LARGEST_COLUMNS:
         return kind
     try:
         records = read_records(file)
@@ -296,6 +303,49 @@ def _read_columns(file: Path, head: str, size: int) -> tuple[Record, ...] | str:
     return f"not read: {doubtful}; read it by name or from a list if it is a motion" if doubtful else records
 
 
+def excluded_record(record: Record, reason: str) -> Excluded:
+    """Return the entry of a record that is left out, by its file, and by its name where the file has several."""
+    several = " channel " in record.name
+    return Excluded(record.source or Path(record.name), f"{record.name}: {reason}" if several else reason)
+
+
+def is_uncorrected(record: Record) -> bool:
+    """Whether its file says that a record is neither filtered nor corrected."""
+    return any("uncorrected" in remark.lower().replace("its header says ", "")[:12] for remark in record.remarks)
+
+
+def _offset(record: Record) -> str | None:
+    found = next((remark for remark in record.remarks if remark.startswith("mean is ")), None)
+    return f"uncorrected, and its {found}" if found else None
+
+
+SAME_SAMPLES: Final = 2e-3
+"""Samples of one recording in two formats agree to this part of the peak: headers and files round."""
+SAME_MOTION: Final = 0.9
+"""Least correlation, with the peaks at one instant, of a recording with its corrected one."""
+
+
+def recorded_once(records: Sequence[Record]) -> tuple[list[Record], list[Excluded]]:
+    """Return the records without those that stand there twice: uncorrected beside the corrected one, or the same
+    samples in another format; and what is left out, with the reason. Copies of a file stay, with a remark.
+    """
+    reasons: dict[int, str] = {}
+    uncorrected = [is_uncorrected(record) for record in records]
+    for at, record in enumerate(records):
+        if any(remark.startswith("uncorrected: column") for remark in record.remarks):
+            reasons[at] = "uncorrected, beside its corrected column"
+        for other_at, other in enumerate(records):
+            if at in reasons or other_at == at or other_at in reasons:
+                continue
+            named = printable(other.source.name if other.source else other.name)
+            if uncorrected[at] and not uncorrected[other_at] and _is_of_one_motion(record, other):
+                reasons[at] = f"uncorrected; the corrected record of the same motion is taken, {named}"
+            elif other_at < at and uncorrected[at] == uncorrected[other_at] and _has_same_samples(record, other):
+                reasons[at] = f"the same recording as {named}, in another format"
+    left = [excluded_record(records[at], reason) for at, reason in reasons.items()]
+    return list(_with_copies([record for at, record in enumerate(records) if at not in reasons])), left
+
+
 def _with_copies(records: list[Record]) -> Iterator[Record]:
     """Yield the records, those of files that are byte for byte the same as an earlier one with a remark."""
     first: dict[str, Record] = {}
@@ -305,6 +355,46 @@ def _with_copies(records: list[Record]) -> Iterator[Record]:
             copy = f"the same file as {printable(original.source.name)}"
             record = record.replace(remarks=(*record.remarks, copy))
         yield record
+
+
+def _has_same_samples(one: Record, other: Record) -> bool:
+    formats = [(record.source.suffix.lower() if record.source else "", record.file_unit) for record in (one, other)]
+    if one.samples != other.samples or not math.isclose(one.dt, other.dt, rel_tol=1e-6) or one.pga == 0.0:
+        return False
+    close = SAME_SAMPLES * one.pga
+    if formats[0] == formats[1] or not _may_be_parallel(one, other) or abs(one.pga - other.pga) > close:
+        return False
+    return float(np.max(np.abs(one.acceleration - other.acceleration))) <= close
+
+
+def _may_be_parallel(one: Record, other: Record) -> bool:
+    """Whether nothing says that two records are of different directions."""
+    if None in (one.azimuth, other.azimuth):
+        names = {record.component.lower() for record in (one, other) if record.component}
+        return len(names) < 2 or one.azimuth is not other.azimuth
+    return one.azimuth == other.azimuth
+
+
+def _is_of_one_motion(one: Record, other: Record) -> bool:
+    """Whether two records are of one event, station and direction by their headers, or else of one motion."""
+    if not _may_be_parallel(one, other):
+        return False
+    labels = [(record.event.lower(), record.station.lower()) for record in (one, other)]
+    if all(labels[0]) and labels[0] == labels[1] and one.component:
+        return True
+    if not 0.5 < one.pga / max(other.pga, 1e-12) < 2.0:
+        return False
+    dt = max(one.dt, other.dt)
+    ways = []
+    for record in (one, other):
+        peak = int(np.argmax(np.abs(record.acceleration))) * record.dt
+        before, after = int(peak / dt), int((record.duration - peak) / dt)
+        ways.append((record, peak, before, after))
+    before, after = (min(way[side] for way in ways) for side in (2, 3))
+    at = dt * np.arange(-before, after + 1)
+    first, second = (np.interp(at + peak, record.time, record.acceleration) for record, peak, _, _ in ways)
+    together = float(np.sqrt(np.dot(first, first) * np.dot(second, second)))
+    return len(at) > 2 and together > 0.0 and float(np.dot(first, second)) > SAME_MOTION * together
 
 
 def _counted(excluded: list[Excluded]) -> str:

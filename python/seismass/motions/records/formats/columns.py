@@ -45,8 +45,10 @@ from seismass.motions.records.formats.labels import (
     azimuth_of,
     labels_of,
     no_motion,
+    place_of,
     spectrum_named,
     step_of_times,
+    uncorrected_beside,
 )
 from seismass.motions.records.formats.table import Table, columns_of, numbers_of, read_table, without_first_numbers
 from seismass.motions.records.record import Record
@@ -61,6 +63,7 @@ class _Column:
     values: NDArray[np.float64]
     label: Label | None
     key: str
+    remarks: tuple[str, ...] = ()
 
 
 def parse_columns(
@@ -145,7 +148,7 @@ def _of_columns(
 ) -> list[_Column]:
     """Return the columns of accelerations, and put the step of the times among the others."""
     columns = values.shape[1]
-    at, accelerations = _roles(table, values, labels)
+    at, accelerations = _roles(table, values, labels, steps["dt"])
     for index in accelerations:
         if is_cut_off(tokens[index::columns]):
             raise _cut_off(table, tokens[index - columns])
@@ -161,17 +164,21 @@ def _of_columns(
         remarks.append(f"columns that are not read: {printable(', '.join(passed))[:80]}")
     if labels is None and columns > 2:
         remarks.append("no label says what the columns are: the first is taken as times, the others as accelerations")
+    beside = uncorrected_beside([labels[index] for index in accelerations]) if labels else {}
     return [
         _Column(
             np.ascontiguousarray(values[:, index]),
             labels[index] if labels else None,
             "1" if len(accelerations) == 1 else str(index + 1),
+            (f"uncorrected: column {printable(beside[number])} has it corrected",) if number in beside else (),
         )
-        for index in accelerations
+        for number, index in enumerate(accelerations)
     ]
 
 
-def _roles(table: Table, values: NDArray[np.float64], labels: list[Label] | None) -> tuple[int | None, list[int]]:
+def _roles(
+    table: Table, values: NDArray[np.float64], labels: list[Label] | None, dt: float | None
+) -> tuple[int | None, list[int]]:
     """Return which column has the times, if one has, and which are accelerations."""
     columns = values.shape[1]
     if labels is None:
@@ -181,10 +188,15 @@ def _roles(table: Table, values: NDArray[np.float64], labels: list[Label] | None
     at = next(iter([*times, *index_columns]), None)
     accelerations = [index for index, label in enumerate(labels) if label.kind == "acceleration"]
     unknown = [index for index, label in enumerate(labels) if label.kind == ""]
-    if not accelerations and len(unknown) == 1 and at is not None:
-        accelerations = unknown
-    if at is None and len(accelerations) == 1 and unknown == [0] and columns == 2:
-        at = 0  # a first column of which the label says nothing is one of times or it is refused as such
+    if not accelerations and unknown[-1:] == [columns - 1] and len(unknown) <= 2:
+        accelerations = [columns - 1]
+    if at is None and unknown[:1] == [0] and accelerations == list(range(1, columns)):
+        if dt is None:  # what is not called a time may be anything, such as T1 or a node
+            raise RecordFormatError(
+                f"dt of {table.file} must be given where its first column holds the times, or that be called time or "
+                f"t; got {printable(labels[0].text)[:30]!r}"
+            )
+        at = 0
     if not accelerations or len(times) > 1:
         said = printable(", ".join(label.text for label in labels))[:80]
         raise RecordFormatError(
@@ -226,7 +238,8 @@ def _channel(
         azimuth=azimuth_of(direction) if direction else None,
         source=source,
         file_unit=name,
-        remarks=remarks,
+        place=printable(place_of(column.label)) if column.label else "",
+        remarks=(*remarks, *column.remarks),
     )
     return Channel(column.key, record)
 

@@ -282,7 +282,7 @@ _POINTS = re.compile(
     r"\b(?:NDATA|NPTS|(?:number|no\.?)[ \t]+of[ \t]+(?:data[ \t]+)?(?:points|samples|data))[ \t]*[=:][ \t]*(\d{1,9})\b",
     re.IGNORECASE,
 )
-_ACCELERATION = re.compile(r"(?<![a-z])(?:acc(?:el[a-z]*)?|acel[a-z]*|beschl[a-z]*)(?![a-z])", re.IGNORECASE)
+_ACCELERATION = re.compile(r"(?<![^\W\d_])(?:acc\w*|acel\w*|beschl\w*|ivme\w*|ускорени\w*|加速度)", re.IGNORECASE)
 _SYMBOL = re.compile(r"(?<![a-z])(?:a|ag|ug|a[_ ]?[gxyz])[ \t]*[(\[]|\baccelerogram", re.IGNORECASE)
 # The velocity of shear waves is one of the site.
 _OTHER_QUANTITY = re.compile(r"(?<![a-z])(?<!wave[ -])(?:velocity|velocities|displacements?)(?![a-z])", re.IGNORECASE)

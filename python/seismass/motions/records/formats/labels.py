@@ -5,27 +5,27 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seismass.base.errors import RecordFormatError
-from seismass.base.units import unit_by_name
+from seismass.base.units import is_plain, unit_by_name
 from seismass.motions.records.formats.common import LINE_WIDTH, LONGEST_STEP, SHORTEST_STEP, last_digits
 from seismass.motions.records.formats.fixed import uniform_step
 
 _WORDS_DIRECTIONS: Final = {
-    **dict.fromkeys(("N", "NS", "NORTH"), 0.0),
-    **dict.fromkeys(("E", "EW", "EO", "EAST"), 90.0),
-    **dict.fromkeys(("S", "SN", "SOUTH"), 180.0),
-    **dict.fromkeys(("W", "WE", "OE", "WEST"), 270.0),
+    **dict.fromkeys(("N", "NS", "KG", "NORTH", "NORTE", "NORD", "KUZEY"), 0.0),
+    **dict.fromkeys(("E", "EW", "EO", "OW", "DB", "EAST", "ESTE", "LESTE", "EST", "OST", "DOĞU"), 90.0),
+    **dict.fromkeys(("S", "SN", "GK", "SOUTH", "SUR", "SUL", "SUD", "SÜD", "GÜNEY"), 180.0),
+    **dict.fromkeys(("W", "WE", "OE", "WO", "BD", "WEST", "OESTE", "OUEST", "OVEST", "BATI"), 270.0),
 }
 _DEGREES = re.compile(r"(\d{1,3})(?:\.0*)?\s*(?:DEG(?:REES?)?)?(?:\s*\(.*)?", re.IGNORECASE)
 _QUADRANT = re.compile(r"([NS])\s*(\d{1,2})\s*([EW])", re.IGNORECASE)
 _SEED = re.compile(r"[A-Z][HNGLP]([NEZ])\d{0,2}")
-_UP: Final = frozenset({"UP", "U", "V", "Z", "UD", "VER", "VERT", "VERTICAL", "DOWN", "DWN"})
+_UP: Final = frozenset({"UP", "U", "V", "Z", "UD", "VER", "DOWN", "DWN", "SENKRECHT", "DÜŞEY", "DUSEY"})
 
 
 def azimuth_of(component: str) -> float | None:
@@ -46,7 +46,11 @@ def azimuth_of(component: str) -> float | None:
     seed = _SEED.fullmatch(text)
     if seed:
         return {"N": 0.0, "E": 90.0}.get(seed[1])
-    return _WORDS_DIRECTIONS.get(re.sub(r"[^A-Z]", "", text))
+    words = re.findall(r"[^\W\d_]+", text)
+    known = [_WORDS_DIRECTIONS.get(word) for word in words]
+    if len(words) == 2 and None not in known and abs(known[0] - known[1]) == 180.0:  # Norte-Sur
+        return known[0]
+    return _WORDS_DIRECTIONS.get("".join(words))
 
 
 def direction_remark(component: str, number: float | None, vertical_codes: tuple[int, ...]) -> str | None:
@@ -62,12 +66,12 @@ def direction_remark(component: str, number: float | None, vertical_codes: tuple
 
 def is_vertical(component: str) -> bool:
     """Whether a component is one of the vertical direction: UP, V, U-D, UD2, HNZ, "VERTICAL COMP"."""
-    words = re.findall(r"[A-Z0-9]+", component.upper())
+    words = re.findall(r"[^\W_]+", component.upper())
     if not words:
         return False
     if words[0] in {"V", "Z", "U"} or re.fullmatch(r"[A-Z][HNGLP]Z\d{0,2}|UD[12]", words[0]):
         return True
-    return any(word in _UP and len(word) > 1 for word in words)
+    return any((word in _UP and len(word) > 1) or word.startswith(("VERT", "上下")) for word in words)
 
 
 PER_SECOND: Final = {
@@ -80,7 +84,7 @@ PER_SECOND: Final = {
 """How many of a unit of time make one second."""
 
 _WORDS: Final[tuple[tuple[str, re.Pattern[str]], ...]] = tuple(
-    (kind, re.compile(rf"(?<![a-z0-9])(?:{words})(?![a-z0-9])", re.IGNORECASE))
+    (kind, re.compile(rf"(?<![^\W_])(?:{words})(?![^\W_])", re.IGNORECASE))
     for kind, words in (
         # A spectrum, a hazard curve, a list or soil properties: what stands beside motions and looks like them.
         (
@@ -92,13 +96,20 @@ _WORDS: Final[tuple[tuple[str, re.Pattern[str]], ...]] = tuple(
             r"|phase|magnitude|distance|rsn|vs30|target|design|mean|median|sigma|husid|arias|rotation|temperature"
             r"|pressure|latitude|longitude|lat|lon",
         ),
-        ("acceleration", r"acc\w*|acel\w*|ac|beschl\w*|a[gc]?[ ]?[xyz]|ag|a|ug|xg|u\"g|ga"),
-        ("velocity", r"(?<!wave )(?<!wave-)vel\w*|geschwindigkeit|vitesse|vgx?"),
-        ("displacement", r"disp\w*|desp\w*|dis|verschiebung|d[eé]placement"),
-        ("times", r"time\w*|t|tiempo|zeit|temps|tempo|relativetime|elapsed|sec(?:onds?)?|zaman"),
+        (
+            "acceleration",
+            r"acc\w*|acel\w*|accél\w*|ac|beschl\w*|ivme\w*|ускорени\w*|加速度|a[gc]?[ ]?[xyz]|ag|a|ug|xg|u\"g|ga",
+        ),
+        ("velocity", r"(?<!wave )(?<!wave-)vel\w*|geschwindigkeit|vitesse|h\u0131z\w*|vgx?"),
+        ("displacement", r"disp\w*|desp\w*|desloc\w*|dis|verschiebung|d[eé]placement|spostament\w*|yerdeğ\w*"),
         ("index", r"samples?|no|nr|num(?:ber)?|index|idx|points?|counts?|rows?|steps?|item|nº"),
     )
 )
+_TIMES: Final = re.compile(
+    r"times?|t|tiempos?|zeit|temps|tempo|zaman|relativetime|secs?|seconds?|segundos|elapsed|ms|время|時間|时间"
+)
+_OF_TIMES: Final = re.compile(r"relative|of|the|since|start|from|trigger|in|record|axis|vector|de|du|del")
+"""What a column of times is called, and what may stand beside it; T1, tau or a rise time is none."""
 _BARE: Final = {
     **dict.fromkeys(("i", "n", "id", "#"), "index"),
     **dict.fromkeys(("f", "s"), "no motion"),
@@ -114,12 +125,27 @@ _DATE = re.compile(r"(?<![a-z])(?:date|datetime|utc|fecha|timestamp|hour|clock)(
 _BRACKET = re.compile(r"[(\[]\s*([^)\]]*?)\s*[)\]]")
 _BRACKETED = re.compile(r"[^(\[)\]]+[(\[][^)\]]*[)\]]")
 _NO_NUMBERS = re.compile(r"^\s*(?:#|%|//|!|\*)\s*")
+_LETTER: Final = r"[^\W\d_]"
 _DIRECTION = re.compile(
-    r"(?<![A-Za-z])([NS]-?[NS]|[EWO]-?[EWO]|U-?[DP]|[NSEWZUVXYHLT]|north|south|east|west|up|down|vert(?:ical)?"
-    r"|[BEHLS][HNGL][NEZ12]|long(?:itudinal)?|trans(?:verse)?|h[12xy]|[NS]\d{1,2}[EW]|(?:comp\w*|ch\w*)[ ._-]?\d+"
-    r"|\d{1,3})(?![A-Za-z\d])",
+    rf"(?<!{_LETTER})([NS]-?[NS]|[EWO]-?[EWO]|U-?[DP]|K-?G|D-?B|[NSEWZUVXYHLT]|north|south|east|west|up|down|vert\w*"
+    r"|nor(?:te|d)|s[uü]d|su[rl]|l?este?|ost|ou?[ev]s?st|oeste|kuzey|güney|doğu|bat\u0131|düşey|senkrecht|上下"
+    r"|[BEHLS][HNGL][NEZ12]|long(?:itudinal)?|trans(?:vers\w*)?|h[12xy]|[NS]\d{1,2}[EW]|(?:comp\w*|ch\w*)[ ._-]?\d+"
+    r")(?![^\W_])",
     re.IGNORECASE,
 )
+_DEGREE: Final = r"deg\w*|°|º|grad(?:os?|i)|graus|degrés|derece"
+_AZIMUTHS: Final = tuple(
+    re.compile(pattern, re.IGNORECASE)
+    for pattern in (
+        rf"(?<![^\W_])(\d{{1,3}})[ ]?(?:{_DEGREE})",
+        r"(?<![^\W_])(?:azi\w*|az|acimut|rumbo)[^\w\d]*(\d{1,3})(?![^\W_])",
+        r"(?<![^\W_])(\d{3})(?![^\W_])",
+        r"(?<![^\W_])(\d{1,3})(?![^\W_])",
+    )
+)
+"""Numbers that are azimuths: with degrees, behind the word, of three digits, and one of a pair 90 degrees apart. The
+last two count only where no word of the label says that it counts something: a floor, a node, a run."""
+_CHANNEL_WORDS = re.compile(r"(?<![^\W_])(?:ch\w*|column\w*|sensor|station|samples?)", re.IGNORECASE)
 _AXIS = re.compile(r"a[gc]?[ ]?([xyz])", re.IGNORECASE)
 _VELOCITIES: Final = re.compile(r"(?:[cm]?m|in(?:ch)?|ft|km)\s*/\s*s(?:ec)?|kine|cm s-1|m s-1", re.IGNORECASE)
 _DISPLACEMENTS: Final = frozenset({"m", "cm", "mm", "in", "inch", "inches", "ft", "feet"})
@@ -139,6 +165,36 @@ class Label:
     kind: str
     unit: str = ""
     direction: str = ""
+    words: str = ""
+
+
+RAW: Final = re.compile(
+    r"(?:raw|un(?:corrected|filtered|processed)|crud\w*|brut\w*|roh|grezz\w*|original|ham)", re.IGNORECASE
+)
+CORRECTED: Final = re.compile(
+    r"(?:corrected|filtered|processed|filtr\w*|corr[ei]g\w*|corrett\w*|gefiltert|korrig\w*|processad\w*|bandpass|baseline)",
+    re.IGNORECASE,
+)
+
+
+def uncorrected_beside(labels: list[Label]) -> dict[int, str]:
+    """Return which labels are of motions that stand corrected in another column, and that column's label."""
+    words = [re.findall(r"[^\W_]+", one.words.lower()) for one in labels]
+    rest = [[word for word in one if not RAW.fullmatch(word) and not CORRECTED.fullmatch(word)] for one in words]
+    done = [any(map(CORRECTED.fullmatch, one)) and not any(map(RAW.fullmatch, one)) for one in words]
+    return {
+        index: labels[other].text
+        for index, of_one in enumerate(rest)
+        for other, of_other in enumerate(rest)
+        if of_one == of_other and done[other] and not done[index]
+    }
+
+
+def place_of(label: Label) -> str:
+    """Return what a label of accelerations says beside them, their direction and processing: where they are from."""
+    clauses = re.split(r"[,;:]", label.words)
+    own = next((one for one in clauses if _kind(one, "") == "acceleration"), label.words)
+    return "" if is_plain(own) or len(own.split()) > 2 * SHORT_LABEL else own.strip()
 
 
 def label_of(text: str) -> Label:
@@ -155,21 +211,25 @@ def label_of(text: str) -> Label:
     direction = _direction(words) if kind in ("acceleration", "") else ""
     if words.strip().lower() in ("s", "f"):  # a spectrum over T, a frequency
         return Label(text, "no motion", unit)
-    if kind == "" and direction:
+    if kind == "" and direction and _is_all_direction(words, direction):
         kind = "acceleration" if not unit or _is_acceleration(unit) else kind
     if kind == "" and not words and unit:
         kind = _kind(unit, unit)
-    return Label(text, kind, unit, direction)
+    return Label(text, kind, unit, direction, words)
 
 
 def _kind(words: str, unit: str) -> str:
     said = next((kind for kind, pattern in _WORDS if pattern.search(words)), "")
+    tokens = re.findall(r"[^\W_]+", words.lower())
+    others = [token for token in tokens if not _TIMES.fullmatch(token)]
+    if said in ("", "index") and len(others) < len(tokens) and all(map(_OF_TIMES.fullmatch, others)):
+        said = "times"
     if _DATE.search(words) and not re.search("relative|elapsed", words, re.IGNORECASE):
         return "date"
     if said == "no motion":
         return said
     if _is_acceleration(unit):
-        return said if said in ("velocity", "displacement", "no motion") else "acceleration"
+        return said if said in ("velocity", "displacement") else "acceleration"
     bare = unit.lower()
     if _VELOCITIES.fullmatch(bare):
         return "velocity"
@@ -177,8 +237,6 @@ def _kind(words: str, unit: str) -> str:
         return "displacement"
     if bare and bare not in PER_SECOND and _UNITS_OF_NO_MOTION.fullmatch(bare):
         return "no motion"
-    if said == "" and bare in PER_SECOND:
-        return "times"
     return said or _BARE.get(words.strip().lower(), "")
 
 
@@ -191,9 +249,29 @@ def _direction(words: str) -> str:
     axis = _AXIS.fullmatch(words.strip())
     if axis:
         return axis[1]
+    degrees = _azimuth_in(words, paired=False)
+    if degrees:
+        return degrees
     found: list[str] = _DIRECTION.findall(words)
     known = [one for one in found if azimuth_of(one) is not None or is_vertical(one)]
     return next(iter([*known, *found]), "")
+
+
+def _is_all_direction(words: str, direction: str) -> bool:
+    """Whether a label has nothing beside its direction."""
+    tokens = re.findall(r"[^\W_]+", words)
+    known = all(azimuth_of(token) is not None or is_vertical(token) for token in tokens)
+    return known or direction.strip() == words.strip() or direction == _azimuth_in(words, paired=False)
+
+
+def _azimuth_in(words: str, *, paired: bool) -> str:
+    """Return the number of a label that is an azimuth, or could be one of a pair, as it is written."""
+    counted = not is_plain(words) or _CHANNEL_WORDS.search(words) is not None
+    for pattern in _AZIMUTHS[:2] if counted else _AZIMUTHS[: 4 if paired else 3]:
+        found = pattern.search(words)
+        if found and int(found[1]) <= 360:
+            return found[1]
+    return ""
 
 
 def labels_of(header: list[str], columns: int) -> list[Label] | None:
@@ -206,7 +284,7 @@ def labels_of(header: list[str], columns: int) -> list[Label] | None:
         for parts, separated in _splits(_NO_NUMBERS.sub("", line), columns):
             found = _beside_each_other([label_of(part) for part in parts])
             named = sum(1 for label in found if label.kind)
-            if named == columns or (separated and named and _short(found)):
+            if named == columns or (columns > 1 and _short(found) and _are_labels(found, separated)):
                 units = _units_below(header, line, columns)
                 return [
                     one if one.unit or not unit else label_of(f"{one.text} ({unit})")
@@ -222,16 +300,20 @@ def _beside_each_other(labels: list[Label]) -> list[Label]:
     texts = [one.text.strip().lower() for one in labels]
     if len(labels) > 1 and all(text in PER_SECOND or unit_by_name(text) for text in texts):
         return [
-            Label(one.text, "times" if text in PER_SECOND else "acceleration", one.text)
+            replace(one, kind="times" if text in PER_SECOND else "acceleration", unit=one.text, words="")
             for one, text in zip(labels, texts, strict=True)
         ]
     units = any(label.kind == "acceleration" and label.unit for label in labels)
     if texts == ["x", "y"] or units:
         labels = [Label(one.text, "") if one.text.lower() in ("x", "y") and not one.unit else one for one in labels]
+    numbers = [_azimuth_in(_BRACKET.sub(" ", one.text), paired=True) for one in labels if one.kind == "acceleration"]
+    if len(numbers) == 2 and all(numbers) and abs(int(numbers[0]) - int(numbers[1])) in (90, 270):
+        pair = iter(numbers)
+        labels = [replace(one, direction=next(pair)) if one.kind == "acceleration" else one for one in labels]
     if not any(azimuth_of(one.direction) is not None for one in labels if one.direction):
         return labels
     return [
-        Label(one.text, "acceleration", one.unit, one.text) if text in ("v", "n") else one
+        replace(one, kind="acceleration", direction=one.text) if text in ("v", "n") else one
         for one, text in zip(labels, texts, strict=True)
     ]
 
@@ -245,6 +327,18 @@ def _units_below(header: list[str], line: str, columns: int) -> list[str]:
             if all(one.lower() in PER_SECOND or unit_by_name(one) for one in bare):
                 return bare
     return [""] * columns
+
+
+_OF_A_TITLE: Final = {"ground", "horizontal", "vertical", "strong", "input", "corrected", "uncorrected", "recorded"}
+"""What stands before "acceleration" in a title."""
+
+
+def _are_labels(labels: list[Label], separated: bool) -> bool:
+    """Whether parts of a line of which not all are known are labels: by a separator, or beside one of accelerations."""
+    if separated:
+        return [one.text.lower() for one in labels] != ["x", "y"]
+    unknown = {one.text.lower() for one in labels if not one.kind}
+    return any(one.kind == "acceleration" for one in labels) and not unknown & _OF_A_TITLE
 
 
 def _short(labels: list[Label]) -> bool:
