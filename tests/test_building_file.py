@@ -250,7 +250,7 @@ def test_json_and_toml_are_the_same_file(tmp_path: Path) -> None:
 def test_the_spectrum_of_a_file_is_beside_it(tmp_path: Path) -> None:
     tables = given()
     tables["site"] = {"spectrum_csv": "site.csv"}
-    (tmp_path / "site.csv").write_text("period,Sa\n0.05,0.5\n5,0.5\n")
+    (tmp_path / "site.csv").write_text("period,Sa (g)\n0.05,0.5\n5,0.5\n")
     (tmp_path / "b.json").write_text(json.dumps(tables))
     target = sm.read_building(tmp_path / "b.json").site_spectrum()
     assert target([1.0])[0] == pytest.approx(0.5 * G, rel=1e-12)

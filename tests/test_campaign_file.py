@@ -85,7 +85,7 @@ def test_motions_are_read_and_scaled_as_by_the_functions(tmp_path: Path) -> None
     found = sm.campaign.read_campaign(tmp_path / "c.toml")
     assert [item.name for item in found.motions] == [suite[0].name]
     assert found.motions[0].file == source.name
-    (tmp_path / "site.csv").write_text("period,sa\n0.01,0.4\n0.3,1.1\n3,0.2\n")
+    (tmp_path / "site.csv").write_text("period,sa (g)\n0.01,0.4\n0.3,1.1\n3,0.2\n")
     (tmp_path / "c.toml").write_text(
         TEXT.replace('builtin = "seven"', 'builtin = "seven"\nscaling = "asce7-10"\ntarget = "site.csv"')
     )

@@ -37,7 +37,7 @@ def test_names_that_are_not_utf_8_are_shown_with_escapes(tmp_path: Path, capsys:
     assert cli.main(["scale", "--records", str(path.parent)]) == 0
     assert r"suite\udce9: 3 motions" in capsys.readouterr().out
     target = path.with_suffix(".csv")
-    target.write_text("period,sa\n0.01,0.4\n3,0.2\n")
+    target.write_text("period,sa (g)\n0.01,0.4\n3,0.2\n")
     assert cli.main(["scale", "--target", str(target)]) == 0
     assert r"target  c\udce9" in capsys.readouterr().out
 

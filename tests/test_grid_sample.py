@@ -168,7 +168,7 @@ def test_a_spectrum_is_made_again_from_its_parameters(target: sm.TargetSpectrum)
 
 def test_a_csv_is_made_again_and_a_mean_is_refused(tmp_path: Any) -> None:
     path = tmp_path / "site.csv"
-    path.write_text("period,sa\n0.01,0.4\n0.3,1.1\n3,0.2\n")
+    path.write_text("period,sa (g)\n0.01,0.4\n0.3,1.1\n3,0.2\n")
     target = sm.TargetSpectrum.from_csv(path)
     again = target_of_parameters(target.parameters)
     assert again == target

@@ -77,7 +77,7 @@ def test_targets(tmp_path):
         "S_D1 of the target spectrum is 6 g, above S_DS = 1 g: are they exchanged?",
     )
     file = tmp_path / "hazard.csv"
-    file.write_text("0.1,11\n2.0,0.3\n")
+    file.write_text("T,Sa (g)\n0.1,11\n2.0,0.3\n")
     assert target_remarks(sm.TargetSpectrum.from_csv(file))[0].startswith("largest Sa of the target spectrum is 11 g")
 
 

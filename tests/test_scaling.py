@@ -131,6 +131,6 @@ def test_bad_arguments_are_refused(
 
 def test_range_outside_the_target_is_refused(suite: list[sm.Record], tmp_path) -> None:
     file = tmp_path / "short.csv"
-    file.write_text("0.3,1.0\n2.0,0.3\n")
+    file.write_text("T,Sa (g)\n0.3,1.0\n2.0,0.3\n")
     with pytest.raises(sm.errors.InvalidOption, match=r"period of target spectrum must be from 0.3 s to 2 s"):
         sm.scaling.scale_asce7_10(suite, sm.TargetSpectrum.from_csv(file))

@@ -61,7 +61,7 @@ def test_a_site_is_a_code_with_its_numbers(text: str, expected: sm.TargetSpectru
 
 
 def test_a_file_of_the_site_is_beside_the_building(tmp_path: Path) -> None:
-    (tmp_path / "site.csv").write_text("T,Sa\n0.05,0.5\n5,0.5\n")
+    (tmp_path / "site.csv").write_text("T,Sa (g)\n0.05,0.5\n5,0.5\n")
     file = written(tmp_path / "b.json", site={"target": "site.csv"})
     assert sm.read_building(file).site_spectrum()(1.0) == pytest.approx(0.5 * G, rel=1e-12)
 

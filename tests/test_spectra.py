@@ -153,10 +153,10 @@ def test_asce7_shape_is_that_of_the_standard() -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "0.1,0.4\n1.0,0.2\n2.0,0.05\n",
+        "# units: g\n0.1,0.4\n1.0,0.2\n2.0,0.05\n",
         "Period (s), Sa (g)\n0.1,0.4\n1.0,0.2\n2.0,0.05\n",
         "# uniform hazard\nsa_g,site,T\n0.4,x,0.1\n\n0.2,x,1.0\n0.05,x,2.0\n",
-        "\ufeffperiod,sa\r\n0.1,4e-1\r\n1.0,0.2\r\n2.0,5e-2\r\n",
+        "\ufeffperiod,sa (g)\r\n0.1,4e-1\r\n1.0,0.2\r\n2.0,5e-2\r\n",
     ],
 )
 def test_csv_target_is_interpolated_in_logarithms(tmp_path: Path, text: str) -> None:
@@ -174,12 +174,13 @@ def test_csv_target_is_interpolated_in_logarithms(tmp_path: Path, text: str) -> 
         ("period,sa\n1.0,0.2\n", "points of uhs.csv must be at least two rows of period and Sa; got 1"),
         ("0.1,0.4\n1.0\n", "Sa of uhs.csv, point 2, must be a positive number; got ''"),
         ("0.1,0.4\n1.0,nan\n", "Sa of uhs.csv, point 2, must be a positive number; got 'nan'"),
-        ("0.0,0.4\n1.0,0.2\n", "period of uhs.csv, point 1, must be a positive number; got '0.0'"),
+        ("-0.1,0.4\n1.0,0.2\n", "period of uhs.csv, point 1, must be a positive number; got '-0.1'"),
+        ("0.1,0.4\n1.0,0.2\n", "unit of Sa of uhs.csv must be stated by the head as Sa (g), or behind the name"),
         ("0.1,0.4\n1.0,-0.2\n", "Sa of uhs.csv, point 2, must be a positive number; got '-0.2'"),
         ("1.0,0.4\n1.0,0.2\n", "period of uhs.csv, point 2, must be longer than the one before; got 1 after 1"),
         ("period,value\n0.1,0.4\n1,0.2\n", "columns of uhs.csv must be one period or T and one Sa; got period, value"),
         ("0.1,0.4\n" + "1" * 200_000 + ",0.2\n", "content of uhs.csv must be a table in CSV; got field larger than"),
-        ("period,Sa (m/s2)\n0.1,0.4\n1,0.2\n", "unit of Sa of uhs.csv must be g; got m/s2"),
+        ("period,Sa (kN)\n0.1,0.4\n1,0.2\n", "unit of Sa of uhs.csv must be stated by the head as Sa (g), or behind"),
     ],
 )
 def test_bad_target_files_are_refused(tmp_path: Path, text: str, message: str) -> None:
@@ -207,7 +208,7 @@ def test_target_path_that_is_none_is_refused(path: object) -> None:
 
 def test_csv_target_is_refused_outside_its_range(tmp_path: Path) -> None:
     file = tmp_path / "uhs.csv"
-    file.write_text("0.1,0.4\n2.0,0.05\n")
+    file.write_text("T,Sa (g)\n0.1,0.4\n2.0,0.05\n")
     target = sm.TargetSpectrum.from_csv(file)
     for period in (0.09, 2.1, np.nan):
         with pytest.raises(sm.errors.InvalidOption, match=r"must be from 0.1 s to 2 s, the range of uhs; got"):

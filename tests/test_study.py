@@ -454,7 +454,7 @@ def test_recorded_and_synthetic_motions_are_counted_apart(
 def test_spectra_are_tabulated_over_the_periods_of_the_scaling(tmp_path: Path) -> None:
     """A target from 3.5 s on, of a suite scaled for a period of 20 s: none of the usual periods."""
     file = tmp_path / "long.csv"
-    file.write_text("period,sa\n3.5,0.1\n60,0.001\n")
+    file.write_text("period,sa (g)\n3.5,0.1\n60,0.001\n")
     chosen = StudyParameters(
         buildings=((2, 4.0),), response_modification=(4.0,), mass_ratios=(1e-3,), scaling_period=20.0
     )
@@ -529,7 +529,7 @@ def test_command_writes_tables_and_says_what_they_say(tmp_path: Path, capsys: py
 
 def test_command_prints_json_and_takes_options(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     target = tmp_path / "uhs.csv"
-    target.write_text("period,sa\n0.01,0.4\n0.2,1.0\n0.6,1.0\n3.0,0.2\n")
+    target.write_text("period,sa (g)\n0.01,0.4\n0.2,1.0\n0.6,1.0\n3.0,0.2\n")
     arguments = [
         "--target",
         target,

@@ -29,6 +29,7 @@ from seismass.model.codes import AS_STATED, CodeFraction, code_fraction
 from seismass.model.plausibility import PERIOD_RANGE
 from seismass.motions.scaling.suite import target_of
 from seismass.motions.spectra import DEFAULT_TL, TargetSpectrum
+from seismass.motions.spectra.tables import file_and_words
 
 SITE: Final = ("sds_g", "sd1_g", "tl_s", "spectrum_csv", "target")
 """Keys of the site."""
@@ -55,7 +56,8 @@ def site_of(site: Table, folder: Path) -> TargetSpectrum | None:
             requirement = str(error).partition(" must be ")[2].rpartition("; got ")[0]
             site.refuse("target", requirement if "one of asce7" in requirement else f"valid: {error}", "another")
     if "spectrum_csv" in site.values:
-        return TargetSpectrum.from_csv(folder / site.text("spectrum_csv"))
+        file, words = file_and_words(site.text("spectrum_csv"), folder)
+        return TargetSpectrum.from_csv(file, **words)
     for key in ("sds_g", "sd1_g"):
         if key not in site.values:
             others = f"{site.key('spectrum_csv')} or {site.key('target')} for the whole spectrum"

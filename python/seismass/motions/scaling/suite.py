@@ -157,7 +157,9 @@ FORMS: Final = {
 """What may stand in place of a CSV, by name."""
 
 TARGET_HELP: Final = (
-    "target spectrum: a CSV of period (s) and Sa (g), or one of " + ", ".join(FORMS.values()) + "; accelerations in g"
+    "target spectrum: a table of period (s) and Sa, FILE, FILE:UNIT or FILE:COLUMN where it does not say, or one of "
+    + ", ".join(FORMS.values())
+    + "; accelerations in g"
 )
 
 
@@ -168,19 +170,21 @@ ALIASES: Final = {"nzs": "nzs1170", "asce": "asce7"}
 def target_of(text: str, folder: Path = Path()) -> TargetSpectrum:
     """Return the target spectrum of a file, relative to `folder`, or of one of `FORMS`, with its numbers."""
     from seismass.motions.spectra import TargetSpectrum
-    from seismass.motions.spectra.tables import read_table
+    from seismass.motions.spectra.tables import file_and_words, read_table
 
     name, colon, rest = text.partition(":")
     name = ALIASES.get(name.lower(), name.lower())
     if name not in FORMS or not colon:
-        if (colon or not Path(text).suffix) and not (folder / text).exists():
+        file, words = file_and_words(text, folder)
+        if (colon or not Path(text).suffix) and not file.exists():
             forms = ", ".join(FORMS.values())
             raise InvalidOption(f"--target of command must be a CSV that is there or one of {forms}; got {text}")
-        return TargetSpectrum.from_csv(folder / text)
+        return TargetSpectrum.from_csv(file, **words)
     if not rest:
         raise _refused(name, text)
     if name == "asce7-22":
-        return TargetSpectrum.asce7_multi_period(*read_table(folder / rest, zero=True))
+        file, words = file_and_words(rest, folder)
+        return TargetSpectrum.asce7_multi_period(*read_table(file, **words))
     if name == "mean":
         from seismass.motions.records.builtin import records_named
 

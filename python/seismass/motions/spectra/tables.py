@@ -1,12 +1,15 @@
-"""A target spectrum from a table of the user's: a CSV of period (s) and Sa (g)."""
+"""A target spectrum from a file of the user's: a table of periods and ordinates, in any of the forms of programs."""
 
 from __future__ import annotations
 
+import codecs
 import csv
-import io
+import json
 import os
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
@@ -15,8 +18,8 @@ from numpy.typing import ArrayLike
 from seismass import _kernel
 from seismass.base.digest import inputs_digest
 from seismass.base.errors import InvalidMotion, InvalidOption, RecordFormatError
-from seismass.base.files import read_utf8
-from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.files import read_file
+from seismass.base.units import ACCELERATION_UNITS, FOOT, INCH, STANDARD_GRAVITY, stated_unit, unit_by_name
 from seismass.base.values import (
     FloatArray,
     as_array,
@@ -47,51 +50,100 @@ class CsvTable(PeriodTable):
         return {"shape": "csv", "file": self.file, **self.points}
 
     def __call__(self, periods: FloatArray) -> FloatArray:
-        """Return Sa (m/s2)."""
-        log_ordinates = np.interp(log(periods), log(self.periods), log(self.sa_g))
-        return STANDARD_GRAVITY * exp(log_ordinates)
+        """Return Sa (m/s2); linear in the period from 0 to the first positive one, which has no logarithm."""
+        first = int(self.periods[0] == 0.0)
+        start = self.periods[first]
+        log_ordinates = np.interp(log(np.maximum(periods, start)), log(self.periods[first:]), log(self.sa_g[first:]))
+        beyond = np.interp(periods, self.periods[: first + 1], self.sa_g[: first + 1])
+        return STANDARD_GRAVITY * np.where(np.asarray(periods) < start, beyond, exp(log_ordinates))
 
 
-def csv_shape(path: str | os.PathLike[str]) -> CsvTable:
-    """Return the shape of a CSV, of which `TargetSpectrum.from_csv` says what it must be."""
+def csv_shape(path: str | os.PathLike[str], unit: str | None = None, column: str | None = None) -> CsvTable:
+    """Return the shape of a table, of which `TargetSpectrum.from_csv` says what it must be."""
     source = as_path(path, OWNER, RecordFormatError)
-    periods, ordinates = read_table(path)
-    return CsvTable(periods, ordinates, printable(source.stem), printable(source.name))
+    periods, ordinates = read_table(path, unit, column)
+    label = printable(source.stem) + (f", {printable(column)}" if column else "")
+    return CsvTable(periods, ordinates, label, printable(source.name))
 
 
-def read_table(path: str | os.PathLike[str], *, zero: bool = False) -> tuple[FloatArray, FloatArray]:
-    """Return the periods (s) and Sa (g) of a CSV; with `zero` the first period may be 0."""
+def file_and_words(text: str, folder: Path) -> tuple[Path, dict[str, str]]:
+    """Return the file that a text names, and what stands behind it: FILE:UNIT, FILE:COLUMN or FILE:COLUMN:UNIT."""
+    name, words = text, dict[str, str]()
+    while ":" in name and not (folder / name).is_file():
+        name, _, word = name.rpartition(":")
+        words["unit" if unit_by_name(word) else "column"] = word
+    return (folder / name, words) if (folder / name).is_file() else (folder / text, {})
+
+
+@dataclass(frozen=True)
+class _Spectrum:
+    """One spectrum of a file: its name there, points as written, what its ordinates are of, and their unit."""
+
+    name: str
+    points: list[tuple[str, str]]
+    unit: str = ""
+    of: str = "Sa"
+
+
+_PERIODS: Final = re.compile(
+    r"(?:natural |structural |vibration )*(?:periods?|t|tn|per[ií]odos?|p[ée]riodes?|perioden?|periodi)"
+)
+_ORDINATES: Final = re.compile(
+    r"(?<![^\W_])(?:p?sa[eh]?|se|sd|p?sv|acc?el\w*|spectral|target|uhs|displacement|ordinates?|dbe|mce\w*)(?![^\W_])"
+)
+_OF: Final = {
+    "SD": re.compile(r"(?<![^\W_])(?:sd|displacement)(?![^\W_])"),
+    "PSV": re.compile(r"(?<![^\W_])psv(?![^\W_])"),
+}
+_METRES: Final = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": INCH, "ft": FOOT}
+_UNIFORM: Final = re.compile(r"(?:(?P<before>[^~]+)~)?(?:PGA|SA\((?P<period>[\d.]+)\))(?:[~-](?P<after>.+))?")
+_PRINTED: Final = {"psv": "m/s", "sd": "m"}
+_ROWS_OF: Final = ("motion", "record", "damping")
+"""Columns that tell rows of several spectra apart, as `seismass spectrum` prints them."""
+
+
+def read_table(
+    path: str | os.PathLike[str], unit: str | None = None, column: str | None = None
+) -> tuple[FloatArray, FloatArray]:
+    """Return the periods (s) and Sa (g) of a file; see `TargetSpectrum.from_csv`."""
     source = as_path(path, OWNER, RecordFormatError)
+    given = unit_by_name(unit) if unit else None
+    if unit and given is None:
+        raise refusal(RecordFormatError, "unit", source.name, f"one of {', '.join(ACCELERATION_UNITS)}", brief(unit))
     try:
-        text = read_utf8(source)
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "not text"
-        requirement = "a file of text that can be read"
-        raise refusal(RecordFormatError, "path", OWNER, requirement, f"{source} ({reason})") from None
-    return _parse_csv(text, source.name, zero)
+        content = read_file(source)
+        wide = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+        text = content.decode("utf-16" if wide else "utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+    except UnicodeDecodeError:
+        text = content.decode("cp1252", "replace")  # as sheets are saved on Windows
+    except OSError as error:
+        got = f"{source} ({error.strerror or 'not text'})"
+        raise refusal(RecordFormatError, "path", OWNER, "a file of text that can be read", got) from None
+    if "\0" in text:
+        got = f"{source} (not text)"
+        raise refusal(RecordFormatError, "path", OWNER, "a file of text that can be read", got)
+    found = _json_spectra(text, source.name) if text.lstrip().startswith("{") else _table_spectra(text, source.name)
+    return _chosen(found, given, column, source.name)
 
 
-def _parse_csv(text: str, file: str, zero: bool) -> tuple[FloatArray, FloatArray]:
-    text, separator = _with_points(text)
-    try:
-        rows = [
-            [cell.strip() for cell in row]
-            for row in csv.reader(io.StringIO(text), delimiter=separator)
-            if any(cell.strip() for cell in row) and not row[0].lstrip().startswith("#")
-        ]
-    except csv.Error as error:
-        raise refusal(RecordFormatError, "content", file, "a table in CSV", str(error)) from error
-    columns = (0, 1)
-    if rows and not _is_number(rows[0][0]):
-        columns = _named_columns(rows.pop(0), file)
+def _chosen(found: list[_Spectrum], unit: str | None, column: str | None, file: str) -> tuple[FloatArray, FloatArray]:
+    """Return the one spectrum of a file that is asked for, in g."""
+    named = [one for one in found if column is not None and one.name.lower() == column.lower()]
+    named = named or [one for one in found if column is not None and column.lower() in one.name.lower()]
+    if column is None:
+        named = [one for one in found if len(found) == 1 or "target" in one.name.lower()]
+    if len(named) != 1:
+        names = ", ".join(one.name for one in found)
+        requirement = f"one, or named behind the file as {file}:{found[0].name}"
+        raise refusal(RecordFormatError, "spectra", file, requirement, short(printable(names)) if names else "none")
+    one = named[0]
     points = []
-    for number, row in enumerate(rows, start=1):
-        for name, column in zip(("period", "Sa"), columns, strict=True):
-            cell = row[column] if column < len(row) else ""
-            at_zero = zero and number == 1 and name == "period" and _is_number(cell) and float(cell) == 0.0
+    for number, point in enumerate(one.points, start=1):
+        for name, cell in zip(("period", one.of), point, strict=True):
+            at_zero = number == 1 and name == "period" and _is_number(cell) and float(cell) == 0.0
             if not (at_zero or (_is_number(cell) and 0.0 < float(cell) < np.inf)):
                 raise refusal(RecordFormatError, name, f"{file}, point {number},", "a positive number", brief(cell))
-        points.append([float(row[column]) for column in columns])
+        points.append([float(cell) for cell in point])
     if len(points) < 2:
         raise refusal(RecordFormatError, "points", file, "at least two rows of period and Sa", str(len(points)))
     periods, ordinates = (frozen(column) for column in zip(*points, strict=True))
@@ -100,35 +152,164 @@ def _parse_csv(text: str, file: str, zero: bool) -> tuple[FloatArray, FloatArray
         number = int(falling[0]) + 2
         got = f"{periods[number - 1]:g} after {periods[number - 2]:g}"
         raise refusal(RecordFormatError, "period", f"{file}, point {number},", "longer than the one before", got)
-    return periods, ordinates
+    return periods, frozen(_in_g(periods, ordinates, one, unit, file))
 
 
-def _with_points(text: str) -> tuple[str, str]:
-    """Return a text with points for decimal commas, and what separates its cells: where there are semicolons, those."""
-    if ";" not in text:
-        return text, ","
-    rows = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
-    cells = [cell for line in rows[-1:] for cell in line.split(";")]
-    decimal = any("," in cell for cell in cells) and not any("." in cell for cell in cells)
-    return text.replace(",", ".") if decimal else text, ";"
+def _in_g(periods: FloatArray, ordinates: FloatArray, one: _Spectrum, unit: str | None, file: str) -> FloatArray:
+    """Return ordinates as Sa (g): of displacements and pseudo-velocities by omega."""
+    length = re.sub(r"/s(?:ec)?$", "", one.unit.lower())
+    if one.of != "Sa" and length in _METRES and (one.unit.lower() != length) is (one.of == "PSV"):
+        omega = 2.0 * np.pi / np.where(periods > 0.0, periods, np.nan)
+        metres = ordinates * _METRES[length]
+        if periods[0] == 0.0:
+            raise refusal(RecordFormatError, "period", f"{file}, point 1,", f"positive beside {one.of}", "0")
+        return metres * omega ** (1 if one.of == "PSV" else 2) / STANDARD_GRAVITY
+    stated = unit_by_name(one.unit)
+    if unit and stated and ACCELERATION_UNITS[unit] != ACCELERATION_UNITS[stated]:
+        raise refusal(RecordFormatError, f"unit of {one.of}", file, f"that of its head, {stated}", unit)
+    if not (unit or stated):
+        behind = f"or behind the name as {file}:g or {file}:m/s2" if one.of == "Sa" else "a length or velocity"
+        requirement = f"stated by the head as {one.of} ({dict(Sa='g', SD='m', PSV='m/s')[one.of]}), {behind}"
+        raise refusal(
+            RecordFormatError, f"unit of {one.of}", file, requirement, brief(one.unit) if one.unit else "none"
+        )
+    factor = ACCELERATION_UNITS[stated or unit or ""] / STANDARD_GRAVITY
+    return ordinates if factor == 1.0 else ordinates * factor
 
 
-def _named_columns(header: list[str], file: str) -> tuple[int, int]:
-    words = [cell.lower().replace("(", " ").replace("_", " ").split() for cell in header]
+def _json_spectra(text: str, file: str) -> list[_Spectrum]:
+    """Return the spectra of an answer of the USGS design services, by their keys; Sa is in g there."""
+    try:
+        document = json.loads(text)
+    except ValueError as error:
+        raise refusal(RecordFormatError, "content", file, "sound JSON", str(error)) from None
+    found: list[_Spectrum] = []
+
+    def look(name: str, value: Any) -> None:
+        if isinstance(value, dict):
+            pairs = zip(value.get("periods", ()), value.get("ordinates", ()), strict=False)
+            points = [(str(period), str(ordinate)) for period, ordinate in pairs]
+            if points:
+                found.append(_Spectrum(name, points, "g"))
+            for key, inner in value.items():
+                look(str(key), inner)
+        elif isinstance(value, list) and "spectrum" in name.lower() and all(isinstance(one, list) for one in value):
+            found.append(_Spectrum(name, [(str(one[0]), str(one[1])) for one in value if len(one) == 2], "g"))
+
+    look(file, document)
+    if not found:
+        raise refusal(RecordFormatError, "content", file, "a spectrum of periods and ordinates", "none")
+    return found
+
+
+def _table_spectra(text: str, file: str) -> list[_Spectrum]:
+    """Return the spectra of every table of a text: a column of periods and its others, or a row of uniform hazard."""
+    marked = [line for line in text.splitlines() if line.strip(' ,;\t"')]
+    lines = [line.strip() if "~" in line else line.strip().lstrip("#%!* ") for line in marked]
+    plain = [line for line in marked if not line.lstrip().startswith("#")]
+    separator = next((one for one in ("\t", ";", ",") if any(one in line for line in plain[-2:])), " ")
+    cells = [_cells(line, separator, file) for line in lines]
+    if separator != "," and (last := cells[-1:]) and any("," in one for one in last[0]) and "." not in "".join(last[0]):
+        cells = [[one.replace(",", ".") for one in row] for row in cells]
+    found: list[_Spectrum] = []
+    for at, heads in enumerate(cells):
+        uniform = [_UNIFORM.fullmatch(head.strip()) for head in heads]
+        if sum(match is not None for match in uniform) > 1:
+            return _uniform_hazard(uniform, cells[at + 1 :], file)
+        period, ordinates = _columns_named(heads, file)
+        if period is None or not ordinates:
+            continue
+        rows = [row for row, mark in zip(cells[at + 1 :], marked[at + 1 :], strict=True) if not mark.startswith("#")]
+        end = next((row for row, one in enumerate(rows) if row and not _is_number(one[0]) and len(one) < 2), len(rows))
+        found += _of_columns(heads, period, ordinates, rows[:end], "\n".join(lines[:at]), file)
+    if not found:
+        rows = [row for row, mark in zip(cells, marked, strict=True) if not mark.lstrip().startswith("#")]
+        if rows and not _is_number(rows[0][0]):
+            got = short(", ".join(rows[0]))
+            raise refusal(RecordFormatError, "columns", file, "one period or T and one Sa", got)
+        unit = stated_unit("\n".join(lines)) or ""
+        found = [_Spectrum("Sa", [(row[0], row[1] if len(row) > 1 else "") for row in rows], unit)]
+    return found
+
+
+def _cells(line: str, separator: str, file: str) -> list[str]:
+    if separator == " ":
+        wide = re.split(r"\s{2,}|\t", line)
+        joined = re.sub(r"\s+(?=[(\[])", "\0", line).split()
+        return [one.replace("\0", " ") for one in (wide if len(wide) > 1 else joined)]
+    try:
+        return [cell.strip() for cell in next(csv.reader([line], delimiter=separator, skipinitialspace=True))]
+    except csv.Error as error:
+        raise refusal(RecordFormatError, "content", file, "a table in CSV", str(error)) from error
+
+
+def _name_and_unit(head: str) -> tuple[str, str]:
+    """Return what a head calls its column, and the unit that it states: in brackets, or as its last word."""
+    name = head.lower().replace("_", " ").strip()
+    bracket = re.search(r"[(\[]\s*([^)\]]*?)\s*[)\]]\s*$", name)
+    if bracket:
+        return name[: bracket.start()].strip(" ,"), bracket[1]
+    words = re.split(r"[\s,]+|/(?=g$)", name)
+    for count in (2, 1):
+        last = " ".join(words[-count:])
+        if len(words) > count and (unit_by_name(last) or last in ("s", "sec", "ms", *_METRES)):
+            return " ".join(words[:-count]), last
+    return name, ""
+
+
+def _columns_named(heads: list[str], file: str) -> tuple[int | None, list[int]]:
+    """Return the column of periods, and those of ordinates."""
+    named = [_name_and_unit(head) for head in heads]
+    periods = [at for at, (name, _) in enumerate(named) if _PERIODS.fullmatch(name)]
+    if len(periods) != 1:
+        return None, []
+    unit = named[periods[0]][1]
+    if unit not in ("", "s", "sec", "seconds", "second", "seg"):
+        raise refusal(RecordFormatError, "unit of period", file, "s", unit)
+    return periods[0], [
+        at
+        for at, (name, unit) in enumerate(named)
+        if at != periods[0] and (_ORDINATES.search(name) or unit_by_name(unit))
+    ]
+
+
+def _of_columns(
+    heads: list[str], period: int, ordinates: list[int], rows: list[list[str]], above: str, file: str
+) -> list[_Spectrum]:
+    """Return the spectra of one table; rows of several motions or dampings are several, by the name of the motion."""
+    units = [""] * len(heads)
+    if rows and len(rows[0]) == len(heads) and all(re.fullmatch(r"[(\[]?[a-z%][\w/^%]*[)\]]?", one) for one in rows[0]):
+        units, rows = [one.strip("()[]") for one in rows[0]], rows[1:]  # a line of units
+    others = [at for at, head in enumerate(heads) if head.lower().strip() in _ROWS_OF]
+    keys = list(dict.fromkeys(tuple(row[at] for at in others) for row in rows if len(row) > max([*others, -1])))
     found = []
-    for names in (("period", "t"), ("sa",)):
-        columns = [index for index, cell in enumerate(words) if cell and cell[0] in names]
-        if len(columns) != 1:
-            requirement = "one period or T and one Sa"
-            raise refusal(RecordFormatError, "columns", file, requirement, short(", ".join(header)))
-        found.append(columns[0])
-    of_period = [word.strip("()[]") for word in words[found[0]][1:]]
-    if of_period and of_period[0] not in ("s", "sec", "seconds", ""):
-        raise refusal(RecordFormatError, "unit of period", file, "s", " ".join(of_period))
-    unit = [word.strip("()[]") for word in words[found[1]][1:]]
-    if unit and unit != ["g"]:
-        raise refusal(RecordFormatError, "unit of Sa", file, "g", short(" ".join(unit)))
-    return found[0], found[1]
+    for key in keys or [()]:
+        own = [row for row in rows if not others or tuple(row[at] for at in others if at < len(row)) == key]
+        for at in ordinates:
+            name, unit = _name_and_unit(heads[at])
+            of = next((kind for kind, pattern in _OF.items() if pattern.search(name) and not unit_by_name(unit)), "Sa")
+            points = [(row[period] if period < len(row) else "", row[at] if at < len(row) else "") for row in own]
+            named = (
+                ", ".join((*key[1:2], *(f"{100.0 * float(one):g} %" for one in key[2:])))
+                if len(keys) > 1
+                else heads[at]
+            )
+            printed = _PRINTED.get(name, "") if len(others) == len(_ROWS_OF) else ""
+            found.append(_Spectrum(named, points, unit or units[at] or printed or stated_unit(above) or "", of))
+    return found
+
+
+def _uniform_hazard(heads: list[re.Match[str] | None], rows: list[list[str]], file: str) -> list[_Spectrum]:
+    """Return the spectra of a row of OpenQuake's uniform hazard spectra, one for each probability; they are in g."""
+    if len(rows) != 1:
+        raise refusal(RecordFormatError, "sites", file, "one: leave the row of yours in a copy", str(len(rows)))
+    spectra: dict[str, list[tuple[str, str]]] = {}
+    for at, head in enumerate(heads):
+        if head is not None:
+            probability = head["before"] or head["after"] or "hazard"
+            spectra.setdefault(probability, []).append((head["period"] or "0", rows[0][at]))
+    by_period = {name: sorted(points, key=lambda one: float(one[0])) for name, points in spectra.items()}
+    return [_Spectrum(name, points, "g") for name, points in by_period.items()]
 
 
 def _is_number(cell: str) -> bool:

@@ -220,19 +220,31 @@ class TargetSpectrum:
         return cls(nzs1170_shape(site_class, z, r, fault_distance_km))
 
     @classmethod
-    def from_csv(cls, path: str | os.PathLike[str]) -> TargetSpectrum:
-        """Return the spectrum of a CSV: period (s) and Sa (g), interpolated log-log, refused outside its range.
+    def from_csv(
+        cls, path: str | os.PathLike[str], *, unit: str | None = None, column: str | None = None
+    ) -> TargetSpectrum:
+        """Return the spectrum of a file: periods (s) and Sa, interpolated log-log, refused outside its range.
 
-        A first row that is not numbers names the columns: one `period` or `T`, one `Sa`, each with any unit after it;
-        further columns are ignored. Without it the first two columns count. Blank lines and those with # are skipped.
+        Parameters
+        ----------
+        path : path-like
+            A table whose heads name a column of periods (`period`, `T`) and one of ordinates (`Sa`, `PSA`, `Se`, any
+            acceleration), with commas, semicolons, tabs or blanks and decimal points or commas; a table of OpenQuake's
+            uniform hazard spectra, PEER's _SearchResults.csv, an answer of the USGS design services in JSON, or what
+            `seismass spectrum` and `seismass target` print. Spectral displacements and pseudo-velocities become
+            omega^2 SD and omega PSV. The first period may be 0, from which Sa is linear in the period.
+        unit : str, optional
+            Unit of the ordinates, such as "g" or "m/s2", which the file must state otherwise.
+        column : str, optional
+            Which of several spectra of the file, by its head, its probability or its record, or a part of that.
 
         Raises
         ------
         RecordFormatError
-            The file cannot be read, has fewer than two points, a value that is not a positive number, or periods that
-            do not increase.
+            The file cannot be read, has fewer than two points, a value that is not a positive number, periods that do
+            not increase, no unit, or several spectra of which `column` names none.
         """
-        return cls(csv_shape(path))
+        return cls(csv_shape(path, unit, column))
 
     @classmethod
     def mean_of(

@@ -446,10 +446,11 @@ def _suite(table: Table | None, folder: Path, top: Table) -> list[Record]:
 
 def _target(table: Table, folder: Path) -> TargetSpectrum:
     from seismass.motions.scaling.suite import target_of
+    from seismass.motions.spectra.tables import file_and_words
 
     text = table.text("target")
-    file = folder / text
-    return TargetSpectrum.from_csv(file) if file.is_file() else target_of(text)
+    file, words = file_and_words(text, folder)
+    return TargetSpectrum.from_csv(file, **words) if file.is_file() else target_of(text)
 
 
 def _grid(top: Table, folder: Path, motions: int) -> Grid:
