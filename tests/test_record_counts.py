@@ -11,6 +11,7 @@ import pytest
 
 from seismass.base.errors import MissingPackage, RecordFormatError
 from seismass.motions.records import Record, read_counts, read_record
+from seismass.motions.records.formats.labels import is_vertical
 
 COUNTS = (3, -5, 10, -8, 2, -2, 0, 0)
 """Their sum is 0, so that nothing is to be removed."""
@@ -28,9 +29,16 @@ def miniseed(channel: str = "HNE", second: int = 0, counts: tuple[int, ...] = CO
     return (head.ljust(64, b"\0") + struct.pack(f">{len(counts)}i", *counts)).ljust(512, b"\0")
 
 
-def sac(idep: int = 8, channel: str = "HNN", counts: tuple[int, ...] = COUNTS) -> bytes:
-    """A binary SAC file of version 6: 70 reals, 40 integers, 192 letters, samples; step 0.01 s."""
+def sac(
+    idep: int = 8,
+    channel: str = "HNN",
+    counts: tuple[int, ...] = COUNTS,
+    azimuth: float = -12345.0,
+    from_up: float = -12345.0,
+) -> bytes:
+    """A binary SAC file of version 6: 70 reals, 40 integers, 192 letters, samples; step 0.01 s; CMPAZ and CMPINC."""
     reals = [-12345.0] * 70
+    reals[57], reals[58] = azimuth, from_up
     reals[0], reals[5], reals[6] = 0.01, 0.0, 0.01 * (len(counts) - 1)
     whole = [-12345] * 40
     whole[0:6] = [2000, 1, 0, 0, 0, 0]
@@ -123,3 +131,20 @@ def test_other_files_and_a_missing_package_are_said(tmp_path: Path, monkeypatch:
 
 def test_the_sum_of_the_counts_is_zero() -> None:
     assert np.sum(COUNTS) == 0
+
+
+@pytest.mark.parametrize("channel", ["HNN", "HNE", "HN1", "HN2", "BNX", "HNZ"])
+@pytest.mark.parametrize("azimuth", [-12345.0, 0.0, 90.0, 238.0, 328.0, 360.0])
+@pytest.mark.parametrize("from_up", [-12345.0, 0.0, 90.0, 180.0])
+def test_cmpaz_and_cmpinc_of_sac_say_the_direction(
+    tmp_path: Path, channel: str, azimuth: float, from_up: float
+) -> None:
+    """By definition CMPAZ is clockwise from north and CMPINC 90 for a horizontal; where they are undefined the code says."""
+    (record,) = read(put(tmp_path, "a.sac", sac(channel=channel, azimuth=azimuth, from_up=from_up)))
+    vertical = from_up in (0.0, 180.0) or (from_up == -12345.0 and channel == "HNZ")
+    by_code = {"HNN": 0.0, "HNE": 90.0}.get(channel)
+    expected = None if vertical else by_code if azimuth == -12345.0 else azimuth % 360.0
+    assert record.azimuth == expected
+    assert is_vertical(record.component) is (vertical or channel == "HNZ")
+    told = any("by its CMPAZ" in remark for remark in record.remarks)
+    assert told is (expected is not None and by_code is not None and expected != by_code)

@@ -1,7 +1,8 @@
 """Counts of miniSEED and SAC files as accelerations, by a factor that the caller states; ObsPy reads the files.
 
 Sources: FDSN, "SEED Reference Manual" 2.4, appendix A (codes of bands, instruments and orientations) and chapter 8
-(data records); IRIS, "SAC Data File Format" (IDEP: 6 displacement, 7 velocity, 8 acceleration, -12345 undefined).
+(data records); IRIS, "SAC Data File Format" (IDEP: 6 displacement, 7 velocity, 8 acceleration, -12345 undefined; CMPAZ degrees clockwise from north,
+CMPINC from up).
 """
 
 from __future__ import annotations
@@ -22,13 +23,15 @@ from seismass.base.errors import InvalidMotion, MissingPackage, RecordFormatErro
 from seismass.base.files import open_regular
 from seismass.base.values import as_number, as_path, brief, printable
 from seismass.motions.records.formats import NotRead, known_binary
-from seismass.motions.records.formats.labels import azimuth_of
+from seismass.motions.records.formats.labels import azimuth_of, is_vertical
 from seismass.motions.records.read import HEAD_BYTES, LARGEST_BYTES, suspicions
 from seismass.motions.records.record import Record
 
 FORMATS: Final = {"miniSEED": "MSEED", "SAC": "SAC"}
 """Kinds by their first bytes, and what ObsPy calls them."""
 _SEED_CODE: Final = re.compile(r"[A-Z](?P<instrument>[A-Z])[A-Z0-9]")
+VERTICAL: Final = 1.0
+"""A SAC component within so many degrees of the vertical is one of it; CMPINC counts from up."""
 _QUANTITIES: Final = {6: "displacement", 7: "velocity"}
 _NO_ACCELEROMETER: Final = {"H": "velocity (a seismometer)", "L": "velocity (a seismometer of low gain)"}
 
@@ -138,6 +141,7 @@ def _record(trace: Any, factors: Mapping[str, float], source: Path, kind: str, d
         remarks.append(
             f"channel {printable(code) or 'without a code'}: that it is an acceleration is the caller's word"
         )
+    component, azimuth = _direction(trace, code, kind, remarks)
     # SAC has a step of single precision: the shortest number that is it.
     step = float(str(np.float32(trace.stats.delta))) if kind == "SAC" else 1.0 / float(trace.stats.sampling_rate)
     try:
@@ -147,8 +151,8 @@ def _record(trace: Any, factors: Mapping[str, float], source: Path, kind: str, d
             name=printable(source.stem) + (f" {printable(code)}" if channels > 1 else ""),
             event=printable(str(trace.stats.starttime)),
             station=printable(str(trace.stats.station)),
-            component=printable(code),
-            azimuth=azimuth_of(code),
+            component=printable(component),
+            azimuth=azimuth,
             network=printable(str(trace.stats.network)),
             source=source,
             sha256=digest,
@@ -158,6 +162,20 @@ def _record(trace: Any, factors: Mapping[str, float], source: Path, kind: str, d
     except InvalidMotion as error:
         raise RecordFormatError(f"samples of {file} must be those of a motion; got: {error}") from error
     return record.replace(remarks=record.remarks + suspicions(record, unit_given=True))
+
+
+def _direction(trace: Any, code: str, kind: str, remarks: list[str]) -> tuple[str, float | None]:
+    """Return component and azimuth: by CMPAZ and CMPINC of a SAC file where it has them, else by the code."""
+    by_code = azimuth_of(code)
+    azimuth, from_up = (trace.stats.sac.get(key) if kind == "SAC" else None for key in ("cmpaz", "cmpinc"))
+    if from_up is not None and min(abs(from_up), abs(from_up - 180.0)) < VERTICAL:
+        return (code if is_vertical(code) else f"{code} UP".strip()), None
+    if azimuth is None or not 0.0 <= azimuth <= 360.0 or (from_up is None and is_vertical(code)):
+        return code, by_code
+    turned = float(azimuth) % 360.0
+    if by_code is not None and turned != by_code:
+        remarks.append(f"direction is {turned:g} degrees by its CMPAZ, not {by_code:g} as its code, {printable(code)}")
+    return code, turned
 
 
 def _check_quantity(trace: Any, code: str, kind: str, file: str) -> None:

@@ -169,7 +169,7 @@ def _in_g(periods: FloatArray, ordinates: FloatArray, one: _Spectrum, unit: str 
         raise refusal(RecordFormatError, f"unit of {one.of}", file, f"that of its head, {stated}", unit)
     if not (unit or stated):
         behind = f"or behind the name as {file}:g or {file}:m/s2" if one.of == "Sa" else "a length or velocity"
-        requirement = f"stated by the head as {one.of} ({dict(Sa='g', SD='m', PSV='m/s')[one.of]}), {behind}"
+        requirement = f"stated by the head as {one.of} ({{'Sa': 'g', 'SD': 'm', 'PSV': 'm/s'}[one.of]}), {behind}"
         raise refusal(
             RecordFormatError, f"unit of {one.of}", file, requirement, brief(one.unit) if one.unit else "none"
         )
