@@ -75,7 +75,7 @@ FILES: list[tuple[str, str | bytes, dict[str, object], str]] = [
     ("a.AT2", GOOD.replace("OF G", "OF G/10"), {}, r"unit of a.AT2 must be one of .*, or be given; got 'G/10' in its"),
     ("a.txt", "dt = 10 us\n" + COLUMN, {"unit": "g"}, r"DT of a.txt must be in s or ms; got 10 us"),
     ("a.txt", "dt = 1/200 s\n" + COLUMN, {"unit": "g"}, r"DT of a.txt must be in s or ms; got 1/200"),
-    ("a.txt", "dt = 0,01 s\n" + COLUMN, {"unit": "g"}, r"DT of a.txt must be .*; got 0"),
+    ("a.txt", "dt = 0,00 s\n" + COLUMN, {"unit": "g"}, r"DT of a.txt must be .*; got 0"),
     ("a.txt", "dt (min) = 1\n" + COLUMN, {"unit": "g"}, r"DT of a.txt must be in s or ms; got 1 min"),
     ("a.txt", "dt = 10\n" + COLUMN, {"unit": "g"}, r"DT of a.txt must be a step between 1e-05 and 1 s; got 10"),
     (

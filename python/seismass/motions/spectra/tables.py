@@ -95,6 +95,7 @@ _OF: Final = {
     "SD": re.compile(r"(?<![^\W_])(?:sd|displacement)(?![^\W_])"),
     "PSV": re.compile(r"(?<![^\W_])psv(?![^\W_])"),
 }
+_UNIT_OF: Final = {"Sa": "g", "SD": "m", "PSV": "m/s"}
 _METRES: Final = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": INCH, "ft": FOOT}
 _UNIFORM: Final = re.compile(r"(?:(?P<before>[^~]+)~)?(?:PGA|SA\((?P<period>[\d.]+)\))(?:[~-](?P<after>.+))?")
 _PRINTED: Final = {"psv": "m/s", "sd": "m"}
@@ -169,7 +170,7 @@ def _in_g(periods: FloatArray, ordinates: FloatArray, one: _Spectrum, unit: str 
         raise refusal(RecordFormatError, f"unit of {one.of}", file, f"that of its head, {stated}", unit)
     if not (unit or stated):
         behind = f"or behind the name as {file}:g or {file}:m/s2" if one.of == "Sa" else "a length or velocity"
-        requirement = f"stated by the head as {one.of} ({{'Sa': 'g', 'SD': 'm', 'PSV': 'm/s'}[one.of]}), {behind}"
+        requirement = f"stated by the head as {one.of} ({_UNIT_OF[one.of]}), {behind}"
         raise refusal(
             RecordFormatError, f"unit of {one.of}", file, requirement, brief(one.unit) if one.unit else "none"
         )

@@ -214,7 +214,7 @@ def _agreed_step(step: float, dt: float | None, written: str, file: str, remarks
         else:
             remarks.extend(figures)
         return step
-    if abs(dt - step) > HEADER_ROUNDING:
+    if not -HEADER_ROUNDING <= dt - step < 2.0 * HEADER_ROUNDING - 1e-9:  # rounded, or cut: .0066 for 1/150
         raise RecordFormatError(f"dt of {file} must agree with its header, {written}; got {dt:g} s")
     if dt != step:
         remarks.append(f"step {dt!r} s given instead of the header's rounded {written}")

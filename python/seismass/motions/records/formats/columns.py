@@ -87,7 +87,7 @@ def parse_channels(text: str, source: Path, arguments: Arguments) -> tuple[Chann
     width = len(table.row(-1)) if len(table.rows) > 1 else len(table.row(0))
     labels = labels_of(table.header, width)
     _refuse_no_motion(table, labels)
-    header_step = stated_step(table.text, table.file)
+    header_step = stated_step(table.text, table.file, arguments.dt)
     given = arguments.dt if arguments.dt is not None else header_step
     if arguments.skip is None:
         table, step_before = without_first_numbers(table, given, remarks)

@@ -261,22 +261,37 @@ LONGEST_STEP: Final = 1.0
 NO_COUNT: Final = "the file states no number of points: a missing end would not show"
 
 _PER_SECOND: Final = {
-    **dict.fromkeys(("", "s", "sec", "secs", "second", "seconds"), 1.0),
+    **dict.fromkeys(
+        ("", "s", "sec", "secs", "second", "seconds", "seg", "segundos", "secondi", "secondes", "saniye"), 1.0
+    ),
+    **dict.fromkeys(("sekunde", "sekunden", "seconde", "secondo", "segundo", "sn"), 1.0),
     **dict.fromkeys(("ms", "msec", "msecs", "millisecond", "milliseconds"), 1000.0),
 }
+_DECIMAL: Final = rf"(?:\d+,\d+(?![\d,])|{NUMBER})"
+_SAMPLING: Final = r"(?:muestreo|campionamento|amostragem|[eé]chantillonnage|d['’][eé]chantillonnage)"
+_SAMPLES: Final = r"(?:samples?|points?|pts|muestras|campioni|amostras|[eé]chantillons|abtastwerte|werte)"
+_SECONDS: Final = r"(?:s|sec|secs|seconds?|segundos?|secondi|secondo|secondes?|sekunden?|saniye)"
+_SAYS: Final = r"(?:\b(?:is|of|at|es|est|ist|de)\b|[=:])?"
 _STEP = re.compile(
-    r"(?:\b(?:dt|delta[ \t]*t|time[ \t]*(?:step|increment|interval)"
-    r"|sampl(?:e|ing)[ \t]+(?:interval|period|time))\b[ \t]*"
-    r"(?:[(\[](?P<before>[^)\]\n]{0,30})[)\]])?|\bSAMPLING_INTERVAL_S)"
-    rf"[ \t]*[=:][ \t]*(?P<step>{NUMBER})"
+    r"(?:(?<![^\W_])(?:d[ _]?t|[δΔ][ ]?t|delta[ \t_]*t|time[ \t_-]*(?:step|increment|interval)|sample[ ]spacing"
+    r"|sampl(?:e|ing)[ \t_]+(?:interval|period|time|step)|zeitschritt\w*|zeitinkrement|abtast(?:intervall|schritt\w*)"
+    rf"|(?:intervall?[oe]|paso?|passo|p[eé]r[ií]ode?o?)[ ](?:(?:de|di)[ ])?(?:{_SAMPLING}|tiempo|tempo|temps|temporale)"
+    r"|(?:zaman|örnekleme)[ ](?:ad\u0131m|aral\u0131)\w*|equally[ -]spaced(?:[ ]intervals)?)(?:_s(?:ec)?)?(?![^\W_])"
+    rf"[ \t]*(?:[(\[](?P<before>[^)\]\n]{{0,30}})[)\]])?|\bSAMPLING_INTERVAL_S)[ \t]*(?P<says>{_SAYS})[ \t]*"
     # What ends a step: the line, a separator, another key, or else its unit.
-    r"[ \t]*(?:(?=$|[,;)\]](?!\d)|(?!ms|milli)\w+[ \t]*[=:])|(?P<after>[^\s,;)\]]*))",
+    rf"(?P<step>{_DECIMAL})[ \t]*(?:(?=$|[,;)\]](?!\d)|(?!ms|milli)\w+[ \t]*[=:])|(?P<after>[^\s,;)\]]*))"
+    rf"|(?<![\w.,])(?P<ahead>{_DECIMAL})[ ]?(?P<unit>ms|msec|{_SECONDS})[ ]+(?:time[ -]steps?|(?:sampling[ ]|time[ ])?intervals?)\b",
     re.IGNORECASE | re.MULTILINE,
 )
 _RATE = re.compile(
-    rf"\bsampl(?:e|ing)[ \t]*(?:rate|freq\w*)[ \t]*(?:\((?:hz|sps)\))?[ \t]*[=:][ \t]*(?P<rate>{NUMBER})"
-    r"[ \t]*(?:hz|sps|samples?[ \t]*(?:/|per)[ \t]*s\w*)?[ \t]*(?:$|[,;)])",
-    re.IGNORECASE | re.MULTILINE,
+    r"(?<![^\W_])(?:sampl(?:e|ing)[ \t_-]*(?:rate|freq\w*)|samp_rate|sps|fs|abtast(?:rate|frequenz)"
+    rf"|(?:frecuencia|velocidad|vel\.|tasa|frequ[eê]n[cz]\w*|fr[eé]quence|taxa)[ ](?:(?:de|di)[ ])?{_SAMPLING}"
+    rf"|örnekleme[ ](?:h\u0131z|frekans)\w*|{_SAMPLES}[ ]?(?:/|per)[ ]?{_SECONDS})"
+    rf"[ \t]*(?:[(\[](?P<before>[^)\]\n]{{0,20}})[)\]])?[ \t]*{_SAYS}[ \t]*(?P<rate>{_DECIMAL})[ \t]*"
+    rf"(?:(?P<kilo>k)?hz|sps|{_SAMPLES}[ ]?(?:/|per)[ ]?{_SECONDS})?(?![^\W_])"
+    rf"|(?<![\w.,])(?P<ahead>{_DECIMAL})[ ]?(?:{_SAMPLES}[ ]?(?:/|per|por|al|par|pro|a)[ ]?{_SECONDS}|sps|(?P<k>k)?hz[ ]sampl\w*)"
+    rf"(?![^\W_])|\bsampled[ ]at[ ](?P<at>{_DECIMAL})[ ]?(?P<at_kilo>k)?hz",
+    re.IGNORECASE,
 )
 _POINTS = re.compile(
     r"\b(?:NDATA|NPTS|(?:number|no\.?)[ \t]+of[ \t]+(?:data[ \t]+)?(?:points|samples|data))[ \t]*[=:][ \t]*(\d{1,9})\b",
@@ -288,16 +303,43 @@ _SYMBOL = re.compile(r"(?<![a-z])(?:a|ag|ug|a[_ ]?[gxyz])[ \t]*[(\[]|\baccelerog
 _OTHER_QUANTITY = re.compile(r"(?<![a-z])(?<!wave[ -])(?:velocity|velocities|displacements?)(?![a-z])", re.IGNORECASE)
 
 
-def stated_step(text: str, file: str) -> float | None:
-    """Return the step (s) that a header states in s or ms, or None where it states none."""
-    match = _STEP.search(text)
-    if match is None:
-        rate = _RATE.search(text)
-        if rate is None:
-            return None
-        number = to_float(rate["rate"])
-        return step_in_seconds(repr(1.0 / number) if number > 0.0 else "0", "s", file)
-    return step_in_seconds(match["step"], match["after"] or match["before"] or "", file)
+def stated_step(text: str, file: str, dt: float | None = None) -> float | None:
+    """Return the step (s) that a header states, as a step or as a rate, or None where it states none; of several that
+    differ `dt` decides.
+    """
+    found = []
+    for match in _steps(text):
+        written = match["step"] or match["ahead"]
+        found.append(step_in_seconds(written.replace(",", "."), _unit_of(match), file))
+    for match in _RATE.finditer(text):
+        kilo = (
+            1000.0
+            if match["kilo"] or match["k"] or match["at_kilo"] or "khz" in (match["before"] or "").lower()
+            else 1.0
+        )
+        rate = kilo * to_float((match["rate"] or match["ahead"] or match["at"]).replace(",", "."))
+        found.append(step_in_seconds(repr(1.0 / rate) if rate > 0.0 else "0", "s", file))
+    others = [one for one in found if abs(one - found[0]) > COARSEST_ROUNDING and abs(one - found[0]) > 0.01 * found[0]]
+    if others and dt is None:
+        said = " and ".join(f"{one:g}" for one in dict.fromkeys((found[0], *others)))
+        raise RecordFormatError(f"dt of {file} must be given, its header states {said} s; got none")
+    if others and dt is not None:
+        return min(found, key=lambda one: abs(one - dt))
+    return found[0] if found else None
+
+
+def _steps(text: str) -> list[re.Match[str]]:
+    """Return where a header states a step; without "=" or the like a number is one where a unit or nothing follows."""
+    return [
+        match
+        for match in _STEP.finditer(text)
+        if match["ahead"] or match["says"] or (match["after"] or "").lower().strip(" .") in _PER_SECOND
+    ]
+
+
+def _unit_of(match: re.Match[str]) -> str:
+    before = match["before"] or ""
+    return match["unit"] or match["after"] or ("" if re.fullmatch(r"(?i)d ?t|[δΔ]t|in ?time", before) else before)
 
 
 def step_in_seconds(number: str, unit: str, file: str) -> float:
@@ -349,10 +391,10 @@ def rounding_of(written: str) -> tuple[float, float]:
 
 def rounded_step(text: str) -> list[str]:
     """Return a remark on the step of a header that is of few figures and of no whole number of samples a second."""
-    match = _STEP.search(text)
-    if match is None or (match["after"] or match["before"] or "").strip(" .").lower() not in ("", "s", "sec", "secs"):
+    match = next(iter(_steps(text)), None)
+    if match is None or _unit_of(match).strip(" .").lower() not in ("", "s", "sec", "secs"):
         return []
-    return rounding_remark(match["step"])
+    return rounding_remark((match["step"] or match["ahead"]).replace(",", "."))
 
 
 def rounding_remark(written: str) -> list[str]:
@@ -374,8 +416,9 @@ def same_step(step: float, other: float, samples: int, header: str) -> bool:
     """
     if abs(other - step) * max(samples - 1, 1) <= 0.1 * step or abs(other - step) <= 1e-6 * step:
         return True
-    match = _STEP.search(header) if header else None
+    match = next(iter(_steps(header)), None)
     if match is None:
         return False
-    half = 0.5 * last_digit(match["step"]) * other / to_float(match["step"])
-    return abs(other - step) <= min(half, COARSEST_ROUNDING) * (1.0 + 1e-6)
+    written = (match["step"] or match["ahead"]).replace(",", ".")
+    half = min(0.5 * last_digit(written) * other / to_float(written), COARSEST_ROUNDING)
+    return -half * (1.0 + 1e-6) <= step - other < 2.0 * half * (1.0 - 1e-6)  # rounded, or cut
