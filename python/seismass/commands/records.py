@@ -77,11 +77,13 @@ def _all_of(folder: Path, named: Path) -> Suite:
     from seismass.base.values import printable
     from seismass.motions.records import Excluded, Suite
     from seismass.motions.records import read_records as read_channels
+    from seismass.motions.records.known import with_tables
     from seismass.motions.records.read import files_below
 
     found: list[Record] = []
     excluded: list[Excluded] = []
-    for file in files_below(folder):
+    files = files_below(folder)
+    for file in files:
         try:
             found += read_channels(file)
         except RecordFormatError as error:
@@ -90,12 +92,13 @@ def _all_of(folder: Path, named: Path) -> Suite:
         raise RecordFormatError(
             f"records of folder {printable(str(named))} must be at least one; got {len(excluded)} files that are none"
         )
-    return Suite(printable(named.resolve().name), tuple(found), tuple(excluded))
+    return Suite(printable(named.resolve().name), tuple(with_tables(found, files)), tuple(excluded))
 
 
 def _rows(suite: Suite) -> list[dict[str, Any]]:
     """One document per record: labels and measures, with the remarks of its reader and those on its ends."""
     from seismass.motions.records import intensity_table
+    from seismass.motions.records.known import KNOWN
 
     rows = []
     for row, record in zip(intensity_table(suite).iter_rows(named=True), suite, strict=True):
@@ -110,6 +113,7 @@ def _rows(suite: Suite) -> list[dict[str, Any]]:
                 "network": record.network,
                 "synthetic": record.synthetic,
                 "place": record.place,
+                **{name: getattr(record, name) or None for name in KNOWN},
                 "file": None if record.source is None else str(record.source),
                 "sha256": record.sha256,
                 "remarks": [*record.remarks, *row["remarks"]],
@@ -121,6 +125,7 @@ def _rows(suite: Suite) -> list[dict[str, Any]]:
 def _table(suite: Suite) -> list[str]:
     from seismass.base.values import printable
     from seismass.media.text_table import number_text, text_line
+    from seismass.motions.records.known import known_words
 
     rows = _rows(suite)
     cells = []
@@ -150,9 +155,10 @@ def _table(suite: Suite) -> list[str]:
     placed = [0 if name == " event, station" else -widths[name] if name in left else widths[name] for name in shown]
     lines = [f"{suite.name}: {len(suite)} {'record' if len(suite) == 1 else 'records'}", *suite.remarks, ""]
     lines.append(text_line(shown, placed, indent=0, gap=1))
-    for row, texts in zip(rows, cells, strict=True):
+    for row, texts, record in zip(rows, cells, suite, strict=True):
         lines.append(text_line([texts[name] for name in shown], placed, indent=0, gap=1))
         where = [f"stands at: {row['place']}"] if row["place"] else []
+        where += [words] if (words := known_words(record)) else []
         lines += [f"{'':5}{remark}" for remark in (*where, *row["remarks"])]
     if dropped:
         names = ", ".join(name.strip() for name in dropped)

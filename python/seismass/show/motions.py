@@ -482,7 +482,8 @@ def scaling_lines(scaling: ScalingResult, remarks: Sequence[str]) -> list[str]:
 
 def factor_lines(scaling: ScalingResult, remarks: Sequence[Sequence[str]] = ()) -> list[str]:
     """Return the factor and misfit of each motion, with what its record says of itself below it."""
-    widths = (-5, -10, -10, -8, -8, 0)
+    longest = max(len(f"{factor:.5f}") for factor in (*scaling.individual, *scaling.factors))
+    widths = (-5, -max(10, longest + 1), -max(10, longest + 1), -8, -8, 0)
     lines = [text_line(("", "SF1", "SF", "misfit", "largest", "record"), widths, indent=0)]
     for number, (row, largest) in enumerate(
         zip(scaling.diagnostics().iter_rows(named=True), scaling.largest_misfit, strict=True)

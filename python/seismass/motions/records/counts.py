@@ -1,8 +1,8 @@
 """Counts of miniSEED and SAC files as accelerations, by a factor that the caller states; ObsPy reads the files.
 
 Sources: FDSN, "SEED Reference Manual" 2.4, appendix A (codes of bands, instruments and orientations) and chapter 8
-(data records); IRIS, "SAC Data File Format" (IDEP: 6 displacement, 7 velocity, 8 acceleration, -12345 undefined; CMPAZ degrees clockwise from north,
-CMPINC from up).
+(data records); IRIS, "SAC Data File Format" (IDEP: 6 displacement, 7 velocity, 8 acceleration, -12345 undefined;
+CMPAZ degrees clockwise from north, CMPINC from up).
 """
 
 from __future__ import annotations

@@ -19,7 +19,15 @@ from seismass.base.errors import InvalidMotion, InvalidOption, RecordFormatError
 from seismass.base.values import FloatArray, Value, as_number, as_path, brief, is_one_of, printable, refusal
 from seismass.base.views import Card
 from seismass.motions.records.formats.labels import azimuth_of, is_vertical
-from seismass.motions.records.read import files_below, off_ground, read_record, vertical_reason
+from seismass.motions.records.known import with_tables
+from seismass.motions.records.read import (
+    files_below,
+    is_archive,
+    off_ground,
+    read_record,
+    unpacked,
+    vertical_reason,
+)
 from seismass.motions.records.record import Record
 from seismass.motions.records.suite import Excluded, excluded_record, read_file, recorded_once
 
@@ -453,34 +461,45 @@ def find_pairs(folder: str | os.PathLike[str], *, lengths: Literal["shorter", "p
     Parameters
     ----------
     folder : path-like
-        The folder; hidden files are not looked at. What is read of it is what `read_suite` reads: every record format,
-        each channel of files of several, and text of columns that states its step and unit.
+        The folder, or a ZIP archive of one; hidden files are not looked at. What is read of it is what `read_suite`
+        reads: every record format, each channel of files of several, and text of columns that states step and unit.
     lengths : {"shorter", "padded"}
         See `Pair.from_records`.
 
     Raises
     ------
     RecordFormatError
-        It is not a folder. A damaged file raises nothing: it stands in `excluded` with the reason, as does one that
-        is not a record, or a component without a partner or with several.
+        It is no folder or archive. A damaged file raises nothing: it stands in `excluded` with the reason, as does one
+        that is not a record, or a component without a partner or with several.
     """
     directory = as_path(folder, "pairs", RecordFormatError)
+    if is_archive(directory):
+        with unpacked(directory) as (inside, names):
+            files = [(file, directory / names[file]) for file in files_below(inside)]
+            return _pairs_of(printable(directory.stem), files, lengths)
     if not directory.is_dir():
         raise RecordFormatError(f"folder of pairs must be a directory; got {printable(str(directory))}")
+    files = [(file, file) for file in files_below(directory)]
+    return _pairs_of(printable(directory.resolve().name), files, lengths)
+
+
+def _pairs_of(name: str, files: list[tuple[Path, Path]], lengths: Literal["shorter", "padded"]) -> Pairs:
+    """Return the pairs of files, each with the path that it is called by."""
     excluded: list[Excluded] = []
     groups: dict[tuple[str, ...], list[Record]] = {}
     found: list[Record] = []
-    for file in files_below(directory):
+    for file, shown in files:
         try:
             read = read_file(file)
         except RecordFormatError as error:
             read = str(error)
         if isinstance(read, str):
-            excluded.append(Excluded(file, read))
+            excluded.append(Excluded(shown, read))
             continue
+        read = tuple(record.replace(source=shown) for record in read)
         excluded += [excluded_record(one, reason) for one in read if (reason := off_ground(one))]
         found += [one for one in read if not off_ground(one)]
-    found, twice = recorded_once(found)
+    found, twice = recorded_once(with_tables(found, (file for file, _ in files)))
     excluded += twice
     several = Counter(record.source for record in found)
     for record in found:
@@ -492,7 +511,7 @@ def find_pairs(folder: str | os.PathLike[str], *, lengths: Literal["shorter", "p
             pairs.extend(pair)
             excluded.extend(left)
     excluded.sort(key=lambda item: item.file)
-    return Pairs(printable(directory.resolve().name), tuple(pairs), tuple(excluded))
+    return Pairs(name, tuple(pairs), tuple(excluded))
 
 
 def _file(record: Record) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import codecs
 import hashlib
+import io
 import math
 import os
 import re
@@ -34,6 +35,7 @@ from seismass.motions.records.formats import (
 )
 from seismass.motions.records.formats.labels import is_vertical
 from seismass.motions.records.formats.table import is_row_of_numbers
+from seismass.motions.records.known import known_of_header
 from seismass.motions.records.record import Record
 
 LARGEST_PGA_G: Final = 5.0
@@ -302,17 +304,25 @@ def _read(path: Any, dt: Any, unit: Any, format: Any, skip: Any) -> tuple[Channe
     except InvalidMotion as error:
         raise RecordFormatError(f"samples of {source.name} must be those of a motion; got: {error}") from error
     digest = hashlib.sha256(content).hexdigest()
+    known = known_of_header(_head_of(text))
     altered = ("its header says that it is not as recorded",) if _ALTERED in text[:HEAD_BYTES].lower() else ()
     return tuple(
         Channel(
             one.label,
             one.record.replace(
                 sha256=digest,
+                **known,
                 remarks=one.record.remarks + altered + suspicions(one.record, unit_given=name is not None),
             ),
         )
         for one in channels
     )
+
+
+def _head_of(text: str) -> str:
+    """Return the words of the beginning of a file, up to its numbers."""
+    lines = text[:HEAD_BYTES].splitlines()
+    return "\n".join(line for line in lines if re.search(r"[A-Za-z]{2}", line))
 
 
 def format_of(head: str, source: Path) -> Format:
@@ -456,6 +466,9 @@ def has_vertical_name(record: Record) -> bool:
 MOST_MEMBERS: Final = 5000
 """Files of an archive; those of networks have some hundreds."""
 
+MOST_DEEP: Final = 4
+"""Archives in archives; an archive further down is a file that is not read."""
+
 LARGEST_UNPACKED: Final = 1024 * 1024 * 1024
 """Bytes of an archive, unpacked: five hundred records of 2 MB."""
 
@@ -484,22 +497,30 @@ def unpacked(path: Path) -> Iterator[tuple[Path, dict[Path, str]]]:
         folder = Path(name)
         names: dict[Path, str] = {}
         try:
-            with open_regular(path) as file, zipfile.ZipFile(file) as archive:
-                members = [one for one in archive.infolist() if not one.is_dir() and not _is_hidden(one.filename)]
-                _refuse_large(path, members)
-                left = LARGEST_UNPACKED
-                for number, member in enumerate(sorted(members, key=lambda one: one.filename)):
-                    target = folder / f"{number:05d}" / _safe_name(member.filename)
-                    target.parent.mkdir()
-                    with archive.open(member) as packed:
-                        content = packed.read(left + 1)
-                    left -= len(content)
-                    if left < 0:
-                        raise RecordFormatError(
-                            f"size of {path.name}, unpacked, must be at most {LARGEST_UNPACKED} bytes; got more"
-                        )
-                    target.write_bytes(content)
-                    names[target] = member.filename
+            with open_regular(path) as file:
+                inner = [(file.read(LARGEST_UNPACKED), "", 1)]
+            left, number = LARGEST_UNPACKED, 0
+            while inner:  # archives of archives: each is unpacked under its name
+                packed, prefix, depth = inner.pop()
+                with zipfile.ZipFile(io.BytesIO(packed)) as archive:
+                    members = [one for one in archive.infolist() if not one.is_dir() and not _is_hidden(one.filename)]
+                    _refuse_large(path, members, number)
+                    for member in sorted(members, key=lambda one: one.filename):
+                        with archive.open(member) as opened:
+                            content = opened.read(left + 1)
+                        left, number = left - len(content), number + 1
+                        if left < 0:
+                            raise RecordFormatError(
+                                f"size of {path.name}, unpacked, must be at most {LARGEST_UNPACKED} bytes; got more"
+                            )
+                        kind = known_binary(content[:HEAD_BYTES])
+                        if depth < MOST_DEEP and kind and kind[0] == "ZIP" and zipfile.is_zipfile(io.BytesIO(content)):
+                            inner.append((content, f"{prefix}{member.filename}/", depth + 1))
+                            continue
+                        target = folder / f"{number:05d}" / _safe_name(member.filename)
+                        target.parent.mkdir()
+                        target.write_bytes(content)
+                        names[target] = prefix + member.filename
         except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, OSError) as error:
             raise RecordFormatError(f"content of {path.name} must be a sound ZIP archive; got: {error}") from error
         yield folder, names
@@ -516,9 +537,9 @@ def _safe_name(name: str) -> str:
     return "".join(one if one.isalnum() or one in " -_.()+" else "_" for one in last) or "member"
 
 
-def _refuse_large(path: Path, members: list[zipfile.ZipInfo]) -> None:
-    if len(members) > MOST_MEMBERS:
-        raise RecordFormatError(f"files of {path.name} must be at most {MOST_MEMBERS}; got {len(members)}")
+def _refuse_large(path: Path, members: list[zipfile.ZipInfo], before: int) -> None:
+    if before + len(members) > MOST_MEMBERS:
+        raise RecordFormatError(f"files of {path.name} must be at most {MOST_MEMBERS}; got {before + len(members)}")
     size = sum(member.file_size for member in members)
     if size > LARGEST_UNPACKED:
         raise RecordFormatError(f"size of {path.name}, unpacked, must be at most {LARGEST_UNPACKED} bytes; got {size}")

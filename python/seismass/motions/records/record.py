@@ -29,6 +29,10 @@ if TYPE_CHECKING:
     from seismass.motions.motion import Motion
 
 
+KNOWN = ("magnitude", "distance_km", "vs30", "mechanism", "lowest_hz", "highest_hz")
+"""Fields that say what is known of a record beside its samples."""
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Record(Value):
     """Accelerations at a fixed time step, never changed in place: scaling makes a new record.
@@ -68,6 +72,10 @@ class Record(Value):
         What was done to the samples after reading, in order.
     file_unit : str
         Unit of the accelerations in the source file, as a label: "g", "m/s2" or "cm/s2".
+    magnitude, distance_km, vs30, mechanism
+        Of the earthquake, to it (km) and of the site (m/s), as the source or a table beside it says; None or empty.
+    lowest_hz, highest_hz : float, optional
+        Usable band (Hz), as it is stated, or from the corners of the filter: 1.25 times the lower one, and the upper.
 
     Raises
     ------
@@ -93,9 +101,15 @@ class Record(Value):
     history: tuple[str, ...] = ()
     place: str = ""
     file_unit: str = "m/s2"
+    magnitude: float | None = None
+    distance_km: float | None = None
+    vs30: float | None = None
+    mechanism: str = ""
+    lowest_hz: float | None = None
+    highest_hz: float | None = None
 
     def __post_init__(self, unit: str) -> None:
-        for label in ("name", "event", "station", "component", "network"):
+        for label in ("name", "event", "station", "component", "network", "mechanism"):
             object.__setattr__(self, label, as_name(getattr(self, label), label, "record", InvalidMotion))
         what = f"record {self.name}" if self.name else "record"
         factor = acceleration_factor(unit, what, InvalidMotion)
@@ -111,6 +125,9 @@ class Record(Value):
             object.__setattr__(self, "vertical", vertical)
         if self.azimuth is not None:
             object.__setattr__(self, "azimuth", _number("azimuth", self.azimuth, what, positive=False))
+        for name in ("magnitude", "distance_km", "vs30", "lowest_hz", "highest_hz"):
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, _number(name, getattr(self, name), what, positive=False))
         for parameter in ("remarks", "history"):
             sentences: Any = getattr(self, parameter)
             if not isinstance(sentences, tuple | list) or not all(isinstance(one, str) for one in sentences):

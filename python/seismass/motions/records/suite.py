@@ -23,6 +23,7 @@ from seismass.motions.records.formats import COLUMNS, NotRead
 from seismass.motions.records.formats.common import names_acceleration, stated_step
 from seismass.motions.records.formats.labels import is_vertical
 from seismass.motions.records.formats.table import is_row_of_numbers
+from seismass.motions.records.known import with_tables
 from seismass.motions.records.read import (
     HEAD_BYTES,
     FormatName,
@@ -41,7 +42,7 @@ from seismass.motions.records.read import (
     vertical_reason,
     wide_encoding,
 )
-from seismass.motions.records.record import Record
+from seismass.motions.records.record import KNOWN, Record
 
 _SAID_BY_NAME = "files are read by name or from a list, where their units can be given"
 LARGEST_COLUMNS = 32 * 1024 * 1024
@@ -127,6 +128,7 @@ class Suite:
             "samples": pl.UInt32,
             "dt": pl.Float64,
             "pga_g": pl.Float64,
+            **{name: pl.String if name == "mechanism" else pl.Float64 for name in KNOWN},
             "file": pl.String,
             "remarks": pl.String,
         }
@@ -141,6 +143,7 @@ class Suite:
                 "samples": record.samples,
                 "dt": record.dt,
                 "pga_g": record.pga_g,
+                **{name: getattr(record, name) for name in KNOWN},
                 "file": None if record.source is None else printable(str(record.source)),
                 "remarks": "; ".join(record.remarks),
             }
@@ -236,7 +239,7 @@ def _read_directory(directory: Path) -> Suite:
         raise RecordFormatError(
             f"records of directory {directory} must be at least one horizontal record; got {_counted(excluded)}"
         )
-    records, twice = recorded_once(records)
+    records, twice = recorded_once(with_tables(records, files_below(directory)))
     offset = {number: is_uncorrected(record) and _offset(record) for number, record in enumerate(records)}
     excluded += [*twice, *(excluded_record(records[at], reason) for at, reason in offset.items() if reason)]
     taken = tuple(record for number, record in enumerate(records) if not offset[number])

@@ -22,6 +22,7 @@ from seismass.base.values import (
     refusal,
 )
 from seismass.motions.motion import motion_names
+from seismass.motions.records.known import band_remarks
 from seismass.motions.scaling.result import ScalingResult
 from seismass.motions.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 from seismass.motions.spectra.elastic import check_not_zero
@@ -38,6 +39,7 @@ class SuiteSpectra:
     target: FloatArray
     spectra: FloatArray
     target_label: str
+    beyond: tuple[str, ...] = ()
 
     def result(
         self, method: str, individual: FloatArray, common: float = 1.0, notes: Iterable[str] = ()
@@ -64,7 +66,7 @@ class SuiteSpectra:
             "period": self.period,
             "damping": self.damping,
             "target_label": self.target_label,
-            "notes": tuple(notes),
+            "notes": (*notes, *self.beyond),
         }
 
     def log_factors(self) -> FloatArray:
@@ -114,6 +116,7 @@ def suite_spectra(
         target=frozen(ordinates),
         spectra=frozen(spectra),
         target_label=target.label,
+        beyond=tuple(band_remarks(suite, float(periods[0]), float(periods[-1]))),
     )
 
 

@@ -17,7 +17,7 @@ from seismass.base.units import ACCELERATION_UNITS, contradiction, stated_unit, 
 from seismass.base.values import printable
 from seismass.motions.records.formats.common import (
     LINE_WIDTH,
-    NUMBER,
+    SCALED,
     Arguments,
     Channel,
     Format,
@@ -57,7 +57,6 @@ _STATION_OF = re.compile(r"\(([A-Z]{2,8}) STATION \w+\)")
 _ROTATED = re.compile(r"\brotat(?:ed|ion)\b|\bF[NP] component\b|\bfault[- ](?:normal|parallel)\b", re.IGNORECASE)
 _SOURCE_OF_ROTATION = re.compile(r"\bH1\b.*rotat", re.IGNORECASE)
 _AZIMUTH = re.compile(r"\bazimuth\s*[=:]?\s*(\d{1,3}(?:\.\d+)?)", re.IGNORECASE)
-_SCALED = re.compile(rf"\bscal(?:e|ing)[ -]?factor\s*[=:]?\s*({NUMBER})", re.IGNORECASE)
 _WORDS = re.compile(r"[A-Za-z]{3}|\*{3}")
 _SYNTHETIC = re.compile(r"\bSYNTHETIC\b", re.IGNORECASE)
 
@@ -148,7 +147,7 @@ def _rotation(titles: list[str], remarks: list[str]) -> tuple[str, str, str] | N
     Titles of such a file name both recorded components, neither of which is its direction.
     """
     header = "\n".join(titles)
-    scale = _SCALED.search(header)
+    scale = SCALED.search(header)
     if scale and to_float(scale[1]) != 1.0:
         remarks.append(f"its header says that it is scaled by {scale[1]}")
     if not _ROTATED.search(header):

@@ -28,6 +28,7 @@ from seismass.base.units import (
 from seismass.base.values import as_count, printable
 from seismass.motions.records.formats.common import (
     NO_COUNT,
+    SCALED,
     Arguments,
     Channel,
     Format,
@@ -38,6 +39,7 @@ from seismass.motions.records.formats.common import (
     same_step,
     stated_points,
     stated_step,
+    to_float,
 )
 from seismass.motions.records.formats.labels import (
     Label,
@@ -50,7 +52,14 @@ from seismass.motions.records.formats.labels import (
     step_of_times,
     uncorrected_beside,
 )
-from seismass.motions.records.formats.table import Table, columns_of, numbers_of, read_table, without_first_numbers
+from seismass.motions.records.formats.table import (
+    Table,
+    columns_of,
+    numbers_of,
+    pairs_in_lines,
+    read_table,
+    without_first_numbers,
+)
 from seismass.motions.records.record import Record
 
 _READ_INSTEAD: Final = "a motion has times and accelerations"
@@ -97,7 +106,14 @@ def parse_channels(text: str, source: Path, arguments: Arguments) -> tuple[Chann
             raise RecordFormatError(f"skip of {table.file} must be between 0 and {len(table.rows) - 1}; got {left_out}")
         table, step_before = table.without(left_out), None
     tokens, values, counts = numbers_of(table)
-    columns = columns_of(table, values, counts, labels is not None)
+    paired = pairs_in_lines(values, counts)
+    columns = 2 if paired else columns_of(table, values, counts, labels is not None)
+    if paired:
+        labels = None
+        remarks.append(f"times and samples are taken in turn, {counts[0] // 2} pairs in each line")
+    scale = SCALED.search(table.text)
+    if scale and to_float(scale[1]) != 1.0:
+        remarks.append(f"its header says a scale factor of {scale[1]}: samples are taken as they stand")
     steps = {"dt": arguments.dt, "header": header_step, "first numbers": step_before}
     if columns == 1:
         if is_cut_off(tokens):

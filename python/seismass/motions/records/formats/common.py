@@ -99,6 +99,8 @@ def refuse_skip(arguments: Arguments, format_title: str, file: str) -> None:
 
 NUMBER: Final = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][+-]?\d+)?"
 
+SCALED: Final = re.compile(rf"\bscal(?:e|ing)[ -]?factor\s*[=:]?\s*({NUMBER})", re.IGNORECASE)
+
 _FIELD = re.compile(r"[+-]?\d*\.\d+(?:[EeDd][+-]\d\d)?")
 _PARTS = re.compile(r"[+-]?\d*\.?(?P<decimals>\d*)(?:[EeDd][+-]?(?P<exponent>\d*))?")
 _NUMBER = re.compile(NUMBER)
@@ -268,7 +270,7 @@ _PER_SECOND: Final = {
     **dict.fromkeys(("ms", "msec", "msecs", "millisecond", "milliseconds"), 1000.0),
 }
 _DECIMAL: Final = rf"(?:\d+,\d+(?![\d,])|{NUMBER})"
-_SAMPLING: Final = r"(?:muestreo|campionamento|amostragem|[eé]chantillonnage|d['’][eé]chantillonnage)"
+_SAMPLING: Final = r"(?:muestreo|campionamento|amostragem|[eé]chantillonnage|d.[eé]chantillonnage)"
 _SAMPLES: Final = r"(?:samples?|points?|pts|muestras|campioni|amostras|[eé]chantillons|abtastwerte|werte)"
 _SECONDS: Final = r"(?:s|sec|secs|seconds?|segundos?|secondi|secondo|secondes?|sekunden?|saniye)"
 _SAYS: Final = r"(?:\b(?:is|of|at|es|est|ist|de)\b|[=:])?"
@@ -280,7 +282,8 @@ _STEP = re.compile(
     rf"[ \t]*(?:[(\[](?P<before>[^)\]\n]{{0,30}})[)\]])?|\bSAMPLING_INTERVAL_S)[ \t]*(?P<says>{_SAYS})[ \t]*"
     # What ends a step: the line, a separator, another key, or else its unit.
     rf"(?P<step>{_DECIMAL})[ \t]*(?:(?=$|[,;)\]](?!\d)|(?!ms|milli)\w+[ \t]*[=:])|(?P<after>[^\s,;)\]]*))"
-    rf"|(?<![\w.,])(?P<ahead>{_DECIMAL})[ ]?(?P<unit>ms|msec|{_SECONDS})[ ]+(?:time[ -]steps?|(?:sampling[ ]|time[ ])?intervals?)\b",
+    rf"|(?<![\w.,])(?P<ahead>{_DECIMAL})[ ]?(?P<unit>ms|msec|{_SECONDS})[ ]+"
+    r"(?:time[ -]steps?|(?:sampling[ ]|time[ ])?intervals?)\b",
     re.IGNORECASE | re.MULTILINE,
 )
 _RATE = re.compile(
@@ -289,8 +292,8 @@ _RATE = re.compile(
     rf"|örnekleme[ ](?:h\u0131z|frekans)\w*|{_SAMPLES}[ ]?(?:/|per)[ ]?{_SECONDS})"
     rf"[ \t]*(?:[(\[](?P<before>[^)\]\n]{{0,20}})[)\]])?[ \t]*{_SAYS}[ \t]*(?P<rate>{_DECIMAL})[ \t]*"
     rf"(?:(?P<kilo>k)?hz|sps|{_SAMPLES}[ ]?(?:/|per)[ ]?{_SECONDS})?(?![^\W_])"
-    rf"|(?<![\w.,])(?P<ahead>{_DECIMAL})[ ]?(?:{_SAMPLES}[ ]?(?:/|per|por|al|par|pro|a)[ ]?{_SECONDS}|sps|(?P<k>k)?hz[ ]sampl\w*)"
-    rf"(?![^\W_])|\bsampled[ ]at[ ](?P<at>{_DECIMAL})[ ]?(?P<at_kilo>k)?hz",
+    rf"|(?<![\w.,])(?P<ahead>{_DECIMAL})[ ]?"
+    rf"(?:{_SAMPLES}[ ]?(?:/|per|por|al|par|pro|a)[ ]?{_SECONDS}|sps|(?P<k>k)?hz[ ]sampl\w*)(?![^\W_])|\bsampled[ ]at[ ](?P<at>{_DECIMAL})[ ]?(?P<at_kilo>k)?hz",
     re.IGNORECASE,
 )
 _POINTS = re.compile(

@@ -32,6 +32,7 @@ from seismass.motions.records.formats.common import (
     is_number,
     last_digit,
     refuse_skip,
+    to_float,
 )
 from seismass.motions.records.formats.fixed import Layout, header_values, layout_of, read_block, uniform_step
 from seismass.motions.records.formats.labels import azimuth_of, direction_remark
@@ -57,6 +58,7 @@ _LENGTH = re.compile(rf"RECORD LENGTH\s*=\s*({_NUMBER})\s*SEC", re.IGNORECASE)
 _CHANNEL = re.compile(r"CHAN\s+(?P<number>\d+)\s*:\s*(?P<said>[^\n]*)", re.IGNORECASE)
 _NUMBER_AT_STATION = re.compile(r"\(\s*STA[^)]*\)", re.IGNORECASE)
 _STATION = re.compile(r"STATION\s+(?:NO\.|ID\.)\s*(?P<code>\w+)?", re.IGNORECASE)
+_CLOCK = re.compile(r"\d{4}\s+(\d{1,2}):(\d\d):(\d\d(?:\.\d+)?)")
 _WIDE_GAP = re.compile(r"\s{2,}|\s*(?=\blocation:)", re.IGNORECASE)
 _AGENCY = re.compile(r"PROCESSED:\s*[\d/]*\s*,\s*([A-Z]+)", re.IGNORECASE)
 _CHANNELS = re.compile(r"\(\s*\d+\s*CHNS?\s+OF\s+(\d+)", re.IGNORECASE)
@@ -241,7 +243,9 @@ def _channel(
     peak = (_PEAK_V2 if corrected else _PEAK_V1).search(header)
     if peak:
         factor = 1.0 if corrected else 10.0 if data.tenth else 1.0
-        stated = StatedPeak(peak["value"], peak["time"], factor)
+        lead = 0.0 if corrected else _before_trigger(header)
+        when = f"{to_float(peak['time']) + lead:.3f}" if is_number(peak["time"]) else ""
+        stated = StatedPeak(peak["value"], when, factor)
         check_peak(data.values, stated, dt, digit_of_peak(data.values, data.fields), file, remarks)
     length = _LENGTH.search(header)
     if length and is_number(length[1]):
@@ -284,6 +288,14 @@ def _channel(
             remarks=tuple(remarks),
         ),
     )
+
+
+def _before_trigger(header: str) -> float:
+    """Return the seconds from the start of a record of RENADIC to its trigger, from which it counts the peaks."""
+    lines = header.splitlines()[2:4] if "RENADIC" in header else []
+    clocks = [found[-1] for line in lines if (found := _CLOCK.findall(line))]
+    seconds = [3600.0 * float(hours) + 60.0 * float(minutes) + float(rest) for hours, minutes, rest in clocks]
+    return seconds[1] - seconds[0] if len(seconds) == 2 and 0.0 < seconds[1] - seconds[0] < 600.0 else 0.0
 
 
 def _event(line: str, fallback: str) -> str:

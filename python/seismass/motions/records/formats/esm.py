@@ -255,12 +255,15 @@ def _parse_unam(text: str, source: Path, arguments: Arguments) -> tuple[Channel,
     if layout.columns != channels:
         raise RecordFormatError(f"format of the numbers of {file} must be {channels} a line; got {header[_LAYOUT]}")
     rows = len(lines) - rules[1] - 1
+    behind = rows - counts[0]
+    if 0 < behind * dt < 1.0:  # files of 17502 rows for 17500 are common
+        rows = counts[0]
     if rows != counts[0]:
         raise RecordFormatError(f"points of {file} must be {counts[0]}, as its header says; got {rows}")
     block = read_block(lines, rules[1] + 1, rows * channels, layout, file)
     unit = agreed_unit(_unit(header.get(_UNIT_UNAM, ""), file), arguments.unit, file)
     samples = block.values.reshape(-1, channels)
-    remarks: list[str] = []
+    remarks = [f"{behind} rows behind the {rows} that the header counts left out"] if behind > 0 else []
     for said in _list(header, _LENGTH, file)[:1]:
         if is_number(said) and abs(to_float(said) - counts[0] * dt) > 1.5 * dt + 0.5 * last_digit(said):
             raise RecordFormatError(

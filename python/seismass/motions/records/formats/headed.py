@@ -230,8 +230,10 @@ def _check(
     value = max((peak["value"], others.get("least") or "0"), key=lambda written: abs(to_float(written)))
     one_side = to_float(peak["value"])
     close = 0.5 * last_digit(peak["value"]) + 0.5 * last_digit(fields[at])
-    if abs(abs(one_side) - abs(samples[at])) > close and any(
-        abs(side - one_side) <= close for side in (np.max(samples), np.min(samples))
+    if (
+        "least" not in others
+        and abs(abs(one_side) - abs(samples[at])) > close
+        and any(abs(side - one_side) <= close for side in (np.max(samples), np.min(samples)))
     ):
         remarks.append(f"the peak is {samples[at]:.6g}; the header gives that of the other sign, {peak['value']}")
         return

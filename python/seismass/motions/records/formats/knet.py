@@ -29,6 +29,7 @@ from seismass.motions.records.formats.common import (
     digit_of_peak,
     is_number,
     refuse_skip,
+    to_float,
 )
 from seismass.motions.records.formats.fixed import Layout, header_values, read_block
 from seismass.motions.records.formats.labels import azimuth_of
@@ -183,6 +184,8 @@ _COUNTS_GEONET: Final = slice(33, 36)
 """Samples of acceleration, velocity and displacement: integers 4 to 6 of the fourth line."""
 _FACTOR: Final = 47
 _STEP: Final = 65
+_LEAD: Final = 61
+"""Seconds that the processing set before the record, from whose beginning the header counts its times."""
 """Factor to mm/s2 and step, eighth real of the first line and sixth of the third, counted from the integers on."""
 
 
@@ -221,7 +224,9 @@ def _channel(lines: list[str], at: int, number: int, source: Path, arguments: Ar
     agreed_unit("mm/s2", arguments.unit, file)
     peak = _PEAK.search("\n".join(titles))
     if peak:
-        stated = StatedPeak(peak["value"], peak["time"], 1.0 / factor)
+        lead = 0.0 if first["un"] else numbers[_LEAD] or 0.0
+        when = f"{to_float(peak['time']) + lead:.2f}" if is_number(peak["time"]) else ""
+        stated = StatedPeak(peak["value"], when, 1.0 / factor)
         digit = digit_of_peak(block.values, block.fields)
         check_peak(block.values, stated, dt, digit, file, remarks)
     if first["un"]:

@@ -79,6 +79,8 @@ def read_table(text: str, file: str, remarks: list[str]) -> Table:
     gets what was interpreted: decimal commas, a line that marks the end.
     """
     lines = text.splitlines()
+    if '"' in lines[-1]:  # sheets may quote numbers
+        lines = [bare if is_row_of_numbers(bare := line.replace('"', "")) else line for line in lines]
     if _has_bare_exponents(lines):
         remarks.append("exponents are written without their letter")
         lines = [_BARE_EXPONENT.sub(r"\1E\2", line) for line in lines]
@@ -90,7 +92,7 @@ def read_table(text: str, file: str, remarks: list[str]) -> Table:
             break
         if line.strip():
             header.append(line.strip())
-    body = lines[start:]
+    body = _first_block(lines[start:], start, file, remarks)
     if any(mark in line for line in body for mark in "#%/!"):
         rows = [line for line in body if _is_row(line)]
         header.extend(line.strip() for line in body if line.lstrip().startswith(_COMMENT))
@@ -109,6 +111,33 @@ def read_table(text: str, file: str, remarks: list[str]) -> Table:
     for index in range(min(len(rows), EARLY)):
         _check_row(table, index)
     return table
+
+
+_OTHER_BLOCK: Final = re.compile(r"velocit|displac|velocid|desplaz|geschwind|verschieb|vitesse|spostam", re.IGNORECASE)
+_SAME_BLOCK: Final = re.compile(r"acc\w*|acel\w*|beschl\w*|ivme", re.IGNORECASE)
+
+
+def _first_block(body: list[str], start: int, file: str, remarks: list[str]) -> list[str]:
+    """Return the lines up to a title of velocities or displacements; a second block of accelerations is refused."""
+    for at, line in enumerate(body):
+        if at > EARLY and _OTHER_BLOCK.search(line):
+            remarks.append(f"what follows {line.strip()[:40]!r} is not read")
+            return body[:at]
+        if at > EARLY and _SAME_BLOCK.search(line) and not line.lstrip().startswith(_COMMENT):
+            raise RecordFormatError(
+                f"line {start + at + 1} of {file} must be numbers; got a second block, {line.strip()[:40]!r}: "
+                "put each into a file of its own"
+            )
+    return body
+
+
+def pairs_in_lines(values: NDArray[np.float64], counts: list[int]) -> bool:
+    """Whether rows are several pairs of a time and a sample each, as ETABS and SAP2000 write functions."""
+    if len(values) % 2 or counts[0] < 4 or any(count % 2 for count in counts):
+        return False
+    steps = np.diff(values[::2])
+    mean = float(np.mean(steps))
+    return mean > 0.0 and bool(np.all(np.abs(steps - mean) < 0.5 * mean))
 
 
 def has_decimal_commas(rows: Sequence[str]) -> bool:
@@ -187,9 +216,9 @@ def without_first_numbers(table: Table, dt: float | None, remarks: list[str]) ->
     rows = [table.row(index) for index in range(min(len(table.rows), EARLY))]
     if len(rows) > _FIRST_SAMPLES and len(rows[0]) == 1 and dt is not None and to_float(rows[0][0]) == dt:
         return _without_step(table, rows, remarks)
-    if len(rows) > 2 and len(rows[0]) == 2:
+    if len(rows) > 2 and (len(rows[0]) == 2 or (len(rows[0]) == 3 != len(rows[1]))):
         taken = 1
-        first, second = rows[0]
+        first, second = rows[0][:2]
     elif len(rows) > 3 and len(rows[0]) == len(rows[1]) == len(rows[2]) == 1:
         taken = 2
         first, second = rows[0][0], rows[1][0]
