@@ -32,7 +32,8 @@ WORDS = {
 """Of each language: an acceleration, a time, and north, east and up as letters and as words."""
 COUNTS = (
     "floor", "roof floor", "storey", "story", "level", "node", "joint", "run", "mass", "dof", "piso", "planta", "nivel",
-    "nodo", "andar", "piano", "\u00e9tage", "n\u0153ud", "Stockwerk", "Geschoss", "Knoten", "kat", "d\u00fc\u011f\u00fcm",
+    "nodo", "andar", "piano", "\u00e9tage", "n\u0153ud", "Stockwerk", "Geschoss", "Knoten",
+    "kat", "d\u00fc\u011f\u00fcm",
     "test",
 )  # fmt: skip
 PLACES = (

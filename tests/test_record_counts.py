@@ -139,7 +139,7 @@ def test_the_sum_of_the_counts_is_zero() -> None:
 def test_cmpaz_and_cmpinc_of_sac_say_the_direction(
     tmp_path: Path, channel: str, azimuth: float, from_up: float
 ) -> None:
-    """By definition CMPAZ is clockwise from north and CMPINC 90 for a horizontal; where they are undefined the code says."""
+    """CMPAZ is clockwise from north and CMPINC 90 for a horizontal; where they are undefined the code says."""
     (record,) = read(put(tmp_path, "a.sac", sac(channel=channel, azimuth=azimuth, from_up=from_up)))
     vertical = from_up in (0.0, 180.0) or (from_up == -12345.0 and channel == "HNZ")
     by_code = {"HNN": 0.0, "HNE": 90.0}.get(channel)

@@ -142,12 +142,14 @@ def test_an_at2_header_that_names_another_unit_than_g_is_a_doubt(tmp_path: Path)
 
 
 STEPS = (
-    "dt = {s}", "dt: {ms} ms", "dt(ms)={ms}", "dt [s] = {s}", "DT={s}SEC", "dt {s}", "time step {s} s", "time step is {s} s",
+    "dt = {s}", "dt: {ms} ms", "dt(ms)={ms}", "dt [s] = {s}", "DT={s}SEC", "dt {s}", "time step {s} s",
+    "time step is {s} s",
     "Time step (dt) = {s} s", "Time increment (s): {s}", "sampling interval: {s}", "SAMPLING_INTERVAL_S: {s}",
     "{s} s time step", "at {s} s intervals", "EQUALLY SPACED AT {s} SEC", "delta t = {s}",
     "INTERVALO DE MUESTREO (s): {s}", "Intervalo de muestreo: {ms} ms", "paso de tiempo = {s} s",
     "Intervalo de amostragem: {s} s", "passo temporale {s} s", "Intervallo di campionamento (s): {s}",
-    "pas de temps : {s} s", "P\u00e9riode d'\u00e9chantillonnage: {s} s", "Zeitschritt: {s} s", "Abtastintervall = {ms} ms",
+    "pas de temps : {s} s", "P\u00e9riode d'\u00e9chantillonnage: {s} s",
+    "Zeitschritt: {s} s", "Abtastintervall = {ms} ms",
     "zaman ad\u0131m\u0131: {s} s", "\u00f6rnekleme aral\u0131\u011f\u0131 = {s} sn",
 )  # fmt: skip
 RATES = (
@@ -159,8 +161,10 @@ RATES = (
     "Abtastfrequenz (Hz): {hz}", "\u00f6rnekleme frekans\u0131: {hz} Hz", "{hz} points per second",
 )  # fmt: skip
 NO_STEPS = (
-    "peak at 5.01 s", "filtered from 0.1 to 25 Hz", "duration 40 s", "corner frequency: 25 Hz", "instrument period 0.05 s",
-    "damping 0.7", "start 0.02 s after the trigger", "record length = 40 s", "high pass at 0.1 Hz", "40 s long", "T = 0.5 s",
+    "peak at 5.01 s", "filtered from 0.1 to 25 Hz", "duration 40 s", "corner frequency: 25 Hz",
+    "instrument period 0.05 s",
+    "damping 0.7", "start 0.02 s after the trigger", "record length = 40 s", "high pass at 0.1 Hz", "40 s long",
+    "T = 0.5 s",
     "natural frequency: 100 Hz", "epicentral distance 100 km", "depth 10 km", "Station 100",
 )  # fmt: skip
 SIZES = (0.01, 0.005, 0.02, 0.004, 0.0025)
@@ -216,7 +220,7 @@ def test_of_two_steps_the_caller_says_which(tmp_path: Path) -> None:
 @pytest.mark.parametrize("rate", [150.0, 300.0, 128.0, 256.0, 409.6, 60.0, 120.0])
 @pytest.mark.parametrize("digits", [4, 5])
 def test_a_step_that_is_rounded_or_cut_takes_the_right_one(tmp_path: Path, rate: float, digits: int) -> None:
-    """Headers round 1/150 s to .0067 or cut it to .0066: both are within one last digit, and two digits off is refused."""
+    """Headers round 1/150 s to .0067 or cut it to .0066: both are within a digit; two digits off is refused."""
     exact = 1.0 / rate
     file = tmp_path / "a.txt"
     at2 = tmp_path / "a.AT2"

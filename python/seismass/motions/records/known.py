@@ -161,9 +161,10 @@ def known_words(record: Record) -> str:
 def band_remarks(records: Iterable[Any], shortest: float, longest: float) -> list[str]:
     """Return a remark on records that are used at periods (s) beyond their usable band."""
     found = []
-    for number, record in enumerate(records, start=1):
+    for number, motion in enumerate(records, start=1):
+        record = getattr(motion, "first", motion)
         lowest, highest = getattr(record, "lowest_hz", None), getattr(record, "highest_hz", None)
-        name = getattr(record, "name", "") or f"motion {number}"
+        name = getattr(motion, "name", "") or f"motion {number}"
         if lowest and longest > (1.0 + 1e-9) / lowest:
             found.append(f"{name} is usable to {1.0 / lowest:.3g} s and used to {longest:.3g} s")
         elif highest and shortest < (1.0 - 1e-9) / highest:

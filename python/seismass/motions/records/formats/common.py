@@ -293,7 +293,8 @@ _RATE = re.compile(
     rf"[ \t]*(?:[(\[](?P<before>[^)\]\n]{{0,20}})[)\]])?[ \t]*{_SAYS}[ \t]*(?P<rate>{_DECIMAL})[ \t]*"
     rf"(?:(?P<kilo>k)?hz|sps|{_SAMPLES}[ ]?(?:/|per)[ ]?{_SECONDS})?(?![^\W_])"
     rf"|(?<![\w.,])(?P<ahead>{_DECIMAL})[ ]?"
-    rf"(?:{_SAMPLES}[ ]?(?:/|per|por|al|par|pro|a)[ ]?{_SECONDS}|sps|(?P<k>k)?hz[ ]sampl\w*)(?![^\W_])|\bsampled[ ]at[ ](?P<at>{_DECIMAL})[ ]?(?P<at_kilo>k)?hz",
+    rf"(?:{_SAMPLES}[ ]?(?:/|per|por|al|par|pro|a)[ ]?{_SECONDS}|sps|(?P<k>k)?hz[ ]sampl\w*)(?![^\W_])"
+    rf"|\bsampled[ ]at[ ](?P<at>{_DECIMAL})[ ]?(?P<at_kilo>k)?hz",
     re.IGNORECASE,
 )
 _POINTS = re.compile(
