@@ -17,14 +17,14 @@ RAISE = "raise the number in the same commit and say in CHANGELOG.md which featu
 
 # Ceilings are the present numbers: lower them where less is left. "top" holds the files beside the folders.
 LINES = """
-assessment 5222   base 1619   commands 3916   design 3403   design/scaling 834   effective_mass 2978   media 1607
-model 3282   motions 377   motions/matching 1480   motions/pulses 1066   motions/records 3672
-motions/records/formats 3619   motions/records/synthetic 1118   motions/scaling 801   motions/spectra 1596
-runs 3326   runs/grid 1564   show 3121   show/animation 1520   show/assessment 2024   show/explore 289
-show/plots 1836   show/study 2023   studies 8   studies/campaign 1611   studies/fragility 3171   studies/risk 1594
+assessment 5224   base 1706   commands 3922   design 3403   design/scaling 834   effective_mass 2978   media 1607
+model 3282   motions 377   motions/matching 1480   motions/pulses 1066   motions/records 4027
+motions/records/formats 3852   motions/records/synthetic 1118   motions/scaling 808   motions/spectra 1790
+runs 3326   runs/grid 1564   show 3122   show/animation 1520   show/assessment 2024   show/explore 289
+show/plots 1836   show/study 2023   studies 8   studies/campaign 1612   studies/fragility 3171   studies/risk 1594
 studies/slip 1775   studies/study 1772   studies/validation 1227   top 86
 """
-FILES, SMALL_FILES, SMALL, LONGEST = 247, 8, 60, 600  # small: fewer than 60 lines, without __init__.py
+FILES, SMALL_FILES, SMALL, LONGEST = 248, 8, 60, 600  # small: fewer than 60 lines, without __init__.py
 DOCSTRING = 3  # lines of what no user can reach
 KERNEL_RUNS = """
 effective_mass/runs.py motions/spectra/inelastic.py runs/batch.py runs/batch_tables.py runs/simulate.py

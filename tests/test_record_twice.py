@@ -214,6 +214,21 @@ def test_unusual_ways_to_write_a_motion(tmp_path: Path) -> None:
     assert any("scale factor of 0.5" in one for one in read_record(file).remarks)
 
 
+def test_lines_that_stand_twice_are_refused(tmp_path: Path) -> None:
+    lines = [f"{time:.2f},{value:.6f}" for time, value in zip(TIME, motion(), strict=True)]
+    file = tmp_path / "a.csv"
+    head = "time (s),acceleration (m/s2)"
+    file.write_text("\n".join([head, *(line for one in lines for line in (one, one))]) + "\n", encoding="utf-8")
+    for given in ({}, {"dt": 0.005}):
+        with pytest.raises(
+            RecordFormatError, match=r"line \d+ of a\.csv must differ from the one before; got lines twice"
+        ):
+            read_record(file, **given)
+    file.write_text("\n".join([head, *lines[:600], lines[599], *lines[600:]]) + "\n", encoding="utf-8")
+    with pytest.raises(RecordFormatError, match=r"times of a\.csv must be uniform"):
+        read_record(file)
+
+
 def test_rows_behind_those_that_are_counted(tmp_path: Path) -> None:
     """A file of UNAM with two rows more than its header counts is read with a remark; with many more it is refused."""
     name = next(name for name in FILES if "unam" in name)
@@ -222,7 +237,7 @@ def test_rows_behind_those_that_are_counted(tmp_path: Path) -> None:
     plain = read_records(put(tmp_path, name, text + "\n"))
     more = read_records(put(tmp_path, name, f"{text}\n{last}\n{last}\n"))
     assert [one.samples for one in more] == [one.samples for one in plain]
-    assert any("2 rows behind the" in remark for remark in more[0].remarks)
+    assert any("2 repetitions of the last row" in remark for remark in more[0].remarks)
     with pytest.raises(RecordFormatError, match="points of"):
         read_records(put(tmp_path, name, "\n".join([text, *[last] * 2000]) + "\n"))
 

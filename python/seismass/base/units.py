@@ -50,7 +50,7 @@ _PER_SECOND_SQUARED: Final = (
     rf"(?:(?P<length>[a-z]+)[ \t]*/[ \t]*(?:"
     rf"{_SECOND}(?:[ \t]*/[ \t]*{_SECOND}(?![a-z])|[ \t]*(?:\*\*|\^)?[ \t]*(?:2(?![\d.])|²))"
     rf"|\({_SECOND}[ \t]*(?:/|\*|\.)[ \t]*{_SECOND}\))"
-    r"|(?P<short>mm|cm|m|in|ft)[ \t]*[.*]?[ \t]*s(?:ec)?[ \t]*(?:\*\*|\^)?[ \t]*(?:-2(?![\d.])|⁻²))"
+    r"|(?P<short>mm|cm|m|in|ft)[ \t]*[.*·]?[ \t]*s(?:ec)?[ \t]*(?:\*\*|\^)?[ \t]*(?:-2(?![\d.])|⁻²))"
 )
 _MENTION = re.compile(
     rf"(?<![^\W\d_]|[/%]){_PER_SECOND_SQUARED}|(?<![^\W\d]|[/%])(?P<gal>gals?\b(?!\.))"
@@ -62,13 +62,13 @@ _UNIT_WORD: Final = r"(?:units?|unidad(?:es)?|unidades?|unità|unita|unités?|un
 _HEADS: Final = (
     rf"{_UNIT_WORD}|acc\w*|acel\w*|accél\w*|beschl\w*|ivme(?:si|leri)?|ускорени\w*|加速度|единиц\w*|単位|单位"
     r"|a[gc]?|a[gc]?[xyz]|[ux]g|data|datos|dati|dados|données|donnees|daten|samples?|muestras|campioni|amostras"
-    r"|values?|valores|valori|valeurs|werte|amplitudes?|amplitud|ordinates"
+    r"|values?|valores|valori|valeurs|werte|amplitudes?|amplitud|ordinates?"
 )
 _NEUTRAL: Final = (
     r"in|of|is|are|the|all|each|both|and|to|time|series|serie|history|histories|record|records|recorded|registro"
     r"|ground|motion|strong|accelerogram\w*|trace|input|component\w*|comp|channels?|chan|ch|columns?|horizontal"
     r"|vertical|corrected|uncorrected|processed|unprocessed|unscaled|scaled|raw|filtered|baseline|bandpass|given"
-    r"|expressed|measured|stored|written|measurement|si|en|de|del|della|delle|dei|di|da|das|do|dos|la|las|los|el|le|les"
+    r"|expressed|measured|stored|written|measurement|misura|si|en|de|del|della|delle|dei|di|da|das|do|dos|la|las|los|el|le|les"
     r"|des|du|em|im|der|die|den|von|y|e|et|und|expresad\w*|espress\w*|exprim\w*|station|sensor|instrument|corregid\w*"
     r"|unfiltered|filtr\w*|gefiltert|roh|crud\w*|brut\w*|grezz\w*|original|ham|korrig\w*|corrig\w*|corrett\w*|processad\w*|deg|degrees|azimuth?|az|dir|direction|fault|normal|parallel|radial|tangential"
 )
@@ -140,10 +140,8 @@ def unknown_unit(text: str) -> str | None:
 
 
 def stated_units(text: str) -> list[str]:
-    """Return every unit that a header states of its samples, by its name in `ACCELERATION_UNITS` if it is there.
-
-    A unit counts behind words of a short list that say so ("units:", "acceleration in", "data ("), or alone in its
-    line; behind a number or other words (a peak, a threshold, a conversion) it is that of something else.
+    """Return every unit that a header states of its samples, by its name in `ACCELERATION_UNITS` if it is there: behind
+    words of a short list that say so, or alone in its line. Behind a number or other words it is of something else.
     """
     found: set[str] = set()
     for line in _PLURAL.sub(r"\1", text).splitlines():
@@ -166,9 +164,9 @@ def _multiple(said: str) -> str | None:
 
 def _is_of_samples(line: str, mention: re.Match[str]) -> bool:
     before = line[: mention.start()]
-    *_, last = [None, *_MENTION.finditer(before)]
-    if last and _OR.fullmatch(before, last.end()):
-        return _is_of_samples(line, last)
+    earlier = list(_MENTION.finditer(before))
+    if earlier and _OR.fullmatch(before, earlier[-1].end()):
+        return _is_of_samples(line, earlier[-1])
     if _VALUE_BEFORE.search(before) or _VALUE_AFTER.match(line, mention.end()):
         return False
     words = _allowed(before)
@@ -180,7 +178,7 @@ def _is_of_samples(line: str, mention: re.Match[str]) -> bool:
 
 def is_plain(label: str) -> bool:
     """Whether a label has no words but those of accelerations of the ground, their directions and processing."""
-    words = re.findall(r"[^\W\d_]+", label.casefold())
+    words = re.findall(r"[^\W\d_]+", label.casefold().replace("\u0307", ""))
     return all(map(_WORD.fullmatch, words))
 
 
@@ -192,7 +190,7 @@ def names_unit(text: str) -> bool:
 def _allowed(before: str) -> list[str]:
     """Return the words of the clause that ends a text, where all of them may stand between a unit and the samples."""
     clause = _CLAUSES.split(_JOINED.sub("", before))[-1]
-    words = re.findall(r"[^\W\d_]+", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", clause).casefold())
+    words = re.findall(r"[^\W\d_]+", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", clause).casefold().replace("\u0307", ""))
     return words if all(map(_WORD.fullmatch, words)) else []
 
 

@@ -64,17 +64,17 @@ def known_of_header(text: str) -> dict[str, Any]:
     for name, pattern in _PATTERNS.items():
         for match in pattern.finditer(text):
             said = next(group for group in match.groups() if group)
-            value = said.strip() if name == "mechanism" else float(said)
-            least, most = _LIMITS.get(name, (0.0, 0.0))
-            if name == "mechanism" or least < value <= most:
-                found.setdefault(name, value)
-    for band, over in _BANDS:
-        match = band.search(text)
-        if match:
-            numbers = [float(one) for one in match.groups()]
+            if name == "mechanism":
+                found.setdefault(name, said.strip())
+            elif _LIMITS[name][0] < float(said) <= _LIMITS[name][1]:
+                found.setdefault(name, float(said))
+    for pattern, over in _BANDS:
+        band = pattern.search(text)
+        if band is not None:
+            numbers = [float(one) for one in band.groups()]
             found |= {"lowest_hz": over * numbers[len(numbers) // 2 - 1], "highest_hz": numbers[len(numbers) // 2]}
             break
-    places = [match[1] for pattern in _PLACES if (match := pattern.search(text))]
+    places = [place[1] for pattern in _PLACES if (place := pattern.search(text))]
     if "distance_km" not in found and len(places) == len(_PLACES):
         lat, lon, at_lat, at_lon = (math.radians(float(one)) for one in places)
         half = (

@@ -388,14 +388,13 @@ def _is_of_one_motion(one: Record, other: Record) -> bool:
     if not 0.5 < one.pga / max(other.pga, 1e-12) < 2.0:
         return False
     dt = max(one.dt, other.dt)
-    ways = []
-    for record in (one, other):
-        peak = int(np.argmax(np.abs(record.acceleration))) * record.dt
-        before, after = int(peak / dt), int((record.duration - peak) / dt)
-        ways.append((record, peak, before, after))
-    before, after = (min(way[side] for way in ways) for side in (2, 3))
+    peaks = [int(np.argmax(np.abs(record.acceleration))) * record.dt for record in (one, other)]
+    before = min(int(peak / dt) for peak in peaks)
+    after = min(int((record.duration - peak) / dt) for record, peak in zip((one, other), peaks, strict=True))
     at = dt * np.arange(-before, after + 1)
-    first, second = (np.interp(at + peak, record.time, record.acceleration) for record, peak, _, _ in ways)
+    first, second = (
+        np.interp(at + peak, record.time, record.acceleration) for record, peak in zip((one, other), peaks, strict=True)
+    )
     together = float(np.sqrt(np.dot(first, first) * np.dot(second, second)))
     return len(at) > 2 and together > 0.0 and float(np.dot(first, second)) > SAME_MOTION * together
 

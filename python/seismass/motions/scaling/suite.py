@@ -178,16 +178,16 @@ def target_of(text: str, folder: Path = Path()) -> TargetSpectrum:
     name, colon, rest = text.partition(":")
     name = ALIASES.get(name.lower(), name.lower())
     if name not in FORMS or not colon:
-        file, words = file_and_words(text, folder)
+        file, said = file_and_words(text, folder)
         if (colon or not Path(text).suffix) and not file.exists():
             forms = ", ".join(FORMS.values())
             raise InvalidOption(f"--target of command must be a CSV that is there or one of {forms}; got {text}")
-        return TargetSpectrum.from_csv(file, **words)
+        return TargetSpectrum.from_csv(file, **said)
     if not rest:
         raise _refused(name, text)
     if name == "asce7-22":
-        file, words = file_and_words(rest, folder)
-        return TargetSpectrum.asce7_multi_period(*read_table(file, **words))
+        file, said = file_and_words(rest, folder)
+        return TargetSpectrum.asce7_multi_period(*read_table(file, **said))
     if name == "mean":
         from seismass.motions.records.builtin import records_named
 

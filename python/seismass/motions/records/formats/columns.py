@@ -62,6 +62,8 @@ from seismass.motions.records.formats.table import (
 )
 from seismass.motions.records.record import Record
 
+MOST_TWICE: Final = 0.25
+"""Rows of times and samples of which more are those before are written twice."""
 _READ_INSTEAD: Final = "a motion has times and accelerations"
 
 
@@ -169,6 +171,10 @@ def _of_columns(
         if is_cut_off(tokens[index::columns]):
             raise _cut_off(table, tokens[index - columns])
     _check_points(table, len(values), remarks)
+    twice = np.all(values[1:] == values[:-1], axis=1) & np.any(values[1:, accelerations] != 0.0, axis=1)
+    if at is not None and np.count_nonzero(twice) > MOST_TWICE * len(values):
+        line = table.line_number(int(np.argmax(twice)) + 1)
+        raise RecordFormatError(f"line {line} of {table.file} must differ from the one before; got lines twice")
     if at is not None:
         times = Times(values[:, at], tokens[at::columns], labels[at] if labels else None, table.file, table.line_number)
         given = next((step for step in steps.values() if step is not None), None)

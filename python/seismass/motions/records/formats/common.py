@@ -276,6 +276,7 @@ _SECONDS: Final = r"(?:s|sec|secs|seconds?|segundos?|secondi|secondo|secondes?|s
 _SAYS: Final = r"(?:\b(?:is|of|at|es|est|ist|de)\b|[=:])?"
 _STEP = re.compile(
     r"(?:(?<![^\W_])(?:d[ _]?t|[δΔ][ ]?t|delta[ \t_]*t|time[ \t_-]*(?:step|increment|interval)|sample[ ]spacing"
+    r"|step[ ]size|interval[ ]between[ ](?:samples|points)"
     r"|sampl(?:e|ing)[ \t_]+(?:interval|period|time|step)|zeitschritt\w*|zeitinkrement|abtast(?:intervall|schritt\w*)"
     rf"|(?:intervall?[oe]|paso?|passo|p[eé]r[ií]ode?o?)[ ](?:(?:de|di)[ ])?(?:{_SAMPLING}|tiempo|tempo|temps|temporale)"
     r"|(?:zaman|örnekleme)[ ](?:ad\u0131m|aral\u0131)\w*|equally[ -]spaced(?:[ ]intervals)?)(?:_s(?:ec)?)?(?![^\W_])"
@@ -287,9 +288,10 @@ _STEP = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 _RATE = re.compile(
-    r"(?<![^\W_])(?:sampl(?:e|ing)[ \t_-]*(?:rate|freq\w*)|samp_rate|sps|fs|abtast(?:rate|frequenz)"
-    rf"|(?:frecuencia|velocidad|vel\.|tasa|frequ[eê]n[cz]\w*|fr[eé]quence|taxa)[ ](?:(?:de|di)[ ])?{_SAMPLING}"
-    rf"|örnekleme[ ](?:h\u0131z|frekans)\w*|{_SAMPLES}[ ]?(?:/|per)[ ]?{_SECONDS})"
+    r"(?<![^\W_])(?:sampl(?:e|ing)[ \t_-]*(?:rate|freq\w*)|samp_rate|sampling(?=[ ]*[:=][ ]*[\d.]+[ ]*hz)|sps|fs"
+    r"|abtast(?:rate|frequenz)"
+    rf"|(?:frecuencia|cadencia|velocidad|vel\.|tasa|frequ[eê]n[cz]\w*|fr[eé]quence|taxa)[ ](?:(?:de|di)[ ])?{_SAMPLING}"
+    rf"|örnekleme[ ](?:h\u0131z|frekans)\w*|{_SAMPLES}[ ]?(?:/|per|por|par|al|pro)[ ]?{_SECONDS})"
     rf"[ \t]*(?:[(\[](?P<before>[^)\]\n]{{0,20}})[)\]])?[ \t]*{_SAYS}[ \t]*(?P<rate>{_DECIMAL})[ \t]*"
     rf"(?:(?P<kilo>k)?hz|sps|{_SAMPLES}[ ]?(?:/|per)[ ]?{_SECONDS})?(?![^\W_])"
     rf"|(?<![\w.,])(?P<ahead>{_DECIMAL})[ ]?"

@@ -95,6 +95,8 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
     _check_duration(header.get("DURATION_S", ""), len(values), dt, file)
     peak = StatedPeak(header.get("PGA_CM/S^2", ""), header.get("TIME_PGA_S", ""), 0.01 / ACCELERATION_UNITS[unit])
     check_peak(values, peak, dt, digit_of_peak(values, tokens), file, remarks)
+    if "NOT REMOVED" in header.get("BASELINE_CORRECTION", "").upper():
+        remarks.append("uncorrected: its baseline is not removed")
     stream, code, name = header.get("STREAM", ""), header.get("STATION_CODE", ""), header.get("STATION_NAME", "")
     when = f"{header.get('EVENT_DATE_YYYYMMDD', '')} {header.get('EVENT_TIME_HHMMSS', '')}".strip()
     record = Record(
@@ -256,14 +258,14 @@ def _parse_unam(text: str, source: Path, arguments: Arguments) -> tuple[Channel,
         raise RecordFormatError(f"format of the numbers of {file} must be {channels} a line; got {header[_LAYOUT]}")
     rows = len(lines) - rules[1] - 1
     behind = rows - counts[0]
-    if 0 < behind * dt < 1.0:  # files of 17502 rows for 17500 are common
-        rows = counts[0]
+    if 0 < behind * dt < 1.0 and len({line.rstrip() for line in lines[-behind - 1 :]}) == 1:
+        rows = counts[0]  # 17502 for 17500: the last row is repeated
     if rows != counts[0]:
         raise RecordFormatError(f"points of {file} must be {counts[0]}, as its header says; got {rows}")
     block = read_block(lines, rules[1] + 1, rows * channels, layout, file)
     unit = agreed_unit(_unit(header.get(_UNIT_UNAM, ""), file), arguments.unit, file)
     samples = block.values.reshape(-1, channels)
-    remarks = [f"{behind} rows behind the {rows} that the header counts left out"] if behind > 0 else []
+    remarks = [f"{behind} repetitions of the last row left out"] if behind > 0 else []
     for said in _list(header, _LENGTH, file)[:1]:
         if is_number(said) and abs(to_float(said) - counts[0] * dt) > 1.5 * dt + 0.5 * last_digit(said):
             raise RecordFormatError(

@@ -47,8 +47,8 @@ def azimuth_of(component: str) -> float | None:
     if seed:
         return {"N": 0.0, "E": 90.0}.get(seed[1])
     words = re.findall(r"[^\W\d_]+", text)
-    known = [_WORDS_DIRECTIONS.get(word) for word in words]
-    if len(words) == 2 and None not in known and abs(known[0] - known[1]) == 180.0:  # Norte-Sur
+    known = [_WORDS_DIRECTIONS[word] for word in words if word in _WORDS_DIRECTIONS]
+    if len(words) == len(known) == 2 and abs(known[0] - known[1]) == 180.0:  # Norte-Sur
         return known[0]
     return _WORDS_DIRECTIONS.get("".join(words))
 
@@ -106,9 +106,9 @@ _WORDS: Final[tuple[tuple[str, re.Pattern[str]], ...]] = tuple(
     )
 )
 _TIMES: Final = re.compile(
-    r"times?|t|tiempos?|zeit|temps|tempo|zaman|relativetime|secs?|seconds?|segundos|elapsed|ms|время|時間|时间"
+    r"times?|t|tiempos?|zeit|temps|tempo|zaman|relativetime|tijd|secs?|seconds?|sekunden|segundos|elapsed|ms|время|時間|时间"
 )
-_OF_TIMES: Final = re.compile(r"relative|of|the|since|start|from|trigger|in|record|axis|vector|de|du|del")
+_OF_TIMES: Final = re.compile(r"s|relative|of|the|since|start|from|trigger|in|record|axis|vector|de|du|del")
 """What a column of times is called, and what may stand beside it; T1, tau or a rise time is none."""
 _BARE: Final = {
     **dict.fromkeys(("i", "n", "id", "#"), "index"),

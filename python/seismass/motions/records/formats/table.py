@@ -79,7 +79,7 @@ def read_table(text: str, file: str, remarks: list[str]) -> Table:
     gets what was interpreted: decimal commas, a line that marks the end.
     """
     lines = text.splitlines()
-    if '"' in lines[-1]:  # sheets may quote numbers
+    if lines and '"' in lines[-1]:  # sheets may quote numbers
         lines = [bare if is_row_of_numbers(bare := line.replace('"', "")) else line for line in lines]
     if _has_bare_exponents(lines):
         remarks.append("exponents are written without their letter")
