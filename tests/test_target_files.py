@@ -166,6 +166,12 @@ def test_displacements_and_pseudo_velocities(tmp_path: Path) -> None:
         read(tmp_path, table(["period (s)", "SD"], [list(PERIODS), list(sa)]))
 
 
+def test_accelerations_beside_displacements_and_velocities(tmp_path: Path) -> None:
+    """One column has a unit of acceleration: nothing is to be asked."""
+    heads = ["T (s)", "Sd (cm)", "Sa (g)", "Sv (cm/s)"]
+    assert is_right(read(tmp_path, table(heads, [list(PERIODS), [1.0] * 8, list(SA_G), [2.0] * 8])))
+
+
 @pytest.mark.parametrize("order", ["{0}~{1}", "{1}~{0}"])
 def test_uniform_hazard_of_openquake(tmp_path: Path, order: str) -> None:
     measures = ["PGA", *(f"SA({period:g})" for period in PERIODS)]

@@ -86,10 +86,10 @@ class _Spectrum:
 
 
 _PERIODS: Final = re.compile(
-    r"(?:natural |structural |vibration )*(?:periods?|t|tn|per[ií]odos?|p[ée]riodes?|perioden?|periodi)"
+    r"(?:natural |structural |vibration )*(?:periods?|t|tn|per[ií]odos?|p[ée]riodes?|perioden?|periodi|periyot)"
 )
 _ORDINATES: Final = re.compile(
-    r"(?<![^\W_])(?:p?sa[eh]?|se|sd|p?sv|acc?el\w*|spectral|target|uhs|displacement|ordinates?|dbe|mce\w*)(?![^\W_])"
+    r"(?<![^\W_])(?:p?sa[eh]?|se|sd|p?sv|acc?el\w*|ivme\w*|spe[ck]tral\w*|target|uhs|displacement|ordinates?|dbe|mce\w*)(?![^\W_])"
 )
 _OF: Final = {
     "SD": re.compile(r"(?<![^\W_])(?:sd|displacement)(?![^\W_])"),
@@ -108,9 +108,11 @@ def read_table(
 ) -> tuple[FloatArray, FloatArray]:
     """Return the periods (s) and Sa (g) of a file; see `TargetSpectrum.from_csv`."""
     source = as_path(path, OWNER, RecordFormatError)
-    given = unit_by_name(unit) if unit else None
-    if unit and given is None:
+    given = unit_by_name(unit) if isinstance(unit, str) else None
+    if unit is not None and given is None:
         raise refusal(RecordFormatError, "unit", source.name, f"one of {', '.join(ACCELERATION_UNITS)}", brief(unit))
+    if column is not None and not isinstance(column, str):
+        raise refusal(RecordFormatError, "column", source.name, "a name", brief(column))
     try:
         content = read_file(source)
         wide = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
@@ -133,6 +135,8 @@ def _chosen(found: list[_Spectrum], unit: str | None, column: str | None, file: 
     named = named or [one for one in found if column is not None and column.lower() in one.name.lower()]
     if column is None:
         named = [one for one in found if len(found) == 1 or "target" in one.name.lower()]
+        of_sa = [one for one in found if unit_by_name(one.unit)]
+        named = named or (of_sa if len(of_sa) == 1 else [])  # beside displacements and velocities
     if len(named) != 1:
         names = ", ".join(one.name for one in found)
         requirement = f"one, or named behind the file as {file}:{found[0].name}"

@@ -354,7 +354,7 @@ def _splits(line: str, columns: int) -> list[tuple[list[str], bool]]:
             ways.append((parts, columns > 1))
     if columns == 1:
         ways.append(([line], False))
-    ways.append((re.split(r"\s{2,}", line.strip()), False))
+    ways.append((re.split(r"\s{2,}", line.strip()), columns > 1))
     ways.append((_BRACKETED.findall(line), False))
     joined: list[str] = []
     for word in line.split():
