@@ -19,7 +19,7 @@ RAISE = "raise the number in the same commit and say in CHANGELOG.md which featu
 LINES = """
 assessment 5224   base 1706   commands 3922   design 3403   design/scaling 834   effective_mass 2978   media 1607
 model 3282   motions 377   motions/matching 1480   motions/pulses 1066   motions/records 4027
-motions/records/formats 3852   motions/records/synthetic 1118   motions/scaling 808   motions/spectra 1790
+motions/records/formats 3853   motions/records/synthetic 1118   motions/scaling 808   motions/spectra 1794
 runs 3326   runs/grid 1564   show 3122   show/animation 1520   show/assessment 2024   show/explore 289
 show/plots 1836   show/study 2023   studies 8   studies/campaign 1612   studies/fragility 3171   studies/risk 1594
 studies/slip 1775   studies/study 1772   studies/validation 1227   top 86

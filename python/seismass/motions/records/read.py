@@ -15,7 +15,7 @@ import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path, PurePosixPath
-from typing import Any, Final, Literal, TypeAlias
+from typing import IO, Any, Final, Literal, TypeAlias
 
 import numpy as np
 
@@ -498,11 +498,11 @@ def unpacked(path: Path) -> Iterator[tuple[Path, dict[Path, str]]]:
         names: dict[Path, str] = {}
         try:
             with open_regular(path) as file:
-                inner = [(file.read(LARGEST_UNPACKED), "", 1)]
-            left, number = LARGEST_UNPACKED, 0
-            while inner:  # archives of archives: each is unpacked under its name
-                packed, prefix, depth = inner.pop()
-                with zipfile.ZipFile(io.BytesIO(packed)) as archive:
+                inner: list[tuple[IO[bytes], str, int]] = [(file, "", 1)]
+                left, number = LARGEST_UNPACKED, 0
+                while inner:  # archives of archives: each is unpacked under its name
+                    packed, prefix, depth = inner.pop()
+                    archive = zipfile.ZipFile(packed)
                     members = [one for one in archive.infolist() if not one.is_dir() and not _is_hidden(one.filename)]
                     _refuse_large(path, members, number)
                     for member in sorted(members, key=lambda one: one.filename):
@@ -515,7 +515,7 @@ def unpacked(path: Path) -> Iterator[tuple[Path, dict[Path, str]]]:
                             )
                         kind = known_binary(content[:HEAD_BYTES])
                         if depth < MOST_DEEP and kind and kind[0] == "ZIP" and zipfile.is_zipfile(io.BytesIO(content)):
-                            inner.append((content, f"{prefix}{member.filename}/", depth + 1))
+                            inner.append((io.BytesIO(content), f"{prefix}{member.filename}/", depth + 1))
                             continue
                         target = folder / f"{number:05d}" / _safe_name(member.filename)
                         target.parent.mkdir()

@@ -172,7 +172,8 @@ def _of_columns(
             raise _cut_off(table, tokens[index - columns])
     _check_points(table, len(values), remarks)
     twice = np.all(values[1:] == values[:-1], axis=1) & np.any(values[1:, accelerations] != 0.0, axis=1)
-    if at is not None and np.count_nonzero(twice) > MOST_TWICE * len(values):
+    rising = at is not None and values[-1, at] > values[0, at]
+    if rising and np.count_nonzero(twice) > MOST_TWICE * len(values):
         line = table.line_number(int(np.argmax(twice)) + 1)
         raise RecordFormatError(f"line {line} of {table.file} must differ from the one before; got lines twice")
     if at is not None:
