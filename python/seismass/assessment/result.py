@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 import polars as pl
 
 from seismass.assessment.answer import ANALYSIS, Answer, analysis_table
+from seismass.assessment.building import OwnBuilding
 from seismass.assessment.checks import checks_table, input_document
 from seismass.assessment.models import Shown
-from seismass.assessment.own_building import OwnBuilding
 from seismass.base.values import content_hash, same_content
 from seismass.base.views import view
 from seismass.design.scaling import ScalingResult

@@ -82,8 +82,8 @@ def unit_by_name(name: str) -> str | None:
 
 def stated_unit(text: str) -> str | None:
     """Return the acceleration unit that a header states, or None where it states none, several or another."""
-    found = stated_units(text)
-    return found[0] if len(found) == 1 and found[0] in ACCELERATION_UNITS else None
+    units = stated_units(text)
+    return units[0] if len(units) == 1 and units[0] in ACCELERATION_UNITS else None
 
 
 def unknown_unit(text: str) -> str | None:
@@ -93,17 +93,17 @@ def unknown_unit(text: str) -> str | None:
 
 def stated_units(text: str) -> list[str]:
     """Return every unit that a header states, by its name in `ACCELERATION_UNITS` if it is there, in order."""
-    found = {_per_second_squared(first or second) for first, second in _PER_SECOND_SQUARED.findall(text)}
-    found |= {_part_of_g(name) for name in (*_BRACKETED_G.findall(text), *_IN_G.findall(text))}
+    units = {_per_second_squared(first or second) for first, second in _PER_SECOND_SQUARED.findall(text)}
+    units |= {_part_of_g(name) for name in (*_BRACKETED_G.findall(text), *_IN_G.findall(text))}
     if _GAL.search(text):
-        found.add("cm/s2")
-    for said in _UNITS_OF.findall(text):
-        of_g = _G.match(said)
+        units.add("cm/s2")
+    for unit in _UNITS_OF.findall(text):
+        of_g = _G.match(unit)
         if of_g:
-            found.add(_part_of_g(of_g[1] or "g"))
-        elif said[0] in ".0123456789" or not found:
-            found.add(said.strip()[:30])
-    return sorted(found)
+            units.add(_part_of_g(of_g[1] or "g"))
+        elif unit[0] in ".0123456789" or not units:
+            units.add(unit.strip()[:30])
+    return sorted(units)
 
 
 def _per_second_squared(length: str) -> str:
@@ -111,9 +111,9 @@ def _per_second_squared(length: str) -> str:
     return f"{_LENGTHS.get(name, name)}/s2"
 
 
-def _part_of_g(said: str) -> str:
+def _part_of_g(text: str) -> str:
     """Return g, mg or %g for a spelling of it."""
-    name = said.lower()
+    name = text.lower()
     return "%g" if name[0] in "%p" else "mg" if name[0] == "m" else "g"
 
 
@@ -121,8 +121,8 @@ def contradiction(text: str, unit: str) -> str | None:
     """Return the unit that a header states where it is not `unit`, a key of `ACCELERATION_UNITS`; else None. Words
     behind "units:" that are no unit ("see below") contradict nothing.
     """
-    found = [said for said in stated_units(text) if said in ACCELERATION_UNITS or _UNIT_LIKE.search(said)]
+    units = [one for one in stated_units(text) if one in ACCELERATION_UNITS or _UNIT_LIKE.search(one)]
     same = ACCELERATION_UNITS[unit]
-    if not found or any(ACCELERATION_UNITS.get(said) == same for said in found):
+    if not units or any(ACCELERATION_UNITS.get(one) == same for one in units):
         return None
-    return " and ".join(found)
+    return " and ".join(units)

@@ -280,15 +280,15 @@ def as_array(
     what = {1: "a list of numbers", 2: "a table of numbers, rows by columns"}[dimensions]
     requirement = f"a number or {what}" if or_number else what
     try:
-        given = np.asarray(value)
+        array = np.asarray(value)
     except (TypeError, ValueError):
         raise refusal(kind, parameter, owner, requirement, brief(value)) from None
-    if (given.dtype.kind not in "iuf" and given.size) or np.ma.is_masked(value):
+    if (array.dtype.kind not in "iuf" and array.size) or np.ma.is_masked(value):
         raise refusal(kind, parameter, owner, requirement, brief(value))
-    if given.ndim != dimensions and not (or_number and given.ndim == 0):
-        got = brief(value) if given.ndim == 0 else f"an array of shape {given.shape}"
+    if array.ndim != dimensions and not (or_number and array.ndim == 0):
+        got = brief(value) if array.ndim == 0 else f"an array of shape {array.shape}"
         raise refusal(kind, parameter, owner, requirement, got)
-    return frozen(given)
+    return frozen(array)
 
 
 def frozen(values: Any) -> FloatArray:

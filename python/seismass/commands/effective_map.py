@@ -38,7 +38,7 @@ def run(args: argparse.Namespace) -> int:
     from seismass.media.result import check_out
 
     check_out(args.out, "map")
-    given = {
+    options = {
         "mus": args.mu,
         "response_modification": args.R,
         "mass_ratios": args.alpha,
@@ -48,7 +48,7 @@ def run(args: argparse.Namespace) -> int:
         "second_slope": args.second_slope,
         "scaling_period": args.period,
     }
-    parameters = EffectiveMassParameters(**{name: value for name, value in given.items() if value is not None})
+    parameters = EffectiveMassParameters(**{name: value for name, value in options.items() if value is not None})
     target = read_target(args)
     suite = read_motions(args, "seven")
     with progress() as tell:

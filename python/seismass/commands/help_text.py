@@ -75,10 +75,10 @@ def _example(line: str, width: int) -> Iterator[str]:
     if len(line) <= width:
         yield line
         return
-    typed, _, said = line.strip().partition("    ")
+    typed, _, meaning = line.strip().partition("    ")
     together = re.sub(r"(?<= )(--\S+) (?!--)", "\\1\0", typed)  # an option and its value
     pieces = textwrap.wrap(f"  {together}", width - 2, subsequent_indent=" " * 6, break_on_hyphens=False)
     pieces = [piece.replace("\0", " ") for piece in pieces]
     yield from (f"{piece} \\" for piece in pieces[:-1])
     yield pieces[-1]
-    yield from textwrap.wrap(said.strip(), width, initial_indent=" " * 6, subsequent_indent=" " * 6)
+    yield from textwrap.wrap(meaning.strip(), width, initial_indent=" " * 6, subsequent_indent=" " * 6)

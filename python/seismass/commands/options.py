@@ -139,10 +139,10 @@ def read_pairs(args: argparse.Namespace) -> Pairs:
         return builtin_pairs()
     if args.suite is not None:
         raise InvalidOption(f"suite of motions must be left out where --records is given; got {args.suite}")
-    found = find_pairs(args.records)
-    if not len(found):
-        raise RecordFormatError(f"pairs of {found.name} must be at least one; got {len(found.excluded)} files of none")
-    return found
+    pairs = find_pairs(args.records)
+    if not len(pairs):
+        raise RecordFormatError(f"pairs of {pairs.name} must be at least one; got {len(pairs.excluded)} files of none")
+    return pairs
 
 
 def check_files(*paths: Path | None) -> None:
@@ -203,16 +203,16 @@ def read_target(args: argparse.Namespace) -> TargetSpectrum:
     from seismass.base.errors import InvalidOption
     from seismass.motions.spectra import DEFAULT_SD1_G, DEFAULT_SDS_G, DEFAULT_TL, TargetSpectrum
 
-    given = {"sds": args.sds, "sd1": args.sd1, "tl": args.tl}
+    parameters = {"sds": args.sds, "sd1": args.sd1, "tl": args.tl}
     if args.target is not None:
-        for name, value in given.items():
+        for name, value in parameters.items():
             if value is not None:
                 raise InvalidOption(
                     f"{name} of target spectrum must be left out where --target is given; got {value:g}"
                 )
         return target_of(str(args.target))
     defaults = {"sds": DEFAULT_SDS_G, "sd1": DEFAULT_SD1_G, "tl": DEFAULT_TL}
-    sds, sd1, tl = (defaults[name] if value is None else value for name, value in given.items())
+    sds, sd1, tl = (defaults[name] if value is None else value for name, value in parameters.items())
     return TargetSpectrum.asce7(sds, sd1, tl)
 
 
@@ -224,11 +224,11 @@ def read_site(args: argparse.Namespace, command: str) -> TargetSpectrum | None:
         if args.sds is args.sd1 is args.tl is None:
             return None
         if args.sds is None or args.sd1 is None:
-            given = (
+            parameters = (
                 "--sds" if args.sd1 is None and args.sds is not None else "--sd1" if args.sd1 is not None else "--tl"
             )
             raise InvalidOption(
-                f"site spectrum of {command} must be given by --sds and --sd1 together; got {given} alone"
+                f"site spectrum of {command} must be given by --sds and --sd1 together; got {parameters} alone"
             )
     return read_target(args)
 
@@ -251,7 +251,7 @@ def read_code(args: argparse.Namespace, command: str) -> CodeFraction | None:
     from seismass.model.codes import code_fraction
 
     if args.code is None:
-        refuse_given(args, ("use",), command, "where --code is not given")
+        refuse_options(args, ("use",), command, "where --code is not given")
         return None
     return code_fraction(args.code, args.use or "storage")
 
@@ -314,7 +314,7 @@ def check_plot(args: argparse.Namespace, command: str) -> None:
     check_files(args.plot)
 
 
-def refuse_given(args: argparse.Namespace, names: Iterable[str], command: str, when: str) -> None:
+def refuse_options(args: argparse.Namespace, names: Iterable[str], command: str, when: str) -> None:
     """Refuse options that are not used, by the names of their values."""
     from seismass.base.errors import InvalidOption
 

@@ -87,8 +87,8 @@ def run(args: argparse.Namespace) -> int:
     suite = read_motions(args)
     limit = parse_limit(args.limit or drift_limit)
     doubts = doubts_of_input(scene, building, target, [(limit.quantity, limit.value)])
-    given = {"code_share": code_share, "design_rate": args.design_rate}
-    chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    options = {"code_share": code_share, "design_rate": args.design_rate}
+    stated: dict[str, Any] = {name: value for name, value in options.items() if value is not None}
     with progress() as tell:
         result = risk_targeted_share(
             scene,
@@ -104,7 +104,7 @@ def run(args: argparse.Namespace) -> int:
             seed=args.seed,
             threads=args.jobs,
             progress=tell,
-            **chosen,
+            **stated,
         )
     result, doubtful = with_doubts(result, doubts)
     head = f"{doubtful}suite                {suite.name}\nscaling              each motion to each intensity\n"

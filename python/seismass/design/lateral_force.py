@@ -265,12 +265,12 @@ def seismic_response_coefficient(
     factor = as_positive(importance, "importance", _OWNER, InvalidOption)
     reduced = as_positive(reduction, "reduction", _OWNER, InvalidOption) / factor
     limit = second / t if t <= longest else second * longest / t**2
-    found = min(short, limit) / reduced
+    coefficient = min(short, limit) / reduced
     if minimum:
-        found = max(found, 0.044 * short * factor, 0.01)
+        coefficient = max(coefficient, 0.044 * short * factor, 0.01)
     if s_1 is not None and as_positive(s_1, "s_1", _OWNER, InvalidOption) >= 0.6:
-        found = max(found, 0.5 * s_1 / reduced)
-    return found
+        coefficient = max(coefficient, 0.5 * s_1 / reduced)
+    return coefficient
 
 
 def distribution_table() -> pl.DataFrame:

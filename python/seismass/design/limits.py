@@ -475,21 +475,21 @@ def storey_checks(
     theta = None if load is None else stability_coefficient(load, elastic, v, h)
     rows = []
     for i in range(storeys):
-        own = None if theta is None else float(theta[i])
-        unstable = own is not None and own > theta_limit
-        larger = 1.0 if own is None or own <= THETA_THRESHOLD else 1.0 / (1.0 - own)
+        coefficient = None if theta is None else float(theta[i])
+        unstable = coefficient is not None and coefficient > theta_limit
+        larger = 1.0 if coefficient is None or coefficient <= THETA_THRESHOLD else 1.0 / (1.0 - coefficient)
         ratio = None if unstable else larger * float(design[i] / h[i])
         state = None
-        if own is not None:
-            state = "unstable" if unstable else "to be considered" if own > THETA_THRESHOLD else "negligible"
+        if coefficient is not None:
+            state = "unstable" if unstable else "to be considered" if coefficient > THETA_THRESHOLD else "negligible"
         rows.append(
             {
                 "storey": i + 1,
                 "elastic_drift": float(elastic[i]),
                 "design_drift": float(design[i]),
-                "theta": own,
-                "theta_limit": None if own is None else theta_limit,
-                "amplification": None if own is None or unstable else larger,
+                "theta": coefficient,
+                "theta_limit": None if coefficient is None else theta_limit,
+                "amplification": None if coefficient is None or unstable else larger,
                 "drift_ratio": ratio,
                 "limit": share,
                 "drift_ok": ratio is not None and ratio <= share,

@@ -137,15 +137,15 @@ def vibration_modes(mass: ArrayLike, stiffness: ArrayLike, *, stiffness_matrix: 
     # M^(-1/2) K M^(-1/2) is symmetric and tridiagonal.
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
         diagonal = (k + np.append(k[1:], 0.0)) / m
-        beside = -k[1:] / (np.sqrt(m[1:]) * np.sqrt(m[:-1]))
-    if not (np.isfinite(diagonal).all() and np.isfinite(beside).all()):
+        off_diagonal = -k[1:] / (np.sqrt(m[1:]) * np.sqrt(m[:-1]))
+    if not (np.isfinite(diagonal).all() and np.isfinite(off_diagonal).all()):
         requirement = "in a ratio to the stiffnesses that a double can hold"
         raise refusal(InvalidScene, "mass", "building", requirement, brief(m.tolist()))
     if stiffness_matrix is None:
-        squares, vectors = eigh_tridiagonal(diagonal, beside)
+        squares, vectors = eigh_tridiagonal(diagonal, off_diagonal)
     else:
         walls = checked_matrix(stiffness_matrix, len(m))
-        springs = np.diag(diagonal) + np.diag(beside, 1) + np.diag(beside, -1)
+        springs = np.diag(diagonal) + np.diag(off_diagonal, 1) + np.diag(off_diagonal, -1)
         squares, vectors = np.linalg.eigh(springs + walls / np.sqrt(m[:, None] * m[None, :]))
         if not squares[0] > 0.0:
             requirement = "positive definite together with the storeys"
@@ -434,8 +434,8 @@ class SpectrumAnalysis(Card):
 
     def mode_table(self) -> pl.DataFrame:
         """Return `Modes.table` with the ordinate (m/s2) and the modal base shear (N) of each mode."""
-        own = pl.DataFrame({"ordinate": self.ordinates, "base_shear": np.abs(self.modal_shear[:, 0])})
-        return pl.concat([self.modes.table(), own], how="horizontal")
+        columns = pl.DataFrame({"ordinate": self.ordinates, "base_shear": np.abs(self.modal_shear[:, 0])})
+        return pl.concat([self.modes.table(), columns], how="horizontal")
 
 
 def response_spectrum_analysis(
@@ -523,5 +523,5 @@ def response_spectrum_analysis(
 
 def moments(shear: FloatArray, heights: FloatArray) -> FloatArray:
     """Return the overturning moment (N m) at the foot of each storey, shape of `shear`: (..., storeys)."""
-    found: FloatArray = np.cumsum((shear * heights)[..., ::-1], axis=-1)[..., ::-1]
-    return found
+    moment: FloatArray = np.cumsum((shear * heights)[..., ::-1], axis=-1)[..., ::-1]
+    return moment

@@ -55,7 +55,7 @@ class Solved:
     """
 
     search: Search
-    real: Peaks
+    sliding: Peaks
     model: Peaks
     question: str
 
@@ -64,7 +64,7 @@ class Solved:
         search = self.search
         if statistic is not None:
             search = replace(search, options=replace(search.options, statistic=statistic))
-        return search.answer(self.real, self.model, {"question": self.question})
+        return search.answer(self.sliding, self.model, {"question": self.question})
 
 
 def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Options) -> list[Solved]:
@@ -80,24 +80,24 @@ def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Op
             raise refusal(InvalidScene, f"scene {number}", OWNER, requirement, "others")
     larger = SHARES_BEYOND if any(goes_beyond(scene) for scene in checked) else SHARES_BEYOND[:0]
     stages = Stages(options.progress, (len(checked) + len(shares) + len(larger)) * len(motions))
-    reals = solve(checked, motions, **how, progress=stages.next(len(checked) * len(motions)))
+    sliding_models = solve(checked, motions, **how, progress=stages.next(len(checked) * len(motions)))
     models = [attached(first, share, options.damping) for share in shares]
     model = solve(models, motions, **how, progress=stages.next(len(models) * len(motions)))
-    beyond = None
+    above_one = None
     if len(larger):
         models = [attached(first, share, options.damping) for share in larger]
-        beyond = solve(models, motions, **how, progress=stages.next(len(models) * len(motions)))
-    beside: dict[float, Peaks] = {}
+        above_one = solve(models, motions, **how, progress=stages.next(len(models) * len(motions)))
+    peaks_by_share: dict[float, Peaks] = {}
 
     def model_at(share: float) -> Peaks:
-        if share not in beside:
-            beside[share] = solve([attached(first, share, options.damping)], motions, **how)
-        return beside[share]
+        if share not in peaks_by_share:
+            peaks_by_share[share] = solve([attached(first, share, options.damping)], motions, **how)
+        return peaks_by_share[share]
 
     def of(number: int, scene: Scene) -> Solved:
-        real = reals.one(number)
-        search = Search(motions, options, lambda share: (real, model_at(share)), lambda _: scene, beyond)
-        return Solved(search, real, model, "given building")
+        sliding = sliding_models.one(number)
+        search = Search(motions, options, lambda share: (sliding, model_at(share)), lambda _: scene, above_one)
+        return Solved(search, sliding, model, "given building")
 
     return [of(number, scene) for number, scene in enumerate(checked)]
 
@@ -137,7 +137,7 @@ def solved_designs(
         requirement = "a Building of the same number of storeys for every share"
         raise refusal(InvalidScene, "design", OWNER, requirement, "different ones")
     runs = len(scenes) * len(motions)
-    real = solve(scenes, motions, **how, progress=stages.next(runs))
+    sliding = solve(scenes, motions, **how, progress=stages.next(runs))
     models = [attached(scene, share, options.damping) for scene, share in zip(scenes, shares, strict=True)]
     model = solve(models, motions, **how, progress=stages.next(runs))
 
@@ -149,7 +149,7 @@ def solved_designs(
         )
         return both
 
-    return Solved(Search(motions, options, at, designed), real, model, "design rule")
+    return Solved(Search(motions, options, at, designed), sliding, model, "design rule")
 
 
 def effective_mass(

@@ -56,9 +56,9 @@ def over_records(values: FloatArray, statistic: Statistic) -> FloatArray:
     return taken
 
 
-def is_below(model: FloatArray, real: FloatArray) -> NDArray[np.bool_]:
+def is_below(model: FloatArray, sliding: FloatArray) -> NDArray[np.bool_]:
     """Whether the model drifts less than the real building, by more than rounding."""
-    below: NDArray[np.bool_] = np.asarray(model < real * (1.0 - ROUNDING))
+    below: NDArray[np.bool_] = np.asarray(model < sliding * (1.0 - ROUNDING))
     return below
 
 
@@ -71,19 +71,19 @@ def kind_of(below: NDArray[np.bool_]) -> Kind:
     return "root" if np.count_nonzero(below[1:] != below[:-1]) == 1 else "multiple"
 
 
-def crossings(fractions: FloatArray, model: FloatArray, real: FloatArray) -> list[tuple[float, float]]:
+def crossings(fractions: FloatArray, model: FloatArray, sliding: FloatArray) -> list[tuple[float, float]]:
     """Return the brackets of all sign changes of model - real on the grid, in increasing order."""
-    below = is_below(model, np.broadcast_to(real, model.shape))
+    below = is_below(model, np.broadcast_to(sliding, model.shape))
     return [(float(fractions[k]), float(fractions[k + 1])) for k in np.flatnonzero(below[1:] != below[:-1])]
 
 
-def interpolated_roots(fractions: FloatArray, model: FloatArray, real: FloatArray) -> list[float]:
+def interpolated_roots(fractions: FloatArray, model: FloatArray, sliding: FloatArray) -> list[float]:
     """Return all crossings of one curve by linear interpolation; the middle of a bracket where a run collapses."""
     roots = []
-    for low, high in crossings(fractions, model, real):
+    for low, high in crossings(fractions, model, sliding):
         k = int(np.searchsorted(fractions, low))
         with np.errstate(invalid="ignore"):  # where both collapse the difference is NaN
-            ends = model[k : k + 2] - real[k : k + 2]
+            ends = model[k : k + 2] - sliding[k : k + 2]
         weight = -ends[0] / (ends[1] - ends[0]) if np.isfinite(ends).all() else 0.5
         roots.append(low + float(weight) * (high - low))
     return roots
@@ -105,18 +105,18 @@ def refined_root(difference: Callable[[float], float], bracket: tuple[float, flo
     return float(brentq(lambda share: np.clip(difference(share), -1.0, 10.0), low, high, xtol=TOLERANCE, rtol=1e-14))
 
 
-def interpolated(fractions: FloatArray, model: FloatArray, real: FloatArray) -> FloatArray:
+def interpolated(fractions: FloatArray, model: FloatArray, sliding: FloatArray) -> FloatArray:
     """Return the smallest share from which on the model never drifts less than the real building, by linear
     interpolation, for `model` and `real` of shape (curves, shares); 1 where it does at 1.
     """
-    below = is_below(model, real)
+    below = is_below(model, sliding)
     last = below.shape[1] - 1 - np.argmax(below[:, ::-1], axis=1)
     value = np.where(below.any(axis=1), 1.0, 0.0)
     inside = np.flatnonzero(below.any(axis=1) & (last < below.shape[1] - 1))
     k = last[inside]
     with np.errstate(invalid="ignore"):
-        low = model[inside, k] - real[inside, k]
-        high = model[inside, k + 1] - real[inside, k + 1]
+        low = model[inside, k] - sliding[inside, k]
+        high = model[inside, k + 1] - sliding[inside, k + 1]
         weight = np.where(np.isfinite(high) & np.isfinite(low), -low / (high - low), 0.0)
     value[inside] = fractions[k] + weight * (fractions[k + 1] - fractions[k])
     return value
@@ -124,7 +124,7 @@ def interpolated(fractions: FloatArray, model: FloatArray, real: FloatArray) -> 
 
 def resampled(
     model: FloatArray,
-    real: FloatArray,
+    sliding: FloatArray,
     *,
     statistic: Statistic,
     cluster_of: NDArray[np.int64],
@@ -135,8 +135,8 @@ def resampled(
     records, both drawn together and the records of one cluster together.
     """
     weights = bootstrap_counts(cluster_of, resamples, seed)
-    model_drift, real_drift = (_weighted(values, weights, statistic) for values in (model, real))
-    return model_drift, np.broadcast_to(real_drift, model_drift.shape)
+    model_drift, sliding_drift = (_weighted(values, weights, statistic) for values in (model, sliding))
+    return model_drift, np.broadcast_to(sliding_drift, model_drift.shape)
 
 
 def bootstrap_counts(cluster_of: NDArray[np.int64], resamples: int, seed: int) -> FloatArray:
@@ -156,11 +156,11 @@ def _weighted(values: FloatArray, weights: FloatArray, statistic: Statistic) -> 
         infinite = (weights @ np.isinf(values).astype(np.float64).T) > 0.0
         return np.where(infinite, np.inf, mean)
     medians = np.empty((len(weights), len(values)))
-    for row, own in enumerate(values):
-        order = np.argsort(own, kind="stable")
+    for row, drifts in enumerate(values):
+        order = np.argsort(drifts, kind="stable")
         reached = np.cumsum(weights[:, order], axis=1)
         low, high = ((reached > (total[:, None] - shift) // 2).argmax(axis=1) for shift in (1, 0))
-        medians[:, row] = 0.5 * (own[order[low]] + own[order[high]])
+        medians[:, row] = 0.5 * (drifts[order[low]] + drifts[order[high]])
     return medians
 
 
@@ -189,9 +189,9 @@ def joined(first: Peaks, second: Peaks) -> Peaks:
     )
 
 
-def first_bracket(shares: FloatArray, model: FloatArray, real: float) -> tuple[float, float] | None:
+def first_bracket(shares: FloatArray, model: FloatArray, sliding: float) -> tuple[float, float] | None:
     """Return the shares, from 1 on, between which the model first reaches the real drift; None where it does not."""
-    below = is_below(model, np.full(model.shape, real))
+    below = is_below(model, np.full(model.shape, sliding))
     reached = np.flatnonzero(~below)
     if not len(reached):
         return None
@@ -199,21 +199,21 @@ def first_bracket(shares: FloatArray, model: FloatArray, real: float) -> tuple[f
     return float(shares[max(index - 1, 0)]), float(shares[index])
 
 
-def extended(values: FloatArray, shares: FloatArray, model: FloatArray, real: FloatArray) -> FloatArray:
+def extended(values: FloatArray, shares: FloatArray, model: FloatArray, sliding: FloatArray) -> FloatArray:
     """Return the smallest share above 1 at which the model has the real drift, by linear interpolation, for curves
     whose model drifts less at 1; the largest share where there is none. `model` has shape (curves, beyond).
     """
-    below = is_below(model, np.broadcast_to(real[:, None], model.shape))
-    found = values.copy()
+    below = is_below(model, np.broadcast_to(sliding[:, None], model.shape))
+    crossing = values.copy()
     short = np.flatnonzero(below[:, 0])
     never = below[short].all(axis=1)
-    found[short[never]] = shares[-1]
+    crossing[short[never]] = shares[-1]
     for curve in short[~never]:
         k = int(np.argmin(below[curve])) - 1
-        low, high = model[curve, k] - real[curve], model[curve, k + 1] - real[curve]
+        low, high = model[curve, k] - sliding[curve], model[curve, k + 1] - sliding[curve]
         weight = -low / (high - low) if np.isfinite(high) else 0.0
-        found[curve] = shares[k] + weight * (shares[k + 1] - shares[k])
-    return found
+        crossing[curve] = shares[k] + weight * (shares[k + 1] - shares[k])
+    return crossing
 
 
 ModelDamping: TypeAlias = Literal["same", "ratio"]
@@ -372,7 +372,7 @@ def check_loaded(scene: Any, owner: str = "effective mass") -> Scene:
     """Return a scene of the chain engine whose building carries at least one block."""
     if not isinstance(scene, Scene):
         raise refusal(InvalidScene, "scene", "effective mass", "a Scene", brief(scene))
-    return check_any_load(scene.of_chain(owner))
+    return check_any_load(scene.require_chain(owner))
 
 
 def check_damping(damping: Any, owner: str) -> ModelDamping:

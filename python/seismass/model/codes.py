@@ -353,10 +353,10 @@ def code_fraction(code_id: str, use: Use = "storage") -> CodeFraction:
     wanted = known_id(code_id, CODE_IDS, "code")
     if not is_one_of(use, get_args(Use)):
         raise refusal(InvalidOption, "use", "code", f"one of {', '.join(get_args(Use))}", brief(use))
-    found = {row.use: row for row in _ROWS if row.code_id == wanted}
-    if use not in found and _CLASS_OF.get(use) not in found:
-        raise refusal(InvalidOption, "use", f"code {wanted}", " or ".join(found), use)
-    return found[use] if use in found else replace(found[_CLASS_OF[use]], use=use)
+    rows = {row.use: row for row in _ROWS if row.code_id == wanted}
+    if use not in rows and _CLASS_OF.get(use) not in rows:
+        raise refusal(InvalidOption, "use", f"code {wanted}", " or ".join(rows), use)
+    return rows[use] if use in rows else replace(rows[_CLASS_OF[use]], use=use)
 
 
 def code_table() -> pl.DataFrame:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seismass import _kernel
 from seismass.base.errors import InvalidOption
-from seismass.base.forks import require_polars
+from seismass.base.fork_check import require_polars
 from seismass.base.values import FloatArray, frozen, read_only, refusal
 from seismass.base.views import Views, view
 from seismass.model.plausibility import motion_remarks
@@ -547,11 +547,11 @@ class Response(RackResults, BaseResults, ResponseDocument):
         return f"Response({self.status}{collapsed} at {self.end_time:g} s{drift}{slip})"
 
 
-def _values(of: type) -> tuple[str, ...]:
+def _values(kind: type) -> tuple[str, ...]:
     """Names of the values of a response of the kernel."""
     return tuple(
         name
-        for name, member in vars(of).items()
+        for name, member in vars(kind).items()
         if not name.startswith("_") and not callable(member) and not isinstance(member, staticmethod)
     )
 

@@ -153,8 +153,8 @@ def extract(velocity: FloatArray, scales: range, row: int, sample: int) -> Extra
     at `sample`; each wavelet is the largest of the residual within 0.4 scales of the sample.
     """
     low, high = scales[max(0, row - 1)], scales[min(len(scales) - 1, row + 1)]
-    between = range(low, high + 1, math.ceil((high + 1 - low) / REFINEMENTS))
-    scale = max(between, key=lambda one: abs(coefficient(velocity, one, sample)))
+    samples_between = range(low, high + 1, math.ceil((high + 1 - low) / REFINEMENTS))
+    scale = max(samples_between, key=lambda one: abs(coefficient(velocity, one, sample)))
     reach = math.ceil(NEIGHBOURHOOD * scale)
     lowest, highest = max(0, sample - reach), min(len(velocity) - 1, sample + reach)
     residual, pulse = velocity.copy(), np.zeros(len(velocity))

@@ -86,9 +86,9 @@ def transform_near(velocity: FloatArray, scale: int, first: int, last: int) -> F
     from scipy.fft import irfft, next_fast_len, rfft  # slow to import
 
     start = first - _before(scale)
-    stop = last - _before(scale) + SUPPORT * scale
-    touched = velocity[max(0, start) : stop]
-    padded = np.zeros(next_fast_len(stop - start, real=True))  # so long that nothing that is returned wraps around
+    end = last - _before(scale) + SUPPORT * scale
+    touched = velocity[max(0, start) : end]
+    padded = np.zeros(next_fast_len(end - start, real=True))  # so long that nothing that is returned wraps around
     padded[max(0, -start) : max(0, -start) + len(touched)] = touched
     correlated = irfft(rfft(padded) * _spectrum(scale, len(padded)), len(padded))
     return np.asarray(correlated[: last - first + 1])
@@ -106,8 +106,8 @@ def wavelet_history(samples: int, scale: int, sample: int) -> FloatArray:
     by the root of the scale (samples).
     """
     places, psi = _wavelet(_LEVEL)
-    at = (np.arange(samples) - sample) / scale + 0.5 * SUPPORT
-    return np.asarray(np.interp(at, places, psi, left=0.0, right=0.0) / np.sqrt(scale))
+    phase = (np.arange(samples) - sample) / scale + 0.5 * SUPPORT
+    return np.asarray(np.interp(phase, places, psi, left=0.0, right=0.0) / np.sqrt(scale))
 
 
 def approximation_energy(velocity: FloatArray) -> float:

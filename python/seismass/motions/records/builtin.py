@@ -58,10 +58,10 @@ def builtin_suite(suite: BuiltinName = "eleven") -> Suite:
     InvalidOption
         Another name.
     """
-    found = next((listed for key, listed in _SUITES.items() if is_one_of(suite, (key,))), None)
-    if found is None:
+    entry = next((listed for key, listed in _SUITES.items() if is_one_of(suite, (key,))), None)
+    if entry is None:
         raise refusal(InvalidOption, "suite", "built-in motions", " or ".join(map(repr, _SUITES)), brief(suite))
-    name, listed = found
+    name, listed = entry
     if listed.endswith(".parquet"):
         return Suite(name, _forty())
     return Suite(name, read_suite(data_directory() / "synthetic" / listed).records)

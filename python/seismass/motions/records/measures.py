@@ -79,11 +79,11 @@ def intensity_table(records: Iterable[Record]) -> pl.DataFrame:
     ['duration', 'pga_g', 'pgv', 'pgd', 'arias']
     """
     try:
-        given: list[Any] = [records] if isinstance(records, Record) else list(records)
+        listed: list[Any] = [records] if isinstance(records, Record) else list(records)
     except TypeError:
         raise refusal(InvalidMotion, "records", "intensity table", "Records", brief(records)) from None
     rows = []
-    for number, record in enumerate(given, start=1):
+    for number, record in enumerate(listed, start=1):
         if not isinstance(record, Record):
             raise refusal(InvalidMotion, f"record {number}", "intensity table", "a Record", brief(record))
         labels = {name: getattr(record, name) for name in ("name", "event", "station", "component")}

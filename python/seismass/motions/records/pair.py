@@ -302,7 +302,7 @@ class Pair(Value):
         one, other = (record.component or record.name or "?" for record in (self.first, self.second))
         return f"{one} and {other}"
 
-    def _turned(self, turn: float, azimuth: float | None, said: str) -> Record:
+    def _turned(self, turn: float, azimuth: float | None, note: str) -> Record:
         acceleration = self.at_angles(np.array([turn]))[0]
         direction = f"{turn % 360.0:g} from first" if azimuth is None else f"{azimuth:g}"
         return self.first.replace(
@@ -312,7 +312,7 @@ class Pair(Value):
             azimuth=azimuth,
             source=None,
             sha256="",
-            history=(*self.first.history, said),
+            history=(*self.first.history, note),
         )
 
 
@@ -371,10 +371,10 @@ def _aligned(record: Record, samples: int, remarks: list[str]) -> Record:
     if more == 0:
         return record
     what = f"{record.name or 'component'} "
-    said = f"cut to the {samples} samples of its pair" if more < 0 else f"padded by {more} zeros to its pair"
-    remarks.append(f"{what}{said}, from {record.samples}")
+    note = f"cut to the {samples} samples of its pair" if more < 0 else f"padded by {more} zeros to its pair"
+    remarks.append(f"{what}{note}, from {record.samples}")
     acceleration = record.acceleration[:samples] if more < 0 else np.pad(record.acceleration, (0, more))
-    return record.replace(acceleration=acceleration, history=(*record.history, said))
+    return record.replace(acceleration=acceleration, history=(*record.history, note))
 
 
 _SEQUENCE: Final = re.compile(r"^RSN(\d+)(?!\d)", re.IGNORECASE)

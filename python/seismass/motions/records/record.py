@@ -277,8 +277,8 @@ class Record(Value):
             The ratio is not a positive number.
         """
         ratio = _number("length_ratio", length_ratio, "similitude", positive=True)
-        said = f"time step over sqrt({ratio:g}) for a model at 1:{ratio:g}, accelerations unchanged"
-        return self._changed(said, dt=self.dt / math.sqrt(ratio))
+        note = f"time step over sqrt({ratio:g}) for a model at 1:{ratio:g}, accelerations unchanged"
+        return self._changed(note, dt=self.dt / math.sqrt(ratio))
 
     def with_duration(self, duration: float) -> Record:
         """Return the record up to the sample nearest to `duration` (s), as `Motion.with_duration` does.
@@ -290,8 +290,8 @@ class Record(Value):
         """
         changed = self.motion.with_duration(duration)
         what = "cut" if changed.samples < self.samples else "continued at zero"
-        said = f"{what} to {changed.duration:g} s"
-        return self._changed(said, acceleration=changed.acceleration, vertical=changed.vertical)
+        note = f"{what} to {changed.duration:g} s"
+        return self._changed(note, acceleration=changed.acceleration, vertical=changed.vertical)
 
     def resampled(self, dt: float) -> Record:
         """Return the record at another time step; see `seismass.motions.records.processing.resampled`."""
@@ -333,12 +333,12 @@ class Record(Value):
         if self.samples != vertical.samples:
             cut = f"cut to {samples} samples: {self.samples} horizontal, {vertical.samples} vertical"
             record = self.replace(remarks=(*self.remarks, cut))
-        said = f"vertical accelerations of {vertical.name or 'another record'} set beside it"
-        return record._changed(said, acceleration=self.acceleration[:samples], vertical=vertical.acceleration[:samples])
+        note = f"vertical accelerations of {vertical.name or 'another record'} set beside it"
+        return record._changed(note, acceleration=self.acceleration[:samples], vertical=vertical.acceleration[:samples])
 
-    def _changed(self, said: str, **changes: Any) -> Record:
+    def _changed(self, note: str, **changes: Any) -> Record:
         """Return another record, with a step added to its history."""
-        return self.replace(history=(*self.history, said), **changes)
+        return self.replace(history=(*self.history, note), **changes)
 
     @view
     def plot(self, *, figure: Figure | SubFigure | None = None, axes: Sequence[Axes] | None = None) -> Figure:

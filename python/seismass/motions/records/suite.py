@@ -312,10 +312,10 @@ def _counted(excluded: list[Excluded]) -> str:
     if not excluded:
         return "no file"
     others = [item for item in excluded if "vertical component" not in item.reason]
-    beside = ""
+    ending = ""
     if others:
-        beside = f" and {len(others)} other files, {printable(others[0].file.name)} {others[0].reason}"
-    return f"{len(excluded) - len(others)} vertical components{beside}"
+        ending = f" and {len(others)} other files, {printable(others[0].file.name)} {others[0].reason}"
+    return f"{len(excluded) - len(others)} vertical components{ending}"
 
 
 def _read_list(source: Path) -> Suite:

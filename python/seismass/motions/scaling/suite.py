@@ -133,17 +133,17 @@ def positive_number(value: Any, name: str) -> float:
     return as_positive(value, name, "scaling", InvalidOption)
 
 
-def checked_range(given: Any) -> tuple[float, float]:
+def checked_range(ends: Any) -> tuple[float, float]:
     """Return two positive multiples of the period, the smaller first."""
     requirement = "two positive multiples of the period, the smaller first"
     try:
-        shortest, longest = (as_number(value, "period_range", "scaling", InvalidOption) for value in given)
+        shortest, longest = (as_number(value, "period_range", "scaling", InvalidOption) for value in ends)
     except (TypeError, ValueError) as error:
         if isinstance(error, InvalidOption):
             raise
-        raise refusal(InvalidOption, "period_range", "scaling", requirement, brief(given)) from None
+        raise refusal(InvalidOption, "period_range", "scaling", requirement, brief(ends)) from None
     if not (0.0 < shortest < longest < np.inf):
-        raise refusal(InvalidOption, "period_range", "scaling", requirement, brief(given))
+        raise refusal(InvalidOption, "period_range", "scaling", requirement, brief(ends))
     return shortest, longest
 
 
@@ -196,12 +196,12 @@ def target_of(text: str, folder: Path = Path()) -> TargetSpectrum:
     if name == "ec8":
         kind, ground, *numbers = words
         keys = ("agr_g", "importance", "damping")
-        given: dict[str, Any] = dict(zip(keys, (_number(word, name, text) for word in numbers), strict=False))
-        return TargetSpectrum.eurocode8(int(kind) if kind.isdecimal() else 0, ground.upper(), **given)
+        parameters: dict[str, Any] = dict(zip(keys, (_number(word, name, text) for word in numbers), strict=False))
+        return TargetSpectrum.eurocode8(int(kind) if kind.isdecimal() else 0, ground.upper(), **parameters)
     site_class, *numbers = words
     keys = ("z", "r", "fault_distance_km")
-    given = dict(zip(keys, (_number(word, name, text) for word in numbers), strict=False))
-    return TargetSpectrum.nzs1170(site_class.upper(), **given)
+    parameters = dict(zip(keys, (_number(word, name, text) for word in numbers), strict=False))
+    return TargetSpectrum.nzs1170(site_class.upper(), **parameters)
 
 
 def _number(word: str, name: str, text: str) -> float:

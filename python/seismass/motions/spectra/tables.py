@@ -115,20 +115,20 @@ def _with_points(text: str) -> tuple[str, str]:
 
 def _named_columns(header: list[str], file: str) -> tuple[int, int]:
     words = [cell.lower().replace("(", " ").replace("_", " ").split() for cell in header]
-    found = []
+    indices = []
     for names in (("period", "t"), ("sa",)):
         columns = [index for index, cell in enumerate(words) if cell and cell[0] in names]
         if len(columns) != 1:
             requirement = "one period or T and one Sa"
             raise refusal(RecordFormatError, "columns", file, requirement, short(", ".join(header)))
-        found.append(columns[0])
-    of_period = [word.strip("()[]") for word in words[found[0]][1:]]
+        indices.append(columns[0])
+    of_period = [word.strip("()[]") for word in words[indices[0]][1:]]
     if of_period and of_period[0] not in ("s", "sec", "seconds", ""):
         raise refusal(RecordFormatError, "unit of period", file, "s", " ".join(of_period))
-    unit = [word.strip("()[]") for word in words[found[1]][1:]]
+    unit = [word.strip("()[]") for word in words[indices[1]][1:]]
     if unit and unit != ["g"]:
         raise refusal(RecordFormatError, "unit of Sa", file, "g", short(" ".join(unit)))
-    return found[0], found[1]
+    return indices[0], indices[1]
 
 
 def _is_number(cell: str) -> bool:
@@ -182,14 +182,14 @@ class SuiteMean:
     names: tuple[str, ...]
     factors: FloatArray
     damping: float
-    given_label: str
+    own_label: str
     longest: float = np.inf
 
     @property
     def label(self) -> str:
         """Name with the number of motions."""
         return (
-            self.given_label
+            self.own_label
             or f"mean spectrum of {counted(len(self.motions), 'motion')}, {100.0 * self.damping:g} % damping"
         )
 

@@ -154,14 +154,14 @@ def _animation(result: Assessment) -> dict[str, Any] | None:
     share = building.code_share / building.present_share if building.present_share > 0.0 else 0.0
     fraction = min(1.0, share)
     animation = animate(shown.scene, shown.motion, fraction=fraction, title=building.name)
-    about = {
+    facts = {
         "motion": result.suite["motions"][shown.number - 1],
         "number": shown.number,
         "factor": shown.factor,
         "peak_g": float(abs(shown.motion.acceleration).max()) / STANDARD_GRAVITY,
         "fraction": fraction,
     }
-    content: dict[str, Any] = json.loads(json.dumps({"about": about, "element": element_content(animation)}))
+    content: dict[str, Any] = json.loads(json.dumps({"about": facts, "element": element_content(animation)}))
     return content
 
 

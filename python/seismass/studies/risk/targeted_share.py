@@ -47,7 +47,7 @@ from seismass.motions.motion import HasMotion, Motion, MotionLike
 from seismass.runs.simulate import instruction_set
 from seismass.studies.fragility.hunt import exact_capacities
 from seismass.studies.fragility.limits import IntensityMeasure, LimitState, MeasureName
-from seismass.studies.fragility.run import DEFAULT_CODE_SHARE, REAL, Setting, setting_of
+from seismass.studies.fragility.run import DEFAULT_CODE_SHARE, SLIDING, Setting, setting_of
 from seismass.studies.risk.hazard import DESIGN_RATE, HazardCurve, check_hazard
 from seismass.studies.risk.tables import (
     OWNER,
@@ -339,11 +339,11 @@ def risk_targeted_share(
     )
     limits = _limits(options.limit, other_limits)
     design = as_number(design_rate, "design_rate", OWNER, InvalidOption)
-    given = _listed(motions)
-    at = curve.period if period is None and not isinstance(measure, IntensityMeasure) else period
-    models = {REAL: checked} | {f"{share:.12g}": attached(checked, float(share), options.damping) for share in grid}
+    listed = _listed(motions)
+    period_used = curve.period if period is None and not isinstance(measure, IntensityMeasure) else period
+    models = {SLIDING: checked} | {f"{share:.12g}": attached(checked, float(share), options.damping) for share in grid}
     slip = LimitState("slip", 0.0)
-    setting = setting_of(models, given, (*limits, slip), measure, at, OWNER, threads=options.threads)
+    setting = setting_of(models, listed, (*limits, slip), measure, period_used, OWNER, threads=options.threads)
     _check_measure(setting.measure, curve)
     steps = len(limits) + 2
 
@@ -356,44 +356,44 @@ def risk_targeted_share(
         capacities[each.value] = exact_capacities(setting, each, threads=options.threads)
         done(number)
     search = RiskSearch(checked, setting, curve, options, grid, capacities[options.limit.value])
-    found = search.found()
+    answer = search.answer()
     done(steps - 1)
-    effective, reason = _effective(checked, given, setting, curve, design, options, grid)
+    effective, reason = _effective(checked, listed, setting, curve, design, options, grid)
     done(steps)
     rates, several = search.rates, setting.motions.clusters > 1
-    model = search.rate_at(found.value) if found.roots else rates.at(found.value)[0]
-    draws = np.full(1, found.value) if found.by_friction else rates.value_draws
+    model = search.rate_at(answer.value) if answer.roots else rates.at(answer.value)[0]
+    draws = np.full(1, answer.value) if answer.by_friction else rates.value_draws
     code, full = (rates.at(share)[0] for share in (options.code_share, 1.0))
-    chosen = _chosen(options, grid, setting.measure, curve, design)
+    settings = _settings_of(options, grid, setting.measure, curve, design)
     return RiskTargetedShare(
-        value=found.value,
-        kind=found.kind,
-        roots=found.roots,
+        value=answer.value,
+        kind=answer.kind,
+        roots=answer.roots,
         interval=interval(draws, options.confidence) if several else None,
         confidence=options.confidence,
         limit=options.limit,
         estimator=options.estimator,
-        real=rates.real,
+        real=rates.sliding,
         code=code,
         attached=full,
         model=model,
-        excess=rates.real / model - 1.0,
+        excess=rates.sliding / model - 1.0,
         code_share=options.code_share,
         rates=rate_table(search, several),
         curve=curve_table(rates, options.confidence, several),
         fragilities=fragility_table(search),
         capacities=capacity_table(search),
-        sensitivity=sensitivity_table(search, capacities, found, several),
+        sensitivity=sensitivity_table(search, capacities, answer, several),
         hazard=curve,
         measure=setting.measure,
         effective=effective,
-        remarks=risk_remarks(search, found, reason),
+        remarks=risk_remarks(search, answer, reason),
         metadata={
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
-            "inputs_sha256": inputs_digest(checked, motion_contents(setting.motions.components), chosen),
-            **chosen,
+            "inputs_sha256": inputs_digest(checked, motion_contents(setting.motions.components), settings),
+            **settings,
             "motions": len(setting.motions),
             "clusters": setting.motions.clusters,
         },
@@ -420,7 +420,7 @@ def _effective(
         (each if hasattr(each, "scaled") else each.motion).scaled(level / unit)
         for each, unit in zip(motions, setting.unit.tolist(), strict=True)
     ]
-    found = effective_mass(
+    effective = effective_mass(
         scene,
         scaled,
         damping=options.damping,
@@ -430,10 +430,10 @@ def _effective(
         seed=options.seed,
         threads=options.threads,
     )
-    return found, ""
+    return effective, ""
 
 
-def _chosen(
+def _settings_of(
     options: RiskOptions, grid: FloatArray, measure: IntensityMeasure, hazard: HazardCurve, design: float
 ) -> dict[str, Any]:
     """Everything that the numbers depend on beside scene and motions, as plain values."""

@@ -155,8 +155,8 @@ def _rotation(titles: list[str], remarks: list[str]) -> tuple[str, str, str] | N
         return None
     azimuth = _AZIMUTH.search(header)
     component = azimuth[1] if azimuth else ""
-    said = f"azimuth {component}" if component else "its azimuth is not stated"
-    remarks.append(f"its header says that it is rotated: {said}")
+    words = f"azimuth {component}" if component else "its azimuth is not stated"
+    remarks.append(f"its header says that it is rotated: {words}")
     source = next((line.partition(":")[2] for line in titles if _SOURCE_OF_ROTATION.search(line)), "")
     parts = [part.strip() for part in source.split(",")]
     return (", ".join(parts[:-2]), parts[-2], component) if len(parts) > 2 else (source.strip(), "", component)

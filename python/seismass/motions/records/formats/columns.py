@@ -78,9 +78,9 @@ def parse_channels(text: str, source: Path, arguments: Arguments) -> tuple[Chann
     labels = labels_of(table.header, width)
     _refuse_no_motion(table, labels)
     header_step = stated_step(table.text, table.file)
-    given = arguments.dt if arguments.dt is not None else header_step
+    step_of_file = arguments.dt if arguments.dt is not None else header_step
     if arguments.skip is None:
-        table, step_before = without_first_numbers(table, given, remarks)
+        table, step_before = without_first_numbers(table, step_of_file, remarks)
     else:
         left_out = as_count(arguments.skip, "skip", table.file, RecordFormatError)
         if left_out >= len(table.rows):
@@ -92,15 +92,15 @@ def parse_channels(text: str, source: Path, arguments: Arguments) -> tuple[Chann
     if columns == 1:
         if is_cut_off(tokens):
             raise _cut_off(table, tokens[-1])
-        found = [_Column(values, labels[0] if labels else None, "1")]
+        series = [_Column(values, labels[0] if labels else None, "1")]
         _check_points(table, len(values), remarks)
         if max(counts) > 1:
             remarks.append(f"samples are taken line after line, {max(counts)} in each")
     else:
-        found = _of_columns(table, tokens, values.reshape(-1, columns), labels, steps, remarks)
-    step = _step(table, steps, len(found[0].values), remarks)
-    several = len(found) > 1
-    return tuple(_channel(one, table, step, source, arguments.unit, several, tuple(remarks)) for one in found)
+        series = _of_columns(table, tokens, values.reshape(-1, columns), labels, steps, remarks)
+    step = _step(table, steps, len(series[0].values), remarks)
+    several = len(series) > 1
+    return tuple(_channel(one, table, step, source, arguments.unit, several, tuple(remarks)) for one in series)
 
 
 def _body(table: Table) -> list[str]:
@@ -138,18 +138,20 @@ def _of_columns(
 ) -> list[_Column]:
     """Return the columns of accelerations, and put the step of the times among the others."""
     columns = values.shape[1]
-    at, accelerations = _roles(table, values, labels)
+    time, accelerations = _roles(table, values, labels)
     for index in accelerations:
         if is_cut_off(tokens[index::columns]):
             raise _cut_off(table, tokens[index - columns])
     _check_points(table, len(values), remarks)
-    if at is not None:
-        times = Times(values[:, at], tokens[at::columns], labels[at] if labels else None, table.file, table.line_number)
-        given = next((step for step in steps.values() if step is not None), None)
-        step = step_of_times(times, given, remarks)
+    if time is not None:
+        times = Times(
+            values[:, time], tokens[time::columns], labels[time] if labels else None, table.file, table.line_number
+        )
+        first_step = next((step for step in steps.values() if step is not None), None)
+        step = step_of_times(times, first_step, remarks)
         if step is not None:
             steps["times"] = step
-    passed = [label.text for index, label in enumerate(labels or ()) if index != at and index not in accelerations]
+    passed = [label.text for index, label in enumerate(labels or ()) if index != time and index not in accelerations]
     if passed:
         remarks.append(f"columns that are not read: {printable(', '.join(passed))[:80]}")
     if labels is None and columns > 2:
@@ -171,19 +173,19 @@ def _roles(table: Table, values: NDArray[np.float64], labels: list[Label] | None
         return 0, list(range(1, columns))
     times = [index for index, label in enumerate(labels) if label.kind == "times"]
     index_columns = [index for index, label in enumerate(labels) if label.kind == "index"]
-    at = next(iter([*times, *index_columns]), None)
+    time = next(iter([*times, *index_columns]), None)
     accelerations = [index for index, label in enumerate(labels) if label.kind == "acceleration"]
     unknown = [index for index, label in enumerate(labels) if label.kind == ""]
-    if not accelerations and len(unknown) == 1 and at is not None:
+    if not accelerations and len(unknown) == 1 and time is not None:
         accelerations = unknown
-    if at is None and len(accelerations) == 1 and unknown == [0] and columns == 2:
-        at = 0  # a first column of which the label says nothing is one of times or it is refused as such
+    if time is None and len(accelerations) == 1 and unknown == [0] and columns == 2:
+        time = 0  # a first column of which the label says nothing is one of times or it is refused as such
     if not accelerations or len(times) > 1:
-        said = printable(", ".join(label.text for label in labels))[:80]
+        words = printable(", ".join(label.text for label in labels))[:80]
         raise RecordFormatError(
-            f"labels of {table.file} must name one column of times and its accelerations; got {said}"
+            f"labels of {table.file} must name one column of times and its accelerations; got {words}"
         )
-    return at, accelerations
+    return time, accelerations
 
 
 def _cut_off(table: Table, last: str) -> RecordFormatError:
@@ -232,10 +234,10 @@ COLUMNS: Final = Format("columns", "text of columns", lambda _: True, _parse)
 
 
 def _step(table: Table, steps: dict[str, float | None], samples: int, remarks: list[str]) -> float:
-    given = {name: step for name, step in steps.items() if step is not None}
-    if not given:
+    stated = {name: step for name, step in steps.items() if step is not None}
+    if not stated:
         raise RecordFormatError(f"dt of {table.file} must be given, the file has no times and states no step; got none")
-    (name, step), *others = given.items()
+    (name, step), *others = stated.items()
     if not 0.0 < step < np.inf:
         raise RecordFormatError(f"{name} of {table.file} must give a positive step; got {step:g} s")
     for other_name, other in others:
@@ -250,12 +252,12 @@ def _step(table: Table, steps: dict[str, float | None], samples: int, remarks: l
 
 def _unit(table: Table, unit: str | None, label: Label | None) -> str:
     """Return the unit of a column: that of its label, else that of the header, which a given one must equal."""
-    own = unit_by_name(label.unit) if label and label.unit else None
-    text = f"({own})" if own else table.text
+    of_label = unit_by_name(label.unit) if label and label.unit else None
+    text = f"({of_label})" if of_label else table.text
     against = contradiction(text, unit) if unit else None
     if against:
         raise RecordFormatError(f"unit of {table.file} must be that of its header, {against}; got {unit}")
-    stated = own or stated_unit(table.text)
+    stated = of_label or stated_unit(table.text)
     if not (unit or stated):
         unknown = unknown_unit(table.text)
         raise RecordFormatError(

@@ -44,18 +44,18 @@ class Channel:
 
 
 def channels_of(
-    lines: list[str], component: Callable[[int, int], tuple[Channel, int]], *, between: str | None = None
+    lines: list[str], component: Callable[[int, int], tuple[Channel, int]], *, separator: str | None = None
 ) -> tuple[Channel, ...]:
     """Return the components of a file, one after the other, with blank lines or lines that begin with `between` in
     between. `component` takes the first line's index and the number (from 1), returns it and the next line.
     """
     channels: list[Channel] = []
-    at = 0
-    while at < len(lines):
-        if not lines[at].strip() or (between is not None and lines[at].startswith(between)):
-            at += 1
+    row = 0
+    while row < len(lines):
+        if not lines[row].strip() or (separator is not None and lines[row].startswith(separator)):
+            row += 1
             continue
-        channel, at = component(at, len(channels) + 1)
+        channel, row = component(row, len(channels) + 1)
         channels.append(channel)
     return tuple(channels)
 
@@ -231,16 +231,16 @@ def check_peak(
     where = int(np.argmax(np.abs(samples)))
     largest = float(samples[where])
     time = to_float(peak.time.strip()) if is_number(peak.time.strip()) else None
-    said = f"{written}" + (f" at {time:g} s" if time is not None else "")
+    text = f"{written}" + (f" at {time:g} s" if time is not None else "")
     if abs(abs(largest) - abs(stated)) > tolerance:
         raise RecordFormatError(
-            f"peak of {file} must be {said}, as its header says; got {largest / peak.factor:.7g} at {where * dt:.6g} s"
+            f"peak of {file} must be {text}, as its header says; got {largest / peak.factor:.7g} at {where * dt:.6g} s"
         )
     near = np.abs(np.abs(samples) - abs(stated)) <= tolerance
     if peak.signed and not np.any(near & (np.sign(samples) == np.sign(stated))):
         if stated < 0.0:
             raise RecordFormatError(
-                f"peak of {file} must be {said}, as its header says; got {largest / peak.factor:.7g}, of the other sign"
+                f"peak of {file} must be {text}, as its header says; got {largest / peak.factor:.7g}, of the other sign"
             )
         remarks.append(f"the peak is negative, {largest / peak.factor:.6g}; the header gives {written}")
     if time is not None and time > 0.0:

@@ -144,10 +144,10 @@ class Label:
 def label_of(text: str) -> Label:
     """Return what one label says."""
     text = text.strip().strip('"').strip()
-    found = _BRACKET.search(text)
-    unit = found[1].strip() if found else ""
+    match = _BRACKET.search(text)
+    unit = match[1].strip() if match else ""
     words = _BRACKET.sub(" ", text).replace("_", " ").strip()
-    if not found:  # a unit may stand without a bracket: "NS gal", "Acc g"
+    if not match:  # a unit may stand without a bracket: "NS gal", "Acc g"
         last = words.split()[-1:] if len(words.split()) > 1 else []
         if last and (unit_by_name(last[0]) or last[0].lower() in PER_SECOND):
             unit, words = last[0], " ".join(words.split()[:-1])
@@ -163,23 +163,23 @@ def label_of(text: str) -> Label:
 
 
 def _kind(words: str, unit: str) -> str:
-    said = next((kind for kind, pattern in _WORDS if pattern.search(words)), "")
+    word = next((kind for kind, pattern in _WORDS if pattern.search(words)), "")
     if _DATE.search(words) and not re.search("relative|elapsed", words, re.IGNORECASE):
         return "date"
-    if said == "no motion":
-        return said
+    if word == "no motion":
+        return word
     if _is_acceleration(unit):
-        return said if said in ("velocity", "displacement", "no motion") else "acceleration"
+        return word if word in ("velocity", "displacement", "no motion") else "acceleration"
     bare = unit.lower()
     if _VELOCITIES.fullmatch(bare):
         return "velocity"
-    if bare in _DISPLACEMENTS and said != "times":
+    if bare in _DISPLACEMENTS and word != "times":
         return "displacement"
     if bare and bare not in PER_SECOND and _UNITS_OF_NO_MOTION.fullmatch(bare):
         return "no motion"
-    if said == "" and bare in PER_SECOND:
+    if word == "" and bare in PER_SECOND:
         return "times"
-    return said or _BARE.get(words.strip().lower(), "")
+    return word or _BARE.get(words.strip().lower(), "")
 
 
 def _is_acceleration(unit: str) -> bool:
@@ -191,9 +191,9 @@ def _direction(words: str) -> str:
     axis = _AXIS.fullmatch(words.strip())
     if axis:
         return axis[1]
-    found: list[str] = _DIRECTION.findall(words)
-    known = [one for one in found if azimuth_of(one) is not None or is_vertical(one)]
-    return next(iter([*known, *found]), "")
+    directions: list[str] = _DIRECTION.findall(words)
+    known = [one for one in directions if azimuth_of(one) is not None or is_vertical(one)]
+    return next(iter([*known, *directions]), "")
 
 
 def labels_of(header: list[str], columns: int) -> list[Label] | None:
@@ -204,13 +204,13 @@ def labels_of(header: list[str], columns: int) -> list[Label] | None:
         if len(line) > LINE_WIDTH or _PROSE.search(line):
             continue
         for parts, separated in _splits(_NO_NUMBERS.sub("", line), columns):
-            found = _beside_each_other([label_of(part) for part in parts])
-            named = sum(1 for label in found if label.kind)
-            if named == columns or (separated and named and _short(found)):
+            labels = _beside_each_other([label_of(part) for part in parts])
+            named = sum(1 for label in labels if label.kind)
+            if named == columns or (separated and named and _short(labels)):
                 units = _units_below(header, line, columns)
                 return [
                     one if one.unit or not unit else label_of(f"{one.text} ({unit})")
-                    for one, unit in zip(found, units, strict=True)
+                    for one, unit in zip(labels, units, strict=True)
                 ]
     return None
 
@@ -238,9 +238,9 @@ def _beside_each_other(labels: list[Label]) -> list[Label]:
 
 def _units_below(header: list[str], line: str, columns: int) -> list[str]:
     """Return the units of a line of units alone under that of the labels, or of none."""
-    at = header.index(line) + 1
-    if at < len(header):
-        for parts, _ in _splits(_NO_NUMBERS.sub("", header[at]), columns):
+    row = header.index(line) + 1
+    if row < len(header):
+        for parts, _ in _splits(_NO_NUMBERS.sub("", header[row]), columns):
             bare = [part.strip(" ()[]") for part in parts]
             if all(one.lower() in PER_SECOND or unit_by_name(one) for one in bare):
                 return bare
@@ -297,18 +297,18 @@ _MOTION = re.compile(
 
 def spectrum_named(header: str) -> str | None:
     """Return what a header calls a spectrum or a hazard curve, where it speaks of no motion; else None."""
-    found = _SPECTRUM.search(header)
-    return found.group().lower() if found and not _MOTION.search(header) else None
+    match = _SPECTRUM.search(header)
+    return match.group().lower() if match and not _MOTION.search(header) else None
 
 
 def units_of(labels: list[Label]) -> list[str]:
     """Return the acceleration units that labels state, without doubles."""
-    found: list[str] = []
+    units: list[str] = []
     for label in labels:
         unit = unit_by_name(label.unit) or next(iter(stated_units(f"({label.unit})")), None)
-        if unit and unit not in found:
-            found.append(unit)
-    return found
+        if unit and unit not in units:
+            units.append(unit)
+    return units
 
 
 FIRST_TIME: Final = 1.5
@@ -355,10 +355,10 @@ def step_of_times(times: Times, dt: float | None, remarks: list[str]) -> float |
             remarks.append(f"the times are {_PLAIN_UNITS.get(factor, 'minutes')} by the step that was given")
             return dt
     if not SHORTEST_STEP <= step <= LONGEST_STEP:
-        said = f"in {unit}" if unit else "whose unit no label states"
+        words = f"in {unit}" if unit else "whose unit no label states"
         raise RecordFormatError(
             f"step of {times.file} must be between {SHORTEST_STEP:g} and {LONGEST_STEP:g} s; got {step:g} s from times "
-            f"{said}: ms, minutes or a count of samples? Say dt"
+            f"{words}: ms, minutes or a count of samples? Say dt"
         )
     return step
 

@@ -164,8 +164,8 @@ def numbers_of(table: Table) -> tuple[list[str], NDArray[np.float64], list[int]]
     counts = [len(row) for row in rows]
     wrong = np.flatnonzero(~np.isfinite(values))
     if len(wrong):
-        at = int(np.searchsorted(np.cumsum(counts), wrong[0], side="right"))
-        raise RecordFormatError(f"line {table.line_number(at)} of {table.file} must be finite; got infinity")
+        number = int(np.searchsorted(np.cumsum(counts), wrong[0], side="right"))
+        raise RecordFormatError(f"line {table.line_number(number)} of {table.file} must be finite; got infinity")
     return tokens, values, counts
 
 
@@ -199,7 +199,7 @@ def without_first_numbers(table: Table, dt: float | None, remarks: list[str]) ->
     if not (SHORTEST_STEP <= step <= LONGEST_STEP and scale > 0.0):
         return table, None
     is_count = scale == len(table.rows) - taken or (
-        len(rows[0]) != len(rows[taken]) and scale == sum(len(table.row(at)) for at in range(taken, len(table.rows)))
+        len(rows[0]) != len(rows[taken]) and scale == sum(len(table.row(k)) for k in range(taken, len(table.rows)))
     )
     if len(rows[0]) != len(rows[taken]):
         stands_out = True
@@ -261,11 +261,11 @@ def columns_of(table: Table, values: NDArray[np.float64], counts: list[int], lab
         full = values[: wide * (len(counts) - 1)].reshape(-1, wide)
         if not _rises(full) and is_row_major(full):
             return 1
-    for index, found in enumerate(counts):
-        if found != columns:
+    for index, numbers in enumerate(counts):
+        if numbers != columns:
             raise RecordFormatError(
                 f"line {table.line_number(index)} of {table.file} must be {columns} number{'s' * (columns > 1)}, "
-                f"as the last line is; got {found}"
+                f"as the last line is; got {numbers}"
             )
     return columns
 

@@ -242,8 +242,8 @@ def seconds_table() -> pl.DataFrame:
     rows = []
     for scenario in SCENARIOS:
         record = generate_second(scenario)
-        about = {"name": record.name, "first": scenario.name, "seed": seed_of(scenario), "note": record.remarks[0]}
-        rows.append({**about, "parameters": record.remarks[1], "dt": record.dt, "acceleration": _stored(record)})
+        labels = {"name": record.name, "first": scenario.name, "seed": seed_of(scenario), "note": record.remarks[0]}
+        rows.append({**labels, "parameters": record.remarks[1], "dt": record.dt, "acceleration": _stored(record)})
     return pl.DataFrame(rows, schema_overrides={"acceleration": pl.List(pl.Int32)})
 
 
