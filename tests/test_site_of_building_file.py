@@ -20,8 +20,7 @@ import seismass as sm
 import seismass.assessment
 import seismass.studies.risk.targeted_share
 from seismass.cli import main
-from seismass.commands.help_text import FAILED
-from seismass.commands.parser import COMMANDS
+from seismass.commands.parser import COMMANDS, FAILED
 from seismass.studies.fragility.hunt import exact_capacities
 from seismass.studies.fragility.run import setting_of
 

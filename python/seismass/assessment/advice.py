@@ -341,7 +341,7 @@ def assumptions_of(
     suite: dict[str, Any],
     period: tuple[str, ...],
 ) -> tuple[str, ...]:
-    """Return everything that was assumed, sentence by sentence; `period` is what is said of the first period."""
+    """Return everything that was assumed, sentence by sentence; `period` is the sentence on the first period."""
     return (
         *_motion_remarks(building, target, scaling, suite),
         *_structure_remarks(building),

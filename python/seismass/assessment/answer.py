@@ -402,9 +402,7 @@ def fractions_by_friction(
     threads: int | None,
     progress: Progress | None,
 ) -> dict[str, EffectiveMass]:
-    """Return the effective fraction at each friction (a factor for each model) by the mean; by the median, where the
-    building collapses.
-    """
+    """Return the effective fraction by factor of friction: by the mean, or the median where the building collapses."""
     if not frictions:
         return {}
     scenes = [building.scene(target, mu_factor=factor) for factor in frictions.values()]

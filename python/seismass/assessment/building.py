@@ -1,4 +1,4 @@
-"""One's own building as an assessment takes it: structure, goods, site, code and limits, in SI units.
+"""A user's building as an assessment takes it: structure, goods, site, code and limits, in SI units.
 
 It makes the models that are compared: goods that slide, and a share of them attached as mass.
 """
@@ -152,7 +152,7 @@ class OwnBuilding(Card):
     target : TargetSpectrum or None
         Site spectrum; None where the file has none.
     code : CodeFraction
-        The code, and the fraction of the design live load that it counts as mass where a floor states none of its own.
+        The code, and the fraction of the design live load that it counts as mass where a floor states none.
     floor_codes : tuple of FloorCode
         What the file says of each floor for the code.
     code_stated : bool
@@ -400,7 +400,7 @@ class OwnBuilding(Card):
         ----------
         target : TargetSpectrum, optional
             Site spectrum for strengths of a design; default the building's own.
-        mu_factor : float
+        mu_factor : float, default 1.0
             Factor of all friction coefficients.
 
         Raises

@@ -177,7 +177,8 @@ def governing_table(building: OwnBuilding, storeys: pl.DataFrame) -> pl.DataFram
     """
     words = friction_words(building)
     known = storeys["model"].unique(maintain_order=True).to_list()
-    columns = [name for name in (ADVISED, BARE, SLIDING, SLIDING_HIGH, SLIDING_LOW) if name in known]
+    models = (ADVISED, BARE, SLIDING, SLIDING_HIGH, SLIDING_LOW)
+    columns = [name for name in models if name in known]
     rows: list[dict[str, Any]] = []
     for storey in range(1, building.storeys + 1):
         rows_of_storey = storeys.filter(pl.col("storey") == storey)
@@ -195,17 +196,7 @@ def governing_table(building: OwnBuilding, storeys: pl.DataFrame) -> pl.DataFram
                 row["governing_over_limit"] = row["governing"] / first["limit"]
         rows.append(row)
     texts = dict.fromkeys(("name", "unit", "governed_by", "sliding_at"), pl.String)
-    numbers = (
-        ADVISED,
-        BARE,
-        SLIDING,
-        SLIDING_HIGH,
-        SLIDING_LOW,
-        "governing",
-        "sliding",
-        "limit",
-        "governing_over_limit",
-    )
+    numbers = (*models, "governing", "sliding", "limit", "governing_over_limit")
     return pl.DataFrame(rows, schema={"storey": pl.UInt32, **texts, **dict.fromkeys(numbers, pl.Float64)})
 
 
@@ -238,9 +229,7 @@ MEDIAN_FACTOR: Final = 1.2
 
 
 def drift_statistics(drifts: FloatArray) -> dict[str, float | None]:
-    """Return `statistics_of` drifts, with a mean where no more than `MOST_COLLAPSES` of the runs collapsed (infinite
-    drifts).
-    """
+    """Return `statistics_of` drifts, with a mean where at most `MOST_COLLAPSES` of the runs collapsed (infinite)."""
     known, fallen = statistics_of(drifts), np.isinf(drifts)
     if fallen.any() and few_collapses(int(fallen.sum()), len(drifts)):
         known["mean"] = max(MEDIAN_FACTOR * float(np.median(drifts)), float(drifts[~fallen].mean()))
@@ -253,9 +242,7 @@ def few_collapses(collapsed: int, motions: int) -> bool:
 
 
 def statistics_of(values: FloatArray) -> dict[str, float | None]:
-    """Return mean, quantiles and largest value over the motions; what a collapsed run (an infinite value) decides is
-    null.
-    """
+    """Return mean, quantiles and largest value over the motions; what a collapsed run (infinite) decides is null."""
     collapsed = bool(np.isinf(values).any())
     # Between a number and infinity nothing can be interpolated; then a quantile is the next larger value.
     method: Literal["higher", "linear"] = "higher" if collapsed else "linear"

@@ -78,9 +78,7 @@ STOP_KEYS: Final = ("clearance_m", "stiffness_kn_per_m")
 
 
 def rack_of(tables: tuple[Table, ...]) -> GoodsRack | None:
-    """Return the racks under goods; None where they stand on the floor. The first of `tables` that describes racks
-    counts.
-    """
+    """Return the racks under goods, by the first of `tables` that has racks; None where goods stand on the floor."""
     table = _stated(tables, "on_racks", RACK_KEYS)
     if table is None:
         return None
@@ -335,9 +333,7 @@ _REPLACED: Final = ((*PERIOD, *STIFFNESS), STRENGTH)
 
 
 def tables_in_y(tables: Mapping[str, Any], file: str) -> Table:
-    """Return the tables of a building file as they are for the building in y, from `other_direction`; `tables` is not
-    changed.
-    """
+    """Return the tables of the building in y, made from `other_direction` of a file; `tables` stays as it is."""
     whole = copy.deepcopy(dict(tables))
     other = Table(whole.pop("other_direction"), "other_direction", file, InvalidBuildingFile)
     other.known(OTHER_DIRECTION)
@@ -384,9 +380,7 @@ BASE_KEYS: Final = ("mu", "mu_s", "mu_k", "radius_m", "mass_kg", "mass_ratio")
 
 
 def base_of(table: Table) -> SlidingBase | None:
-    """Return the sliding base of a building file from its table `base`, which is empty where the file has none: then
-    None.
-    """
+    """Return the sliding base of a building file from its table `base`; None where that table is empty."""
     if not table.values:
         return None
     table.known(BASE_KEYS)

@@ -155,7 +155,7 @@ def code_of(table: Table) -> CodeFraction:
         table.excluded("id", "fraction")
         table.excluded("use", "fraction")
         value = table.number("fraction", need=SHARE)
-        return CodeFraction("own", "a fraction of one's own", "storage", value, value, value, "", "", AS_STATED)
+        return CodeFraction("own", "a fraction that the user states", "storage", value, value, value, "", "", AS_STATED)
     names = {key: table.text(key) for key in ("id", "use")}
     try:
         row = code_fraction(names["id"] or DEFAULT_CODE)

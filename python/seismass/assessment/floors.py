@@ -48,7 +48,7 @@ class GoodsStops:
         ----------
         mass : float
             Mass of that part (kg).
-        share : float
+        share : float, default 1.0
             That part of all goods of the kind, which has as much of their stiffness.
         """
         if self.stiffness is None:

@@ -265,9 +265,7 @@ def _median(drift: FloatArray, among: NDArray[np.int64]) -> int:
 
 
 def shown_motion(scene: Scene, scaled: list[Any], factors: FloatArray) -> Shown:
-    """Return the motion of median largest drift of those under which goods slide, else of all; motions are scaled by
-    `factors` already.
-    """
+    """Return the scaled motion of median largest drift among those under which goods slide, else among all."""
     peaks = solve([scene], named_motions(scaled, "animation", scene))
     among = np.flatnonzero(peaks.slides[0]) if peaks.slides.any() else np.arange(len(scaled))
     place = _median(peaks.largest[0], among)

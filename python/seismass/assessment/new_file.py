@@ -107,13 +107,9 @@ def questions_for(table: StoreyTable | None, curves: PushoverCurves | None = Non
     """Return what has still to be asked where a storey table or pushover curves are given."""
     known = set()
     if table is not None:
-        data = {
-            "height": table.heights,
-            "dead_load": table.mass,
-            "period": table.stiffness,
-            "reduction": table.strength,
-        }
-        known = {"storeys", *(name for name, values in data.items() if values is not None)}
+        values = table.heights, table.mass, table.stiffness, table.strength
+        names = zip(("height", "dead_load", "period", "reduction"), values, strict=True)
+        known = {"storeys", *(name for name, value in names if value is not None)}
     if curves is not None:
         known |= {"period", "reduction", *(["storeys"] if curves.names else [])}
     return tuple(question for question in QUESTIONS if question.name not in known)

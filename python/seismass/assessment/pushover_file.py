@@ -96,7 +96,7 @@ def read_pushover(
         a ratio of the height.
     order : {"roof-first", "ground-first"}, optional
         Order of the storeys, where their names do not say it.
-    direction : {"x", "y"}
+    direction : {"x", "y"}, default "x"
         Which of the columns "Story Drift X" and "Story Drift Y" is read.
 
     Returns

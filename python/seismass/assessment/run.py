@@ -93,7 +93,7 @@ def assess(
     scaling_period : float, optional
         Period T (s) for which motions are scaled, from 0.2 T to 1.5 T; default that of the building file, else the
         first period of the building with the goods present attached.
-    scale : bool
+    scale : bool, default True
         False takes the motions as they are. Pairs are scaled by one factor for both components, so that the geometric
         mean of their spectra is that of one component (`scale_asce7_10`); pairs scaled otherwise, as for the maximum
         direction of ASCE 7-16, are given with False.

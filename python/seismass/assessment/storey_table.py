@@ -48,9 +48,7 @@ _STIFFNESS: Final = re.compile(r"([a-z]+)/([a-z]+)")
 
 
 def unit_factor(unit: str, quantity: Quantity, what: str, owner: str) -> float:
-    """Return the factor towards SI units of a unit such as "kN/m" or "kip-s2/in" for a length, force, mass or
-    stiffness.
-    """
+    """Return the factor to SI units of a unit such as "kN/m" or "kip-s2/in" of a length, force, mass or stiffness."""
     text = unit.strip().lower().replace(" ", "")
     if quantity == "length" and text in LENGTHS:
         return LENGTHS[text]
@@ -374,7 +372,7 @@ def read_storey_table(
         Masses are then in force times s2 over length.
     order : {"roof-first", "ground-first"}, optional
         Order of the rows, where neither elevations nor names say it.
-    direction : {"x", "y"}
+    direction : {"x", "y"}, default "x"
         Which of the columns "Stiffness X" and "Stiffness Y" is read; the same of masses, shears and drifts.
 
     Returns

@@ -36,7 +36,7 @@ def temporary_path(folder: Path) -> Path:
 
 
 def temporary_name() -> str:
-    """Return an unused name that tells which process it belongs to: this one."""
+    """Return an unused name that contains the number of this process."""
     process = os.getpid()
     return f"{PREFIX}{_machine()}-{_boot()}-{process}-{_started(process) or 0}-{uuid4().hex}.part"
 
@@ -266,9 +266,7 @@ def without_formulas(frame: pl.DataFrame) -> pl.DataFrame:
 def write_table(
     frame: pl.DataFrame, kind: Literal["parquet", "csv"], path: Path, *, metadata: dict[str, str] | None = None
 ) -> None:
-    """Write a frame to a Parquet or CSV file of any name; Polars itself opens none whose name is not UTF-8. A CSV has
-    no metadata.
-    """
+    """Write a frame to Parquet or CSV, where Polars opens no name that is not UTF-8. A CSV has no metadata."""
     with path.open("wb") as file:
         if kind == "csv":
             without_formulas(frame).write_csv(file)

@@ -84,7 +84,7 @@ SHARE: Final = Need("from 0 to 1", lambda number: 0.0 <= number <= 1.0)
 
 
 class Table:
-    """A table of the file, with its place in it for messages. Null stands for an absent key, but for `nullable`."""
+    """A table of the file, with its place in it for messages. Null stands for an absent key, except for `nullable`."""
 
     def __init__(
         self, values: dict[str, Any], place: str, file: str, kind: type[SeismassError], nullable: Iterable[str] = ()

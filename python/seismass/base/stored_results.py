@@ -161,7 +161,7 @@ class StoredResults:
 
 
 NOTHING_STORED: Final = StoredResults()
-"""Results are made anew, and none is kept."""
+"""Results are computed each time, and none is stored."""
 
 
 @contextmanager
@@ -195,9 +195,7 @@ def result_store(place: Path, name: str, sha256: str) -> Iterator[StoredResults]
 
 
 def _checked(folder: Path) -> int:
-    """Return the number of a folder in its file system; refuse a link, a file, and a folder of another user or that
-    others may write to.
-    """
+    """Return the number of a folder in its file system; refuse links, files, and folders that others may write to."""
     status = folder.lstat()
     is_link = stat.S_ISLNK(status.st_mode)
     # Windows has no such users and modes.

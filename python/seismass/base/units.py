@@ -73,9 +73,7 @@ def acceleration_factor(unit: Any, owner: str, kind: type[SeismassError]) -> flo
 
 
 def unit_by_name(name: str) -> str | None:
-    """Return a key of `ACCELERATION_UNITS` for any spelling of it ("cm/s2" for "Gal" or "cm/sec^2"), or None for
-    another unit.
-    """
+    """Return the key of `ACCELERATION_UNITS` of a spelling ("cm/s2" of "Gal" or "cm/sec^2"); None of another unit."""
     text = name.strip().lower()
     return _SPELLINGS.get(text) or (stated_unit(text) if _PER_SECOND_SQUARED.fullmatch(text.strip("()[]")) else None)
 

@@ -226,7 +226,7 @@ def as_number(value: Any, parameter: str, owner: str, kind: type[SeismassError])
 
 
 def is_one_of(value: Any, words: Iterable[str]) -> bool:
-    """Return whether a value is one of these words; False for what is not text, such as an array."""
+    """Return whether a value is one of these words; False for values that are not text, such as an array."""
     return isinstance(value, str) and value in words
 
 

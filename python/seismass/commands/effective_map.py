@@ -6,7 +6,6 @@ import argparse
 
 from seismass.commands.answer_output import give_answer
 from seismass.commands.frame import Command, progress
-from seismass.commands.help_text import RUNS
 from seismass.commands.options import (
     add_answer_options,
     add_motion_options,
@@ -15,6 +14,7 @@ from seismass.commands.options import (
     read_motions,
     read_target,
 )
+from seismass.commands.parser import RUNS
 
 
 def options(parser: argparse.ArgumentParser) -> None:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from seismass.commands.answer_output import give_answer
 from seismass.commands.frame import Command, progress
-from seismass.commands.help_text import RUNS
 from seismass.commands.options import (
     add_answer_options,
     add_code_share_option,
@@ -19,6 +18,7 @@ from seismass.commands.options import (
     read_site,
     refuse_options,
 )
+from seismass.commands.parser import RUNS
 from seismass.commands.scene_or_building import (
     DEFAULT_LIMIT,
     FileMotions,
@@ -111,7 +111,7 @@ def run(args: argparse.Namespace) -> int:
 def _motions(
     args: argparse.Namespace, scene: Scene, building: OwnBuilding | None, target: TargetSpectrum | None
 ) -> FileMotions:
-    """The motions: a measure of intensity replaces their scaling, but for the factor itself."""
+    """The motions: a measure of intensity replaces their scaling, except where it is the factor itself."""
     import numpy as np
 
     if args.measure == "scale":

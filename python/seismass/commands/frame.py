@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from seismass.commands.help_text import ANY_COMMAND, HelpText
+from seismass.commands.parser import ANY_COMMAND, HelpText
 from seismass.media.text_table import fitted_blocks, is_row
 
 if TYPE_CHECKING:

@@ -127,9 +127,7 @@ def read_motions(args: argparse.Namespace, default: BuiltinName = "forty") -> Su
 
 
 def read_pairs(args: argparse.Namespace) -> Pairs:
-    """Return the pairs that the options name: those of a folder, or the forty built-in ones, the only suite with second
-    components.
-    """
+    """Return the pairs of the options: those of a folder, or the forty built-in ones."""
     from seismass.base.errors import InvalidOption, RecordFormatError
     from seismass.motions.records import builtin_pairs, find_pairs
 
@@ -283,7 +281,7 @@ def add_out_option(
 def add_measure_options(
     group: argparse._ActionsContainer, measure: str, period: str, *, scale: bool = True, default: str | None = "sa_t1"
 ) -> None:
-    """Add --measure and --measure-period, with what is said of both; `scale`: the factor may be the measure."""
+    """Add --measure and --measure-period, with the help of both; `scale`: the factor may be the measure."""
     choices = ("scale",) * scale + ("pga", "sa_t1", "sa_avg")
     group.add_argument("--measure", choices=choices, default=default, help=measure)
     group.add_argument("--measure-period", type=positive_option, metavar="T", help=period)

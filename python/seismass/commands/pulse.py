@@ -72,9 +72,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _groups(args: argparse.Namespace) -> list[Record | Pair]:
-    """Return what is judged: one component, two, or every pair of a folder; report on standard error what is in no
-    pair.
-    """
+    """Return what is judged: a component, two, or every pair of a folder; report on standard error what has no pair."""
     from seismass.base.errors import InvalidMotion, InvalidOption
     from seismass.motions.records import Pair, Suite, find_pairs, read_record
 

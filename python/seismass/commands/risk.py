@@ -8,7 +8,6 @@ from typing import Any
 
 from seismass.commands.answer_output import give_answer
 from seismass.commands.frame import Command, progress
-from seismass.commands.help_text import RUNS
 from seismass.commands.options import (
     add_answer_options,
     add_code_share_option,
@@ -19,6 +18,7 @@ from seismass.commands.options import (
     read_motions,
     read_site,
 )
+from seismass.commands.parser import RUNS
 from seismass.commands.scene_or_building import (
     DEFAULT_LIMIT,
     add_file_argument,

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, Final
 from seismass.base.values import counted
 from seismass.commands.answer_output import write_figure
 from seismass.commands.frame import Command, show
-from seismass.commands.help_text import RUNS
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_json_option,
@@ -29,6 +28,7 @@ from seismass.commands.options import (
     refuse_options,
     warn_left_out,
 )
+from seismass.commands.parser import RUNS
 
 if TYPE_CHECKING:
     from seismass.assessment.building import OwnBuilding

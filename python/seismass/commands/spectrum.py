@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from seismass.commands.frame import Command
-from seismass.commands.help_text import RUNS
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_reading_options,
@@ -19,6 +18,7 @@ from seismass.commands.options import (
     warn_left_out,
     warn_remarks,
 )
+from seismass.commands.parser import RUNS
 
 if TYPE_CHECKING:
     import polars as pl

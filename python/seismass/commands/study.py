@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING
 from seismass._kernel import VERSION
 from seismass.commands.answer_output import print_answer, write_answer
 from seismass.commands.frame import Command, progress
-from seismass.commands.help_text import DONE, FAILED
 from seismass.commands.options import (
     CODE_HELP,
     SPRING_OPTIONS,
@@ -27,6 +26,7 @@ from seismass.commands.options import (
     read_motions,
     read_target,
 )
+from seismass.commands.parser import DONE, FAILED
 
 if TYPE_CHECKING:
     from seismass.base.stored_results import StoredResults

@@ -157,7 +157,7 @@ def equivalent_lateral_forces(
         V (N).
     period : float
         Period of the design (s), on which k and the force at the roof depend.
-    code_id : str
+    code_id : str, default "asce7-10"
         One of `DISTRIBUTION_CODES`, in any case.
 
     Raises
@@ -232,13 +232,13 @@ def seismic_response_coefficient(
         Period of the design T (s).
     reduction : float
         Response modification coefficient R.
-    importance : float
+    importance : float, default 1.0
         Importance factor I_e.
     s_1 : float, optional
         Mapped spectral acceleration at 1 s (g); from 0.6 g it gives a further minimum.
-    t_l : float
+    t_l : float, optional
         Long-period transition period T_L (s).
-    minimum : bool
+    minimum : bool, default True
         False leaves out 0.044 S_DS I_e, which need not be considered for drift (12.8.6.1), and 0.01.
 
     Raises

@@ -331,9 +331,9 @@ def drift_limit(code_id: str, risk_category: str = "II", structure: str = "other
     ----------
     code_id : str
         One of `DRIFT_LIMIT_CODES`, in any case.
-    risk_category : {"I", "II", "III", "IV"}
+    risk_category : {"I", "II", "III", "IV"}, default "II"
         Risk category.
-    structure : str
+    structure : str, default "other"
         Kind of structure; `drift_limit_table` lists those of each code.
 
     Raises
@@ -402,7 +402,7 @@ def stability_limit(c_d: float, *, beta: float = 1.0) -> float:
     ----------
     c_d : float
         Deflection amplification factor C_d.
-    beta : float
+    beta : float, default 1.0
         Shear demand over shear capacity of the storey; 1 is conservative.
 
     Raises
@@ -439,13 +439,13 @@ def storey_checks(
         `SpectrumAnalysis.for_design` without a base shear.
     heights : array_like
         Storey heights (m); one number stands for all storeys.
-    c_d, importance : float
+    c_d, importance : float, optional
         C_d and I_e.
     limit : float
         Allowable drift ratio, as `drift_limit` has it.
     load : array_like, shape (storeys,), optional
         Vertical load at and above each storey (N); without it stability is not checked.
-    beta : float
+    beta : float, default 1.0
         Shear demand over shear capacity.
 
     Returns

@@ -64,7 +64,7 @@ class Modes(Card):
 
         Parameters
         ----------
-        share : float
+        share : float, default 0.9
             Share of the mass, above 0 and up to 1. ASCE/SEI 7-10, 12.9.1, and Eurocode 8, 4.3.3.3.1, ask for 0.90.
 
         Raises
@@ -193,9 +193,9 @@ def combined_modes(
         Peak of each quantity in each mode, with the sign of the mode shape.
     periods : array_like, shape (modes,)
         Natural periods (s).
-    combination : {"srss", "cqc"}
+    combination : {"srss", "cqc"}, default "srss"
         SRSS, or CQC with equal damping in every mode.
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping for the correlation of modes in CQC.
 
     Returns
@@ -399,11 +399,11 @@ class SpectrumAnalysis(Card):
 
         Parameters
         ----------
-        reduction, importance : float
+        reduction, importance : float, optional
             R and I_e.
         base_shear : float, optional
             V of the equivalent lateral forces (N), by the same R and I_e; without it nothing is scaled up.
-        share : float
+        share : float, optional
             Share of V below which forces are scaled up to it: 0.85 in ASCE/SEI 7-10.
 
         Raises
@@ -456,9 +456,9 @@ def response_spectrum_analysis(
         Floor masses (kg) and storey stiffnesses (N/m), storey 1 first.
     spectrum : callable
         Takes the modal periods (s), returns the pseudo-acceleration (m/s2) at each, as a `TargetSpectrum` does.
-    combination : {"srss", "cqc"}
+    combination : {"srss", "cqc"}, default "srss"
         SRSS, or CQC with equal damping in every mode. Each quantity is combined from its own modal peaks.
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping for the correlation of modes in CQC.
     heights : array_like, optional
         Storey heights (m); one number stands for all storeys. With them overturning moments and drift ratios are known.

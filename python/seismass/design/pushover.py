@@ -334,7 +334,7 @@ def pushover(
     ----------
     building : Building
         The building, with its springs of any law, P-Delta where it has that, and its stiffness matrix.
-    pattern : {"modal", "uniform", "code"} or array_like, shape (floors,)
+    pattern : {"modal", "uniform", "code"} or array_like, shape (floors,), default "modal"
         Lateral forces in proportion to m phi_1, to m, or to m h^k with k of ASCE 7 for the first period (heights are
         needed); or forces of any scale. Every storey must have a positive shear.
     drift_limit : array_like, optional

@@ -370,7 +370,7 @@ def fit_pushover(
     drift, shear : array_like, or lists of them
         Drifts (m) that do not go back, and shears (N), of one curve; or a list of curves, storey 1 first. The origin
         may be left out.
-    shape : {"bilinear", "trilinear", "capped"}
+    shape : {"bilinear", "trilinear", "capped"}, default "bilinear"
         Two lines, three, or three of which the last falls, for peak-oriented springs. Of the first two what comes after
         the largest shear is left out, and said.
     forces : array_like, shape (floors,), optional

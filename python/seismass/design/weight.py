@@ -48,7 +48,7 @@ _SNOW: Final = {
     "nbc": (0.25, 0.0, "4.1.8.2", SECOND_HAND),
     "gb50011": (0.5, 0.0, "5.1.3", FROM_MEMORY),
 }
-# Fraction of the live load of the roof, where the code has one of its own.
+# Fraction of the live load of the roof, where the code has a separate one.
 _ROOF: Final = {
     ("ec8", "ordinary"): (0.30, "4.2.4, phi = 1.0 at the roof", SECOND_HAND),
     ("nzs1170.5", "ordinary"): (0.0, "4.2, without public access", SECOND_HAND),
@@ -120,7 +120,7 @@ def effective_seismic_weight(
     ----------
     dead, live : array_like, shape (floors,)
         Dead load and design live load of each floor (N), floor 1 first. Dead load is without what follows.
-    code_id : str
+    code_id : str, default "asce7-10"
         One of `seismass.model.codes.CODE_IDS`, in any case.
     use : {"storage", "ordinary", "archive", "shop", "garage"} or list of them, optional
         Use of all floors, or of each. By default "storage"; for codes that decide by the live load per area (BNBC 2017,

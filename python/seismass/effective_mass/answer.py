@@ -50,9 +50,7 @@ Designed: TypeAlias = Building | tuple[Building, Building]
 
 @dataclass(frozen=True, slots=True)
 class Solved:
-    """Peaks of a real building (one scene, or one per share) and of its models at every share of a grid; answers need
-    few further runs.
-    """
+    """Peaks of the building with sliding goods (one scene, or one per share) and of its models at shares of a grid."""
 
     search: Search
     sliding: Peaks
@@ -76,7 +74,7 @@ def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Op
     how: dict[str, Any] = {"drift": options.drift, "threads": options.threads}
     for number, scene in enumerate(checked[1:], start=2):
         if attached(scene, 1.0, options.damping) != attached(first, 1.0, options.damping):
-            requirement = "the building and goods of scene 1 but for friction"
+            requirement = "the building and goods of scene 1, with another friction"
             raise refusal(InvalidScene, f"scene {number}", OWNER, requirement, "others")
     larger = SHARES_BEYOND if any(goes_beyond(scene) for scene in checked) else SHARES_BEYOND[:0]
     stages = Stages(options.progress, (len(checked) + len(shares) + len(larger)) * len(motions))
@@ -176,13 +174,13 @@ def effective_mass(
     motions : Motion, Record, Pair or iterable of them
         The suite, scaled as it is to act; a `Suite` is one. Records of one event are resampled together. A scene in two
         directions takes pairs.
-    statistic : {"mean", "median"}
+    statistic : {"mean", "median"}, default "mean"
         What is taken of the largest drifts over the motions. With the median a collapsed run counts as infinite drift;
         with the mean one collapse of the real building leaves no value.
-    drift : {"larger", "vector", "x", "y"}
+    drift : {"larger", "vector", "x", "y"}, optional
         Of scenes in two directions, what is compared: the larger of a storey's peak drifts in x and in y; the peak
         length of its drift vector; the peak in one direction.
-    damping : {"same", "ratio"}
+    damping : {"same", "ratio"}, default "same"
         Damping of the models, see `attached_scene`.
     fractions : array_like, optional
         Shares at which models are solved before roots are refined, from 0 to 1; by default 0, 0.01, ..., 1, of
@@ -266,7 +264,7 @@ def effective_mass_of_design(
         Takes a share from 0 to 1, returns the Building designed with it; floor masses without goods.
     blocks : iterable of Block
         The goods, the same for every design.
-    racks : iterable of Rack
+    racks : iterable of Rack, optional
         Racks with goods, the same for every design; shares above 1 are not sought.
     base : SlidingBase, optional
         Base that slides under every design.

@@ -131,7 +131,7 @@ class LiveLoadUncertainty(Result):
         return {"quantiles": self.quantiles, "tornado": self.tornado, "samples": self.samples, "curve": self.curve}
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything but the samples and the curve as plain values; null for what is not finite."""
+        """Return everything but the samples and the curve as plain values; null for non-finite values."""
         names = ("share", "interval", "share_84", "unit", "remarks", "metadata")
         document = {"schema_version": SCHEMA_VERSION, **{name: getattr(self, name) for name in names}}
         document |= {"quantiles": self.quantiles.to_dicts(), "tornado": self.tornado.to_dicts()}

@@ -236,7 +236,7 @@ def attached_scene(scene: Scene, fraction: float, damping: ModelDamping = "same"
     fraction : float
         Share of the mass of each block that is attached to its floor, from 0 to 1; to 2 where there are racks or stops,
         whose goods may act more than attached ones.
-    damping : {"same", "ratio"}
+    damping : {"same", "ratio"}, default "same"
         "same": the damping matrix of the real building. "ratio": its damping made again for the model, as a ratio in
         the model's own modes; goods that never slide then have no share that gives the same drift.
 

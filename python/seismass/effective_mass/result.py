@@ -78,7 +78,7 @@ class EffectiveMass(Result):
     unit : {"m", "ratio"}
         Unit of drifts.
     excess : float
-        real / model - 1: by how much the real building drifts more than the model at `value`; zero but for rounding
+        real / model - 1: by how much the real building drifts more than the model at `value`; zero except for rounding
         where the value is a root.
     eta : float
         mu_k over `base_shear_coefficient`, mu_k averaged over the goods by mass.
@@ -194,7 +194,7 @@ class EffectiveMass(Result):
         raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything but the curve as plain values; null for what is not finite."""
+        """Return everything but the curve as plain values; null for non-finite values."""
         names = ["value", "kind", "roots", "interval", "confidence", "statistic", "real", "model", "unit", "excess"]
         names += ["suite_interval"]
         names += ["eta", "base_shear_coefficient", "estimate", "conservative", "collapses", "remarks"]

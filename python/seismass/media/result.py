@@ -201,7 +201,7 @@ class Result:
         return {name: self.plot(name) for name in self.figure_names}
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the answer as plain values, null for what is not finite; long tables are left to `tables`."""
+        """Return the answer as plain values, null for non-finite values; long tables are left to `tables`."""
         raise NotImplementedError
 
     def to_json(self) -> str:

@@ -195,7 +195,7 @@ def axes_of_caller(ax: Any, count: int, owner: str) -> Panels:
 
 
 def single(ax: Axes | None, owner: str, *, size: tuple[float, float] = (6.4, 4.2)) -> Panels:
-    """Return one Axes: that which is given, or that of a new figure."""
+    """Return one Axes: the one that is given, or that of a new figure."""
     if ax is None:
         figure = Figure(figsize=size, layout="constrained")
         return Panels([figure.add_subplot()], shared=True, is_new=True)

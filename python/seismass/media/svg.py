@@ -105,7 +105,7 @@ def inline_svg(figure: Figure | str, title: str, description: str = "", *, name:
     ----------
     figure : Figure or str
         A figure, or the text that `figure_svg` gives.
-    title, description : str
+    title, description : str, optional
         What it shows, in a few words and in sentences, for those who do not see it.
     name : str, optional
         What all ids of the element begin with. By default it is made of the content: two elements on one page then
@@ -147,9 +147,7 @@ def inline_svg(figure: Figure | str, title: str, description: str = "", *, name:
 
 
 def short_svg(figure: Figure | str) -> str:
-    """Return a figure, or the text of `figure_svg`, as an `<svg>` element of its size without a title, shortened as in
-    `inline_svg`.
-    """
+    """Return a figure, or the text of `figure_svg`, as `<svg>` without a title, shortened as in `inline_svg`."""
     text = figure if isinstance(figure, str) else figure_svg(figure)
     return ET.tostring(_element(text, "f"), encoding="unicode")
 

@@ -44,9 +44,7 @@ def text_table(rows: Sequence[Sequence[str]], *, left: int = 1, indent: int = 2)
 def number_text(
     value: float | None, form: str = ".2f", *, scale: float = 1.0, missing: str = "-", infinite: str | None = None
 ) -> str:
-    """Return a number times `scale` as text; `missing` stands for None, and `infinite`, if given, for a number that is
-    not finite.
-    """
+    """Return a number times `scale` as text; `missing` for None, `infinite`, where given, for infinity and NaN."""
     if value is None:
         return missing
     if infinite is not None and not math.isfinite(value):

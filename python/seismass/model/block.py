@@ -254,7 +254,7 @@ def blocks_on_floors(mass_ratio: ArrayLike, mu: ArrayLike, *, mu_k: ArrayLike | 
     Raises
     ------
     InvalidScene
-        The lists differ in length, or hold what is not a number.
+        The lists differ in length, or hold a value that is not a number.
 
     Examples
     --------

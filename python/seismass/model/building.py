@@ -49,7 +49,7 @@ class Rayleigh:
     ----------
     ratio : float
         Ratio of critical damping in both modes, from 0 to 1: 0.05 for 5 %.
-    modes : tuple of int
+    modes : tuple of int, optional
         The two modes, counted from 1.
 
     Raises

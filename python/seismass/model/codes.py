@@ -333,7 +333,7 @@ def code_fraction(code_id: str, use: Use = "storage") -> CodeFraction:
     ----------
     code_id : str
         One of `CODE_IDS`, in any case: "asce7-10", "ec8", "nzs1170.5", "nbc", ...
-    use : {"storage", "ordinary", "archive", "shop", "garage"}
+    use : {"storage", "ordinary", "archive", "shop", "garage"}, default "storage"
         Storage and warehouses, offices and dwellings, archives and libraries, shops, or car parks. A code without a row
         of its own for archives has them in storage, for shops in ordinary floors.
 

@@ -68,7 +68,7 @@ class FrictionPair:
 
         Parameters
         ----------
-        factors : tuple of float
+        factors : tuple of float, optional
             Of the lower and the upper bound, the first from 0 to 1, the second at least 1.
 
         Raises
@@ -234,7 +234,7 @@ def friction_table(factors: tuple[float, float] = BOUND_FACTORS) -> pl.DataFrame
 
     Parameters
     ----------
-    factors : tuple of float
+    factors : tuple of float, optional
         Of the lower and the upper bound; by default those of EN 16681, second-hand.
 
     Returns

@@ -188,7 +188,7 @@ def on_surveyed_goods(fraction: float, use: Use = "storage") -> float:
     ----------
     fraction : float
         Fraction of the design live load.
-    use : {"storage", "ordinary", "archive", "shop"}
+    use : {"storage", "ordinary", "archive", "shop"}, default "storage"
         Use of the floor, whose goods are those of `SURVEYED`.
 
     Raises

@@ -147,9 +147,7 @@ def motion_remarks(motions: Any) -> tuple[str, ...]:
 
 
 def mean_motion_remarks(motions: Any) -> tuple[str, ...]:
-    """Return what is unlikely about the mean PGA of a suite as it is used, scale factors included: at most one
-    sentence.
-    """
+    """Return what is unlikely about the mean PGA of a suite, scale factors included: at most one sentence."""
     listed: Iterable[Any] = [motions] if hasattr(motions, "acceleration") else motions
     peaks = [float(np.abs(motion.acceleration).max()) / STANDARD_GRAVITY for motion in listed]
     mean = float(np.mean(peaks)) if peaks else 0.0

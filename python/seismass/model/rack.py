@@ -141,7 +141,7 @@ class Rack(Value, Card):
         Ratio in every mode of the rack alone, fixed at its base, with frame and goods attached.
     geometric_stiffness : array_like, optional
         P/h of each level (N/m).
-    blocks : iterable of RackBlock
+    blocks : iterable of RackBlock, optional
         Goods on its levels.
     other_direction : dict, optional
         Arguments of springs and damping that differ in y, in scenes in two directions.

@@ -29,9 +29,9 @@ class Scene(Value):
     ----------
     building : Building or None
         None: there are blocks on the ground only.
-    blocks : iterable of Block
+    blocks : iterable of Block, optional
         Any number, in any order; several may share a floor. They are counted from 1 as listed.
-    racks : iterable of Rack
+    racks : iterable of Rack, optional
         Racks on floors or on the ground. Their goods that may slide are counted on from the blocks, rack by rack.
     other_direction : Building or True, optional
         There are two horizontal directions: the building in y, of the same masses; True: the same building, or the
@@ -45,7 +45,7 @@ class Scene(Value):
         Floor velocities relative to the ground at the start (m/s). In two directions both have a pair [x, y] for each.
     collapse_drift : array_like, optional
         Drift (m) at which a storey counts as collapsed and the run ends, beside the limit that P-Delta sets.
-    name, note : str
+    name, note : str, optional
         Labels; they do not take part in comparison.
 
     Attributes

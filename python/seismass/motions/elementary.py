@@ -34,7 +34,7 @@ _SINH: Final = tuple(1.0 / math.factorial(2 * half + 1) for half in range(9, 0, 
 _ATANH: Final = tuple(1.0 / (2 * half + 1) for half in range(11, 0, -1))
 _LEAST, _MOST = -745.0, 709.7
 BLOCK: Final = 64
-"""Terms of a series between which the exponential is evaluated anew."""
+"""Terms of a series between which the exponential is evaluated again."""
 
 
 def exp(x: ArrayLike) -> FloatArray:

@@ -33,7 +33,7 @@ class Motion(Value, Card):
         Time step (s).
     vertical : array_like, shape (samples,), optional
         Vertical ground acceleration (in `unit`), up positive.
-    unit : {"m/s2", "g", "cm/s2", "gal"}
+    unit : {"m/s2", "g", "cm/s2", "gal"}, default "m/s2"
         Unit of the accelerations that are given.
 
     Raises

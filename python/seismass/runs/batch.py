@@ -224,7 +224,7 @@ def write_many(
     """Solve many scenes under many motions and write the rows of `simulate_many` to a Parquet file as they come.
 
     The file appears whole or not at all; chunks are kept in a hidden folder beside it until then. The same call after
-    an interruption takes those that are there; other inputs, another version or another size of chunks start anew. The
+    an interruption takes those that are there; other inputs, another version or another size of chunks start again. The
     metadata of the file name the version of seismass and the instruction set.
 
     Parameters

@@ -240,9 +240,7 @@ class SceneRuns:
     def table(
         self, rows: IndexArray, *, peaks_only: bool, threads: int | None, progress: Progress | None
     ) -> pl.DataFrame:
-        """Solve runs, rows of scene and motion (runs, 2), and return their table; other arguments as in
-        `simulate_many`.
-        """
+        """Return the table of runs, rows of scene and motion (runs, 2); other arguments as in `simulate_many`."""
         engine = np.array([scene.engine for scene in self.scenes], dtype=object)[rows[:, 0]]
         solve: dict[str, Callable[..., pl.DataFrame]] = {
             "chain": self._solve_chain,

@@ -267,7 +267,7 @@ class PlaneResponse(Card):
         return {**self._directions[0].statistics, "instructions": self._directions[0].instructions}
 
     def to_dict(self) -> dict[str, Any]:
-        """Return peaks, residuals, counts, events, energy and work in SI units, null for what is not finite."""
+        """Return peaks, residuals, counts, events, energy and work in SI units, null for non-finite values."""
         result: dict[str, Any] = {
             "name": self.scene.name,
             "status": self.status,

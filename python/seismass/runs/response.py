@@ -147,7 +147,7 @@ class ResponseAnimation(Protocol):
     """The animation of a run: `seismass.Animation`."""
 
     def html(self) -> str:
-        """Return a page that needs nothing but itself."""
+        """Return a page that needs no other file."""
 
     def write(self, path: str | Path, *, frames_per_second: float | None = None, speed: float = 1.0) -> None:
         """Write a page (.html), a GIF (.gif) or a film (.mp4)."""

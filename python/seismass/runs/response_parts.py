@@ -205,7 +205,7 @@ class ResponseDocument:
     __slots__ = ()
 
     def to_dict(self) -> dict[str, Any]:
-        """Return peaks, residuals, counts, events, energy and work in SI units, null for what is not finite.
+        """Return peaks, residuals, counts, events, energy and work in SI units, null for non-finite values.
 
         Events and energies are there where `simulate` was asked for them. Histories are left out. In scenes of the
         general engine `goods` says where each block stands, in the order of slips; racks have a list for each, of its

@@ -160,7 +160,7 @@ def warn_of_doubts(scenes: Any, motions: Any) -> None:
 
 
 def _listed(scenes: Any) -> list[Scene]:
-    """The first scenes of a batch; what is not a scene is refused elsewhere."""
+    """The first scenes of a batch; other values are refused elsewhere."""
     from seismass.runs.grid.grid import Grid  # one run needs no grid
 
     if isinstance(scenes, Grid):

@@ -242,14 +242,12 @@ def target_html(target: TargetSpectrum) -> str:
     y = bottom - (bottom - top) * ordinates / highest
     parts = [stroke(left, bottom, right, bottom, opacity=0.5), stroke(left, top, left, bottom, opacity=0.5)]
     for share in (0.0, 0.25, 0.5, 0.75, 1.0):
-        height = left + share * (right - left)
-        parts += [stroke(height, bottom, height, bottom + 3.0, opacity=0.5)]
-        parts.append(text(height, bottom + 15.0, f"{share * longest:.3g}", anchor="middle"))
+        mark = left + share * (right - left)
+        parts += [stroke(mark, bottom, mark, bottom + 3.0, opacity=0.5)]
+        parts.append(text(mark, bottom + 15.0, f"{share * longest:.3g}", anchor="middle"))
     parts.append(text(right + 8.0, bottom + 15.0, "s"))
-    parts += [
-        text(left - 6.0, height + 4.0, words, anchor="end")
-        for height, words in ((bottom, "0"), (top, f"{highest:.3g} g"))
-    ]
+    parts.append(text(left - 6.0, bottom + 4.0, "0", anchor="end"))
+    parts.append(text(left - 6.0, top + 4.0, f"{highest:.3g} g", anchor="end"))
     label = f"pseudo-acceleration up to {highest:.3g} g, from {target.shortest:g} to {longest:g} s"
     facts = [(f"Sa({period:g} s)", f"{target([period])[0] / STANDARD_GRAVITY:.3g} g") for period in _within(target)]
     return card("Target spectrum", target.label, svg(470.0, 150.0, label, *parts, curve(x, y, width=1.8)), facts=facts)
@@ -492,7 +490,7 @@ def _facts_values(value: Any, *, with_lists: bool) -> tuple[list[tuple[str, str]
 
 
 def _is_nothing(item: Any) -> bool:
-    """Whether there is nothing to be said."""
+    """Whether a value is empty."""
     return item is None or (isinstance(item, str | tuple | list) and not any(item))
 
 

@@ -244,7 +244,7 @@ def _block_table(scene: Scene, response: Response) -> list[list[str]]:
 
 
 def _mass_text(block: Block, mass: float, stated: bool) -> str:
-    """The mass of a block; over that of its floor where that is not stated, but for blocks on the ground."""
+    """The mass of a block; over that of its floor where that is not stated, except for blocks on the ground."""
     if stated:
         return f"{mass:.5g}"
     return f"{mass:.5g} kg" if block.mass_ratio is None else f"{block.mass_ratio:.5g}"

@@ -53,15 +53,15 @@ def scale_asce7_10(
         of its components as they are; the factor is that of both.
     target : TargetSpectrum
         Design spectrum.
-    period : float
+    period : float, default 1.0
         Fundamental period T (s) for which the suite is scaled.
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping of the spectra.
-    period_range : tuple of float
+    period_range : tuple of float, optional
         Range of the comparison as multiples of T.
-    count : int
+    count : int, default 100
         Periods in the range, in geometric spacing, ends included, at which motions are fitted and the result is shown.
-    between : bool
+    between : bool, default True
         Whether the mean is held above the target between these periods, too: at ten times as many, and around the
         lowest of those. False, at these periods alone, where it may be lower between two by some tenths of a per
         cent: so the study, the assessment, the maps and the live page scale, as the paper does.
@@ -186,11 +186,11 @@ def scale_asce7_16(
         Its modes say which period takes part with 90 % of the mass.
     lowest_period : float, optional
         That period (s), where no building is given. The range begins at it where it is below 0.2 T, else at 0.2 T.
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping of the spectra.
-    longest : float
+    longest : float, default 2.0
         Upper end of the range as a multiple of T; the standard permits a lower one, down to 1.5, where it is justified.
-    count : int
+    count : int, default 100
         Periods in the range, in geometric spacing, ends included.
     threads : int, optional
         Number of threads; default all cores.

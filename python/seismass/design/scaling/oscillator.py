@@ -26,9 +26,9 @@ class FirstModeOscillator(Card):
         Initial period T1 (s).
     yield_acceleration : float
         A_y (m/s2): F at the first yield, V_b1y/M1*. Infinite: elastic.
-    overstrength, second_slope, third_slope : float
+    overstrength, second_slope, third_slope : float, optional
         Second yield over the first, and slopes over the initial one.
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping.
     """
 

@@ -119,9 +119,9 @@ def scale_modal_pushover(
         A_y/g: yield strength of the oscillator over its weight. Either it or the next is needed without a building.
     reduction : float, optional
         R_y: A_t(T1) over the yield acceleration A_y.
-    overstrength, second_slope, third_slope, damping : float
+    overstrength, second_slope, third_slope, damping : float, optional
         The oscillator's, as for `Building`; left out with a building, which has its own.
-    deformation : {"ratio", "median"}
+    deformation : {"ratio", "median"}, default "ratio"
         Target deformation D_t: C_R times the elastic one, or the median over the suite of the inelastic deformation of
         the motions scaled to A_t(T1).
     corner_period : float, optional

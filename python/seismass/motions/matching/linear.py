@@ -278,9 +278,7 @@ class Extrema:
 
 
 class Oscillators:
-    """Oscillators of one damping ratio (from 0, below 1) at one time step (s); natural periods (s) are at least four
-    time steps.
-    """
+    """Oscillators of a damping ratio (from 0, below 1) at a time step (s), of periods (s) of at least four steps."""
 
     def __init__(self, periods: FloatArray, damping: float, dt: float) -> None:
         self.periods, self.damping, self.dt = periods, damping, dt

@@ -118,20 +118,20 @@ def match_spectrum(
         What is matched; a vertical component is multiplied by the same factor and not matched.
     target : TargetSpectrum or callable
         Pseudo-acceleration (m/s2) at periods (s), for the damping below.
-    periods : array_like
+    periods : array_like, optional
         Two numbers: the range (s). More: the periods themselves, increasing; between them is looked at, too.
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping of the spectra.
     points : int, optional
         Periods in the range at which wavelets are fitted, in geometric spacing; by default so many that neighbours
         differ by a quarter of the damping. The misfit is judged at three times as many.
-    tolerance : float
+    tolerance : float, optional
         Largest misfit, abs(Sa/target - 1), at any of the periods at which it is judged.
-    max_iterations : int
+    max_iterations : int, default 40
         Largest number of passes; 0 for the scaled record.
-    scale : {"least_squares", "none"} or float
+    scale : {"least_squares", "none"} or float, default "least_squares"
         How the record is scaled first: to the target by least squares in the logarithm, not at all, or by this factor.
-    padding : tuple of float
+    padding : tuple of float, optional
         Zeros (s) added before and after the record, where wavelets need room: for a record that begins with its
         strong motion, or is short beside the longest period. The time axis then begins earlier.
     threads : int, optional

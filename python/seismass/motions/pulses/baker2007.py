@@ -22,9 +22,9 @@ from seismass.motions.pulses.extraction import (
     horizontals,
     scale_range,
     single_velocity,
+    transform,
 )
 from seismass.motions.pulses.result import BAKER, Candidate, Kind, OrientationScan, PulseResult
-from seismass.motions.pulses.wavelet import transform
 from seismass.motions.records.formats.labels import is_vertical
 from seismass.motions.records.pair import Pair
 from seismass.motions.records.record import Record

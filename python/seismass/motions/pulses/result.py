@@ -11,13 +11,14 @@ import polars as pl
 
 from seismass.base.values import FloatArray, content_hash, same_content, short_repr
 from seismass.base.views import Card, view
-from seismass.motions.pulses.wavelet import PERIOD_OF_SCALE
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 BAKER: Final = "Baker (2007)"
 SHAHI_BAKER: Final = "Shahi and Baker (2014)"
+PERIOD_OF_SCALE: Final = 1.4
+"""Period of the wavelet over scale times step: one over its centre frequency, 5/7."""
 Kind = Literal["pulse", "ambiguous", "no pulse"]
 
 

@@ -14,14 +14,15 @@ from seismass.motions.pulses.extraction import (
     CENTIMETRES,
     NEIGHBOURHOOD,
     Horizontals,
+    approximation_energy,
     cumulative_share,
     doubtful_period,
     extract,
     horizontals,
     scale_range,
+    transform,
 )
 from seismass.motions.pulses.result import SHAHI_BAKER, Candidate, PulseResult
-from seismass.motions.pulses.wavelet import approximation_energy, transform
 from seismass.motions.records.pair import Pair
 from seismass.motions.records.record import Record
 

@@ -48,7 +48,7 @@ def builtin_suite(suite: BuiltinName = "eleven") -> Suite:
 
     Parameters
     ----------
-    suite : {"eleven", "seven", "forty"}
+    suite : {"eleven", "seven", "forty"}, default "eleven"
         "forty": those of `records.synthetic.scenarios`, whose scatter is that of recordings; what `assess` and
         the commands that give an answer take by default. "eleven": as many as ASCE 7-16 asks for. "seven": the first
         seven of those, as many as ASCE 7-10 asks for, with which the study of the paper is.

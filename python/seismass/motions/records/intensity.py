@@ -118,9 +118,7 @@ def cumulative_absolute_velocity(acceleration: FloatArray, dt: float) -> float:
 
 
 def bracketed_duration(acceleration: FloatArray, dt: float, threshold_g: float) -> float:
-    """Return the time (s) from the first to the last crossing of a positive threshold of abs(a); 0 where it is not
-    reached.
-    """
+    """Return the time (s) from the first to the last crossing of a threshold (above 0) of abs(a); 0 without one."""
     threshold = as_number(threshold_g, "threshold_g", "bracketed duration", InvalidOption)
     if not (math.isfinite(threshold) and threshold > 0.0):
         raise refusal(InvalidOption, "threshold_g", "bracketed duration", "a positive number", brief(threshold_g))

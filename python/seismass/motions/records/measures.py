@@ -33,7 +33,7 @@ MEASURES: Final = (
 
 def drift_remarks(record: Record) -> tuple[str, ...]:
     """Return remarks on the baseline: a velocity at the end above `END_VELOCITY` of PGV or a displacement above
-    `END_DISPLACEMENT` of PGD is mostly an error or a cut, save permanent displacement near a fault.
+    `END_DISPLACEMENT` of PGD is mostly an error or a cut, except for permanent displacement near a fault.
     """
     velocity, displacement = float(record.velocity[-1]), float(record.displacement[-1])
     remarks = []

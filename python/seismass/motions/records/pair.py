@@ -59,7 +59,7 @@ class Pair(Value):
         Horizontal components: of one step and length, without vertical accelerations of their own.
     vertical : Record, optional
         Vertical component, up positive, of the same step and length.
-    remarks : tuple of str
+    remarks : tuple of str, optional
         What was done to bring them together.
 
     Raises
@@ -115,10 +115,10 @@ class Pair(Value):
 
         Parameters
         ----------
-        first, second, vertical : Record
+        first, second, vertical : Record, optional
             Components that begin at the same instant, as those of one file set do. A horizontal without azimuth has the
             one that its component label states, if it states one.
-        lengths : {"shorter", "padded"}
+        lengths : {"shorter", "padded"}, default "shorter"
             Where the horizontals differ in length: cut the longer, or pad the shorter with zeros. The vertical is cut
             or padded to them. Both are stated in the remarks and in the history of the component.
 
@@ -328,9 +328,9 @@ def read_pair(
 
     Parameters
     ----------
-    first, second, vertical : path-like
+    first, second, vertical : path-like, optional
         The files; each of any format that `read_record` reads.
-    lengths : {"shorter", "padded"}
+    lengths : {"shorter", "padded"}, default "shorter"
         See `Pair.from_records`.
     **options
         Passed to `read_record` for each file, such as `dt` and `unit`.
@@ -396,7 +396,7 @@ class Pairs(Card):
         Name of the folder.
     pairs : tuple of Pair
         What was found.
-    excluded : tuple of Excluded
+    excluded : tuple of Excluded, optional
         Files that are not a component of a pair, with the reason.
     """
 
@@ -445,7 +445,7 @@ def find_pairs(folder: str | os.PathLike[str], *, lengths: Literal["shorter", "p
     """Return the pairs and triples of components among the record files of a folder and of those below.
 
     Files of one folder belong together that share the record sequence number of their names (``RSN161_...``), or else
-    event and station of their headers, or else a name but for the direction it ends in. Of those the two horizontals
+    event and station of their headers, or else a name without the direction it ends in. Of those the two horizontals
     make the pair, and one vertical component is added. Directions come from the header, or from names that end in two
     numbers 90 degrees apart.
 
@@ -454,7 +454,7 @@ def find_pairs(folder: str | os.PathLike[str], *, lengths: Literal["shorter", "p
     folder : path-like
         The folder; hidden files are not looked at. What is read of it is what `read_suite` reads: every record format,
         each channel of files of several, and text of columns that states its step and unit.
-    lengths : {"shorter", "padded"}
+    lengths : {"shorter", "padded"}, default "shorter"
         See `Pair.from_records`.
 
     Raises

@@ -148,7 +148,7 @@ def _spike(record: Record) -> str | None:
     next_largest = float(np.max(others))
     if out[place] > SPIKE * next_largest and out[place] > 0.5:
         return (
-            f"sample {place + 2} (t = {(place + 1) * record.dt:.6g} s) stands out from its neighbours as no other does: "
+            f"sample {place + 2} (t = {(place + 1) * record.dt:.6g} s) stands out from its neighbours as no other: "
             "a spike, or a damaged number"
         )
     return None

@@ -41,32 +41,32 @@ class Record(Value):
         Ground acceleration in `unit`, first sample at t = 0; kept as a read-only copy in m/s2.
     dt : float
         Time step (s).
-    name : str
+    name : str, optional
         Short name, for a file its name without the suffix.
-    event, station, component : str
+    event, station, component : str, optional
         What the source calls them; empty where it does not say.
     source : Path, optional
         The file it was read from.
-    unit : {"m/s2", "g", "cm/s2", "gal"}
+    unit : {"m/s2", "g", "cm/s2", "gal"}, default "m/s2"
         Unit of the accelerations that are given, also of `vertical`; those of the record are in m/s2 whatever it is.
-    synthetic : bool
+    synthetic : bool, default False
         True for a made motion that no instrument recorded.
     vertical : array_like, shape (samples,), optional
         Vertical ground acceleration (in `unit`, up positive) at the same instants.
-    remarks : tuple of str
+    remarks : tuple of str, optional
         What a reader had to interpret or leave out.
     azimuth : float, optional
         Direction of positive acceleration, degrees clockwise from north; None where the source does not say.
-    network : str
+    network : str, optional
         Network or agency that recorded it; empty where the source does not say.
-    sha256 : str
+    sha256 : str, optional
         Digest of the bytes of the source file; empty for a record that no file holds.
-    place : str
+    place : str, optional
         Where the sensor stands, as the source says: "Roof", "borehole"; empty for the surface of the ground, or where
         the source does not say.
-    history : tuple of str
+    history : tuple of str, optional
         What was done to the samples after reading, in order.
-    file_unit : str
+    file_unit : str, default "m/s2"
         Unit of the accelerations in the source file, as a label: "g", "m/s2" or "cm/s2".
 
     Raises
@@ -199,7 +199,7 @@ class Record(Value):
 
         Parameters
         ----------
-        start, end : float
+        start, end : float, optional
             Shares from 0 to 1, in order.
 
         Raises
@@ -214,7 +214,7 @@ class Record(Value):
 
         Parameters
         ----------
-        threshold_g : float
+        threshold_g : float, optional
             The threshold (g), positive.
 
         Raises

@@ -113,13 +113,13 @@ def rotd(
         Two horizontal components.
     periods : array_like, shape (periods,)
         Natural periods (s).
-    percentiles : sequence of float
+    percentiles : sequence of float, optional
         From 0 to 100; interpolated linearly between the sorted values over the angles.
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping.
     angles : int, default 180
         Directions, evenly over half a turn from the first component on; the other half has the same peaks.
-    kind : {"pseudo_acceleration", "displacement", "pseudo_velocity", "acceleration"}
+    kind : {"pseudo_acceleration", "displacement", "pseudo_velocity", "acceleration"}, default "pseudo_acceleration"
         Ordinate, as in `response_spectrum`, in m/s2, m, m/s or m/s2.
     threads : int, optional
         As in `response_spectrum`.

@@ -66,9 +66,9 @@ class Suite:
         Name of the directory or list.
     records : tuple of Record
         What was taken, in order.
-    excluded : tuple of Excluded
+    excluded : tuple of Excluded, optional
         What was left out.
-    remarks : tuple of str
+    remarks : tuple of str, optional
         What else a reader of the suite should know, such as columns of a list that were not used.
 
     Raises

@@ -191,7 +191,7 @@ class ScalingResult(Result):
         return {"scaling": self.diagnostics(), "spectrum": self.spectrum_table()}
 
     def to_dict(self) -> dict[str, Any]:
-        """Return factors, misfits and the spectrum as plain values; null for what is not finite."""
+        """Return factors, misfits and the spectrum as plain values; null for non-finite values."""
         document = {
             "target": self.target_label,
             "method": self.method,

@@ -77,10 +77,10 @@ def select_records(
         Most records of one event; None: any number. Synthetic records and those without an event are each their own.
     max_per_station : int, optional
         Most records of one event at one station: 1 takes one of the two components of a recording. Where event or
-        station is not known, an NGA sequence number in the name (RSN767) tells components of one recording.
+        station is not known, an NGA sequence number in the name (RSN767) identifies components of one recording.
     factor_range : tuple of float, optional
         Least and largest factor of a record.
-    method : {"mean", "each"}
+    method : {"mean", "each"}, default "mean"
         At each step, the record with which the mean of those chosen is closest to the target; or the one that is
         closest by itself.
 

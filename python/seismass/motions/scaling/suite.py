@@ -118,7 +118,7 @@ def suite_spectra(
 
 
 def checked_target(target: Any) -> None:
-    """Refuse what is not a target spectrum."""
+    """Raise where the argument is not a target spectrum."""
     if not isinstance(target, TargetSpectrum):
         raise refusal(InvalidOption, "target", "scaling", "a TargetSpectrum", brief(target))
 
@@ -236,7 +236,7 @@ def scale_least_squares(
     ----------
     records, target, period, damping, period_range, count, threads
         As for `scale_asce7_10`; one motion is enough.
-    space : {"log", "linear"}
+    space : {"log", "linear"}, default "log"
         Differences of logarithms, or of ordinates, which weigh the periods of large ordinates.
 
     Raises
@@ -280,9 +280,9 @@ def scale_sa_t1(
     ----------
     records, target, damping, count, threads
         As for `scale_asce7_10`; one motion is enough.
-    period : float
+    period : float, default 1.0
         T1 (s).
-    period_range : tuple of float
+    period_range : tuple of float, optional
         Range of the comparison as multiples of T1, which the factors do not depend on.
 
     Raises

@@ -83,9 +83,9 @@ def response_spectrum(
         One motion counts as a suite of one.
     periods : array_like, shape (periods,)
         Natural periods (s), from a thousandth of the time step; each is solved for, none is interpolated.
-    damping : float or sequence of float
+    damping : float or sequence of float, default 0.05
         Ratios of critical damping, at least 0 and below 1.
-    kind : {"pseudo_acceleration", "displacement", "pseudo_velocity", "acceleration"}
+    kind : {"pseudo_acceleration", "displacement", "pseudo_velocity", "acceleration"}, default "pseudo_acceleration"
         Ordinate, in m/s2, m, m/s or m/s2. The last is the largest absolute acceleration of the mass, spring and damper
         together; without damping it is the pseudo-acceleration.
     threads : int, optional
@@ -152,7 +152,7 @@ def mean_spectrum(
         Factor of each motion.
     periods : array_like, shape (periods,)
         Natural periods (s).
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping.
     threads : int, optional
         As in `response_spectrum`.

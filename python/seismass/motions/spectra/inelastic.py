@@ -80,9 +80,7 @@ class Oscillators:
             self._motions.append(motion_held.with_duration((len(motion_held.acceleration) - 1) * motion_held.dt + rest))
 
     def peaks(self, oscillator: IndexArray, motion: IndexArray, factor: FloatArray) -> FloatArray:
-        """Return the peak displacement (m) of each run, by indices of oscillator and motion (from 0) and the factor of
-        the motion.
-        """
+        """Return peak displacements (m) of runs by oscillator and motion (from 0) and factor of the motion."""
         runs = np.stack([oscillator, motion], axis=1).astype(np.int64)
         scale = np.ascontiguousarray(factor, dtype=np.float64)
         batch = _kernel.simulate_columns(
@@ -190,9 +188,9 @@ def inelastic_spectrum(
         C_y = V_y/W, positive; infinite: elastic. Either it or the next is needed.
     ductility : float or array_like of shape (levels,), optional
         Ductility demand, at least 1.
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping of the initial stiffness; the coefficient stays constant.
-    overstrength, second_slope, third_slope : float
+    overstrength, second_slope, third_slope : float, optional
         Omega, r2 and r3 of the spring, as for `Building`; Omega = 1 and r3 = 0 is elastoplastic.
     threads : int, optional
         Number of threads; default all cores. The result does not depend on it.

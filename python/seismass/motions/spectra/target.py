@@ -40,7 +40,7 @@ class Shape(Protocol):
 
     @property
     def parameters(self) -> dict[str, Any]:
-        """What it was made from, with its kind as `shape`; a digest of it tells two spectra apart."""
+        """What it was made from, with its kind as `shape`; a digest of it distinguishes two spectra."""
         ...
 
     @property
@@ -69,7 +69,7 @@ class TargetSpectrum:
     ----------
     shape : Shape
         The kind of spectrum with its numbers.
-    tilt : float
+    tilt : float, default 0.0
         Power p of (T/1 s)^p by which it is multiplied; see `tilted`.
 
     Attributes
@@ -116,9 +116,9 @@ class TargetSpectrum:
 
         Parameters
         ----------
-        sds_g, sd1_g : float
+        sds_g, sd1_g : float, optional
             Design spectral accelerations at short periods and at 1 s (g); for MCE_R those times 1.5.
-        tl : float
+        tl : float, optional
             Long-period transition (s).
 
         Examples
@@ -162,15 +162,15 @@ class TargetSpectrum:
 
         Parameters
         ----------
-        kind : {1, 2}
+        kind : {1, 2}, default 1
             Type of the spectrum: 1 for earthquakes of surface-wave magnitude above 5.5 (table 3.2), 2 up to it (3.3).
-        ground : {"A", "B", "C", "D", "E"}
+        ground : {"A", "B", "C", "D", "E"}, default "A"
             Ground type. The recommended S, T_B, T_C and T_D are used; a National Annex may have others.
         agr_g : float
             Reference peak ground acceleration a_gR on ground type A (g).
-        importance : float
+        importance : float, default 1.0
             Importance factor gamma_I: a_g = gamma_I a_gR.
-        damping : float
+        damping : float, default 0.05
             Ratio of critical damping xi: eta = sqrt(10/(5 + 100 xi)), at least 0.55.
 
         Notes
@@ -195,11 +195,11 @@ class TargetSpectrum:
 
         Parameters
         ----------
-        site_class : {"A", "B", "C", "D", "E"}
+        site_class : {"A", "B", "C", "D", "E"}, default "C"
             Site subsoil class.
         z : float
             Hazard factor Z.
-        r : float
+        r : float, default 1.0
             Return period factor R of the limit state; 1 for 500 years. Z R counts as 0.7 at most.
         fault_distance_km : float, optional
             Shortest distance D to a major fault (km); N = 1 without it, beyond 20 km, and for R up to 0.75.
@@ -251,9 +251,9 @@ class TargetSpectrum:
             The suite.
         factors : array_like, optional
             Factor of each motion; 1 by default.
-        damping : float
+        damping : float, default 0.05
             Ratio of critical damping.
-        label : str
+        label : str, optional
             What it is called; by default the mean of the motions by number.
 
         Notes

@@ -538,7 +538,7 @@ DEFAULTS: Final[dict[str, Any]] = {
     **{name: _STATED.get(name) for name in GridOptions.__annotations__ if name not in _SHAPE},
     **dict.fromkeys(SHAPE_FIELDS),
 }
-"""Default of each option, None but for three."""
+"""Default of each option, None except for three."""
 
 
 def grid_options(options: dict[str, Any], owner: str) -> dict[str, Any]:

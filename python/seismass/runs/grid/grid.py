@@ -98,8 +98,8 @@ class Grid(Card):
         Share of the live load that is present, 0 to 1, that is a block; what is not attached by default. A code's
         model, which counts a quarter of the load and lets nothing slide, has `attached=0.25, sliding=0`.
     damping : {"same", "ratio"}, default "same"
-        Where live load is attached: the damping matrix of the building without it, or that which the building's damping
-        ratio gives with it.
+        Where live load is attached: the damping matrix of the building without it, or that of the building's damping
+        ratio with it.
     mu : array_like, optional
         Friction coefficient, static and kinetic. Where there are blocks, either it or `mu_s` is needed.
     mu_s, mu_k : array_like, optional
@@ -305,10 +305,10 @@ class Grid(Card):
             The building, or several of which each is equally likely.
         samples : int
             Number of scenes.
-        method : {"sobol", "latin_hypercube", "random"}
+        method : {"sobol", "latin_hypercube", "random"}, default "sobol"
             Scrambled points of Sobol's sequence, balanced where their number is a power of 2; a Latin hypercube; or
             independent points. One dimension for each axis that is drawn (`scipy.stats.qmc`).
-        seed : int
+        seed : int, default 0
             The same seed gives the same sample.
         motions : int, optional
             Number of the motions of which each scene has one, equally likely; by default each scene has every motion.

@@ -236,7 +236,7 @@ class Animation:
 
     @view
     def html(self) -> str:
-        """Return a page that needs nothing but itself: play, pause, scrub, speed, and the same by keys."""
+        """Return a page that needs no other file: play, pause, scrub, speed, and the same by keys."""
         raise NotImplementedError
 
     @view
@@ -305,7 +305,7 @@ def animate(
         Ground motion.
     code : str, default "asce7-10"
         Code whose share of the live load the model has, as `code_fraction` takes it.
-    use : {"storage", "ordinary", "archive", "shop", "garage"}
+    use : {"storage", "ordinary", "archive", "shop", "garage"}, default "storage"
         Use of the floors, for the code.
     fraction : float, optional
         A share in place of the code's, from 0 to 1. Blocks are taken as the whole live load.

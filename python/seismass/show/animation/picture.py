@@ -187,9 +187,7 @@ class Picture(Frames):
         return (PAPER, INK, SOFT, LINE, *(role.text for role in ROLES), SLAB, PALE_YIELD, PALE_SLIDE, *CURVES)
 
     def frame(self, time: float, lasting: float = 0.0) -> Image.Image:
-        """Return the frame at a time of the run (s), `lasting` (s) until the next; an event shows in one frame at
-        least.
-        """
+        """Return the frame at a time (s) that lasts `lasting` (s); an event shows in at least one frame."""
         image = self._still.copy()
         draw = ImageDraw.Draw(image)
         width = WIDTH / len(self._shown.runs)

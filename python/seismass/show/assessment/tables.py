@@ -187,7 +187,7 @@ def _made(
 
 
 def _fraction(values: dict[str, Any], curve: pl.DataFrame) -> Fraction:
-    """A fraction of its JSON, in which what is not finite is null."""
+    """A fraction of its JSON, in which non-finite values are null."""
 
     def number(value: float | None) -> float:
         return math.nan if value is None else float(value)

@@ -110,7 +110,7 @@ def ida(
         Rows of `simulate_many` or `long_table` with a column of intensities: of a `Grid` with several `scale`, say,
         `long_table` has it. Of several rows with the same motion and intensity, such as storeys, the largest demand
         counts. A collapse counts as infinite demand.
-    intensity, demand : str
+    intensity, demand : str, optional
         Columns.
     limit : float, optional
         Demand (in the unit of the axis) that is marked.
@@ -181,7 +181,7 @@ def fragility(
         Rows as for `ida`.
     limit : float
         Demand that must not be exceeded, in the unit of the column (SI); a collapse exceeds it.
-    intensity, demand : str
+    intensity, demand : str, optional
         Columns.
     ax : Axes, optional
         Axes to draw into.

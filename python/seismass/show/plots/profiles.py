@@ -55,7 +55,7 @@ def profile(
     ----------
     response : Response
         A run.
-    quantities : sequence of str
+    quantities : sequence of str, optional
         Panels: "drift" (over the storey height in % where heights are known, otherwise mm), "acceleration" of the
         ground and of floors (g), "shear" of storeys (kN, or over the weight where the mass is not stated), "slip" of
         blocks (mm; left out where there are none on floors; those on racks are in `rack_profile`).

@@ -67,9 +67,7 @@ RESIDUALS: Final = ("residual_drift", "residual_slip")
 
 
 def stored_columns(columns: Iterable[str] | None, peaks_only: bool) -> tuple[str, ...]:
-    """Return the columns that parts have, in their order; unknown ones are refused, and those that runs of peaks only
-    lack.
-    """
+    """Return the columns of parts, in order; unknown ones are refused, and those that runs of peaks alone lack."""
     known = [name for name in UNITS if not (peaks_only and name in RESIDUALS)]
     if columns is None:
         return tuple(known)

@@ -199,9 +199,7 @@ def solve_part(folder: str, sha256: str, part: int, threads: int | None) -> Done
 
 
 def write_part(frame: pl.DataFrame, folder: Path, sha256: str, part: int) -> None:
-    """Write the rows of a part under its name, whole and on the disk. The folder, which may have many parts, is not
-    listed.
-    """
+    """Write the rows of a part under its name, whole and on the disk, without listing the folder of many parts."""
     path = part_path(folder, part)
     with reported_as(path), written_whole(path, durable=True, tidy=False) as temporary:
         write_checked(frame, temporary, part_metadata(sha256, part))
@@ -449,9 +447,7 @@ SAMPLE: Final = 256
 
 
 class Estimate(NamedTuple):
-    """Estimate for all runs: seconds by the threads of this process, and bytes of the parts, which compress better as
-    they grow.
-    """
+    """Estimate for all runs: seconds by the threads of this process, and bytes of the compressed parts."""
 
     seconds: float
     bytes: float

@@ -179,9 +179,7 @@ _C = TypeVar("_C", bound=CampaignRuns)
 
 
 def campaign_in(folder: Path, kind: type[_C]) -> _C:
-    """Return the campaign of a folder, made again from its files; files that changed or do not belong together are
-    refused.
-    """
+    """Return the campaign of a folder from its files; files that changed or do not belong together are refused."""
     document = read_manifest(folder)
     axes, motions = (read_table(folder, name) for name in (AXES, MOTIONS))
     try:

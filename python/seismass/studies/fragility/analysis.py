@@ -66,19 +66,19 @@ def incremental_dynamic_analysis(
         The suite.
     limits : LimitState or iterable of them
         The limit states.
-    measure : {"scale", "pga", "sa_t1", "sa_avg"} or IntensityMeasure
+    measure : {"scale", "pga", "sa_t1", "sa_avg"} or IntensityMeasure, default "sa_t1"
         The intensity measure; see `IntensityMeasure`.
     period : float, optional
         T1 (s) of the measure; default the first period of the first model's building, for "real" that without live
         load. A motion has the same intensity for every model.
-    method : {"hunt_fill", "stripes"}
+    method : {"hunt_fill", "stripes"}, default "hunt_fill"
         "hunt_fill": each motion is scaled up by itself until it exceeds the limits, and its capacity is located; the
         fragility is fitted to capacities. "stripes": all motions are scaled to `intensities`; it is fitted to counts.
     intensities : array_like, optional
         Positive intensities of the stripes.
     hunt : HuntAndFill, optional
         How intensities are chosen, for "hunt_fill".
-    capacity : {"first", "last"}
+    capacity : {"first", "last"}, default "first"
         Which crossing of a limit is the capacity of a motion whose demand falls again at higher intensities. Motions
         with several are counted in the remarks.
     code_share, damping

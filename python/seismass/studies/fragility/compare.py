@@ -15,7 +15,7 @@ from seismass.studies.fragility.limits import LimitState
 from seismass.studies.fragility.run import SLIDING
 
 MODEL_LEVELS: Final = (0.10, 0.50)
-"""Probabilities of the compared models at whose intensities the reference is looked at: 10 % as the collapse goal of
+"""Probabilities of the compared models at which the reference is evaluated: 10 % as the collapse goal of
 ASCE 7 for risk category II at the maximum considered earthquake, and the median."""
 
 Fragilities = Mapping[tuple[str, str], Fragility]
@@ -191,7 +191,7 @@ def curve_table(fits: Fragilities, limits: Sequence[LimitState], points: int = 1
 def _frame(
     rows: list[dict[str, Any]], floats: Sequence[str], texts: Sequence[str] = ("limit", "model")
 ) -> pl.DataFrame:
-    """Rows as a frame in which what is not known is null; with its columns also where there are none."""
+    """Rows as a frame in which unknown values are null; with its columns also where there are none."""
     schema = {**dict.fromkeys(texts, pl.String), **dict.fromkeys(floats, pl.Float64)}
     if not rows:
         return pl.DataFrame(schema=schema)

@@ -24,7 +24,7 @@ class Draws:
 
 
 def draws_of(cluster_of: NDArray[np.int64], options: BootstrapOptions, number: int = 0) -> Draws:
-    """Return the draws of motions whose clusters are given; `number` tells the draws of several levels apart."""
+    """Return the draws of motions whose clusters are given; `number` distinguishes the draws of several levels."""
     _, which = np.unique(cluster_of, return_inverse=True)
     count = int(which.max()) + 1
     if count == 1 or not options.resamples:
@@ -51,9 +51,7 @@ def of_capacities(capacity: FloatArray, exceeded: NDArray[np.bool_], draws: Draw
 
 
 def of_stripes(levels: FloatArray, exceeded: Sequence[FloatArray], draws: Sequence[Draws]) -> Fragility:
-    """Return the fragility of counts at levels: `exceeded` and `draws` have an entry per level, 1 where a motion
-    exceeds the limit.
-    """
+    """Return the fragility of counts by level: `exceeded` (levels,) is 1 where a motion exceeds, `draws` as many."""
     rows = min(len(draw.weights) for draw in draws)  # none where the motions of a level are of one earthquake
     hits, runs = (np.array([[f(each) for each in exceeded]], dtype=np.float64) for f in (np.sum, np.size))
     fits = probit_fits(levels, hits, runs)

@@ -418,7 +418,7 @@ def intensity_of(
     ----------
     motion : Motion or Record
         The motion.
-    measure : {"scale", "pga", "sa_t1", "sa_avg"} or IntensityMeasure
+    measure : {"scale", "pga", "sa_t1", "sa_avg"} or IntensityMeasure, default "sa_t1"
         The measure; the remaining arguments are those of `IntensityMeasure` and are left out where one is given.
     period, damping, low, high, points
         As for `IntensityMeasure`.

@@ -160,8 +160,8 @@ class FragilityAnalysis(Result):
 
         Parameters
         ----------
-        given : {"intensity", "demand"}
-            What is given.
+        axis : {"intensity", "demand"}, default "intensity"
+            Quantity of the levels, at each of which the fractiles of the other are given.
         levels : array_like, optional
             Intensities or demands, positive and increasing; by default 40 up to the largest intensity to which all
             motions were scaled or exceed the limit, or the intensities of stripes; or up to 1.5 times the largest limit
@@ -184,7 +184,7 @@ class FragilityAnalysis(Result):
         Vamvatsikos and Cornell (2002), section 5. Between intensities that were solved curves are linear.
         """
         if not is_one_of(axis, ("intensity", "demand")):
-            raise refusal(InvalidOption, "given", "fractiles", "intensity or demand", brief(axis))
+            raise refusal(InvalidOption, "axis", "fractiles", "intensity or demand", brief(axis))
         if self.capacities.is_empty():
             requirement = "those of motions that are scaled to several intensities"
             raise refusal(InvalidOption, "analysis", "fractiles", requirement, self.method)
@@ -253,7 +253,7 @@ class FragilityAnalysis(Result):
         return tables
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the answer as plain values; null for what is not finite. Runs and curves are in the tables."""
+        """Return the answer as plain values; null for non-finite values. Runs and curves are in the tables."""
         document: dict[str, Any] = {
             "schema_version": SCHEMA_VERSION,
             "method": self.method,

@@ -107,9 +107,7 @@ SAMPLES_AT_ONCE: Final = 2**22
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """Models, motions and limits of an analysis, checked; `unit` is the intensity of each motion at scale 1, shape
-    (motions,).
-    """
+    """Models, motions and limits of an analysis, checked; `unit` (motions,) is the intensity of each at scale 1."""
 
     models: dict[str, Scene]
     motions: NamedMotions

@@ -298,7 +298,7 @@ def annual_rate(fragility: Lognormal | ArrayLike, hazard: HazardCurve, *, extrap
 
 
 def truncation_remarks(inner: float, below: float, above: float, hazard: HazardCurve) -> tuple[str, ...]:
-    """Return what is to be said of the parts beyond the ends of a hazard curve: nothing where they are small."""
+    """Return the remarks on the parts beyond the ends of a hazard curve: none where they are small."""
     remarks = []
     for part, end, motions in (
         (below, f"begins at {hazard.sa_g[0]:g} g", "weaker"),

@@ -138,7 +138,7 @@ class HazardCurve(Value, Card):
         Annual rates of exceedance (1/year), positive and strictly decreasing.
     period : float, optional
         Period of the spectral acceleration (s), where it is known.
-    label : str
+    label : str, optional
         What the curve is, as texts and figures name it.
 
     Attributes
@@ -217,7 +217,7 @@ class HazardCurve(Value, Card):
             rate, lambda, frequency, AFE or MAFE, in any case. A unit beside the name of the intensity must be g.
         period : float, optional
             Period of the spectral acceleration (s).
-        label : str
+        label : str, optional
             What the curve is; by default the name of the file.
 
         Raises
@@ -293,7 +293,7 @@ class HazardCurve(Value, Card):
         ----------
         factor : float
             Factor of the slopes: above 1 the strong motions become rarer.
-        about : float, default 1/475
+        pivot : float, default 1/475
             Annual rate at which the intensity stays as it is.
 
         Raises
@@ -302,7 +302,7 @@ class HazardCurve(Value, Card):
             A value is not positive, or the factor is so large that rates leave the range of doubles.
         """
         power = as_positive(factor, "factor", OWNER, InvalidOption)
-        fixed = as_positive(pivot, "about", OWNER, InvalidOption)
+        fixed = as_positive(pivot, "pivot", OWNER, InvalidOption)
         changed = fixed * (self.annual_rate / fixed) ** power
         return self.replace(rate=changed, label=f"{self.label or 'hazard'}, slopes x {power:g}")
 

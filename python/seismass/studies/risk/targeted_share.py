@@ -100,7 +100,7 @@ class RiskTargetedShare(Result):
     real, code, attached, model : float
         Annual rate (1/year) of the real building, and of the models with `code_share`, all goods, and `value` attached.
     excess : float
-        real / model - 1; zero but for rounding where the value is a root.
+        real / model - 1; zero except for rounding where the value is a root.
     code_share : float
         Share of the code's model.
     rates : polars.DataFrame
@@ -177,7 +177,7 @@ class RiskTargetedShare(Result):
         }
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything but the curve and the capacities as plain values; null for what is not finite."""
+        """Return everything but the curve and the capacities as plain values; null for non-finite values."""
         names = ["value", "kind", "roots", "interval", "confidence", "estimator", "real", "code", "attached", "model"]
         names += ["excess", "code_share", "remarks", "metadata"]
         document: dict[str, Any] = {"schema_version": SCHEMA_VERSION}
@@ -263,13 +263,13 @@ def risk_targeted_share(
         Intensity measure in g, the one that the hazard curve is of; see `seismass.fragility.IntensityMeasure`. By
         default Sa at the period of the hazard curve, or else at the first period of the building without goods. All
         models have the same.
-    damping : {"same", "ratio"}
+    damping : {"same", "ratio"}, default "same"
         Damping of the models, see `attached_scene`.
     code_share : float, default 0.25
         Share whose rate is reported as the code's.
     shares : array_like, optional
         Shares at which models are solved before roots are refined, from 0 to 1; by default 0, 0.05, ..., 1.
-    estimator : {"lognormal", "empirical"}
+    estimator : {"lognormal", "empirical"}, default "lognormal"
         Fragility of each model: lognormal through the capacities of the motions by maximum likelihood, or a step at
         each of them.
     extrapolate : bool, default False

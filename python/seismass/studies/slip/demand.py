@@ -175,7 +175,7 @@ class SlipDemand(Result):
         return {name: table for name, table in every.items() if table.height}
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything but the rows of single runs as plain values; null for what is not finite."""
+        """Return everything but the rows of single runs as plain values; null for non-finite values."""
         document = {
             "schema_version": SCHEMA_VERSION,
             "blocks": self.blocks.to_dicts(),
@@ -249,11 +249,11 @@ def slip_demand(
     measure, period
         Intensity measure of fragilities, as for `seismass.fragility.measure_for`: by default Sa (g) at the first period
         of the building without goods.
-    damping : {"same", "ratio"}
+    damping : {"same", "ratio"}, default "same"
         Damping of the models of the building alone and with all goods attached, see `attached_scene`.
     confidence : float, default 0.90
         Probability of intervals.
-    resamples, seed : int
+    resamples, seed : int, optional
         Bootstrap resamples over the motions, and their seed.
     threads : int, optional
         Number of threads of the runs for fragilities; default all cores. The result does not depend on it.

@@ -24,9 +24,7 @@ from seismass.studies.slip.squat import BlockSize, log_ratio
 def block_table(
     scene: Scene, motions: NamedMotions, runs: SlipRuns, confidence: float, resamples: int, seed: int
 ) -> pl.DataFrame:
-    """Return one row per block: its slip over the motions, that on the ground, and floor accelerations; see
-    `SlipDemand.blocks`.
-    """
+    """Return one row per block: slips over the motions and on the ground, accelerations; see `SlipDemand.blocks`."""
     slip = runs.or_infinite(runs.peak)
     residual = runs.or_infinite(np.abs(runs.residual))
     weights = _weights(motions, resamples, seed)

@@ -392,7 +392,7 @@ def findings(summary: pl.DataFrame, fractions: pl.DataFrame, code: str = "code")
 
 
 def _finite(row: dict[str, Any]) -> dict[str, Any]:
-    """The row with null for what is not finite, which JSON does not have."""
+    """The row with null for non-finite values, which JSON does not have."""
     return {name: None if isinstance(value, float) and not np.isfinite(value) else value for name, value in row.items()}
 
 

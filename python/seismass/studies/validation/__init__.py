@@ -168,7 +168,7 @@ def paper_scenes(
     ----------
     suite : Suite, optional
         As for `validate`.
-    springs : sequence of (float, int)
+    springs : sequence of (float, int), optional
         As for `section4`.
     progress : callable, optional
         As for `section4`.

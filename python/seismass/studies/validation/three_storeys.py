@@ -144,7 +144,7 @@ def section4(
     ----------
     components : sequence of Record
         Components of the Brawley record, unscaled, or a stand-in.
-    springs : sequence of (float, int)
+    springs : sequence of (float, int), optional
         Stiffness of friction springs over that of storey 1, and steps per sample interval; the stiffest takes most of
         the time.
     progress : callable, optional

@@ -163,8 +163,8 @@ def _rotation(titles: list[str], remarks: list[str]) -> tuple[str, str, str] | N
 
 
 def _uneven_line(lines: list[str], start: int) -> int | None:
-    """Return the first line (from 1), but for the last two, whose number of values is not the most usual. Fields that
-    touch are told apart by their points; the last line may be short, and zeros may follow.
+    """Return the first line (from 1), except the last two, whose number of values is not the most usual. Fields that
+    touch are separated at their points; the last line may be short, and zeros may follow.
     """
     counts = [max(line.count("."), len(line.split())) for line in lines[start:]]
     while counts and not counts[-1]:

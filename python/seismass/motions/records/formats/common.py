@@ -133,7 +133,7 @@ def last_digits(tokens: Sequence[str]) -> NDArray[np.float64]:
 
 
 def split_touching(token: str) -> list[str] | None:
-    """Return the fields of fixed width that touch in `token` ("-.24E-03-.23E-03"), or None. They are told apart by a
+    """Return the fields of fixed width that touch in `token` ("-.24E-03-.23E-03"), or None. They are separated at a
     sign of the second or an exponent of the first (sign and two digits); all else is ambiguous.
     """
     fields: list[str] = []

@@ -65,7 +65,7 @@ MISSING: Final = -999.0
 
 @dataclass(frozen=True)
 class _Raw:
-    """One channel as it stands in the file."""
+    """One channel, unconverted."""
 
     kind: str
     text: list[str]

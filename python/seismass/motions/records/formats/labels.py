@@ -50,9 +50,7 @@ def azimuth_of(component: str) -> float | None:
 
 
 def direction_remark(component: str, number: float | None, vertical_codes: tuple[int, ...]) -> str | None:
-    """Return a remark where a header's text and its integer (degrees or a code; None: missing) disagree on the
-    direction of a component.
-    """
+    """Return a remark where text and integer (degrees or a code) of a header disagree on the direction."""
     azimuth = azimuth_of(component)
     if number is None or (azimuth is None and not is_vertical(component)):
         return None
@@ -197,9 +195,7 @@ def _direction(words: str) -> str:
 
 
 def labels_of(header: list[str], columns: int) -> list[Label] | None:
-    """Return the labels of so many columns, from the last of the non-blank header lines that has as many; None where
-    none has.
-    """
+    """Return the labels of that many columns, from the last line of the header that has as many; None without one."""
     for line in reversed(header[-4:]):
         if len(line) > LINE_WIDTH or _PROSE.search(line):
             continue

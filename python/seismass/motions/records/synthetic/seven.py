@@ -9,7 +9,7 @@ Method
 3. Some motions carry a velocity pulse of Mavroeidis & Papageorgiou (`near_fault`).
 4. A taper and a baseline correction that ends the motion at rest at its starting place (`ends`).
 
-Stationary frequency content but for the pulse, one component, no source, path or site behind it.
+Stationary frequency content except for the pulse, one component, no source, path or site behind it.
 """
 
 from __future__ import annotations

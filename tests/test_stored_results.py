@@ -76,9 +76,9 @@ def test_a_process_that_works_on_the_same_has_a_folder_of_its_own(tmp_path: Path
 @pytest.mark.skipif(sys.platform != "linux", reason="the start of a process is read from /proc")
 def test_parts_of_a_killed_process_are_taken(tmp_path: Path) -> None:
     program = (
-        "import os, sys\nfrom pathlib import Path\nfrom seismass.base.stored_results import kept_folder\n"
+        "import os, sys\nfrom pathlib import Path\nfrom seismass.base.stored_results import result_store\n"
         "import polars as pl\n"
-        "with kept_folder(Path(sys.argv[1]), 'rows', 'a') as kept:\n"
+        "with result_store(Path(sys.argv[1]), 'rows', 'a') as kept:\n"
         "    kept.file('1', lambda: pl.DataFrame({'a': [1]}))\n    os.kill(os.getpid(), 9)\n"
     )
     subprocess.run([sys.executable, "-c", program, str(tmp_path)], check=False, timeout=60)
