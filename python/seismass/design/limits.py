@@ -315,8 +315,8 @@ _TABLES: Final = (
     ("is1893", "7.11.1.1", FROM_MEMORY, _DESIGN_FORCE, (("other", (0.004,) * 4, ""),)),
 )
 _LIMITS: Final = tuple(
-    DriftLimit(code_id, CODE_NAMES[code_id], structure, category, ratio, of, clause, status, note)
-    for code_id, clause, status, of, rows in _TABLES
+    DriftLimit(code_id, CODE_NAMES[code_id], structure, category, ratio, quantity, clause, status, note)
+    for code_id, clause, status, quantity, rows in _TABLES
     for structure, ratios, note in rows
     for category, ratio in zip(_CATEGORIES, ratios, strict=True)
 )

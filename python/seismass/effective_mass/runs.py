@@ -224,12 +224,12 @@ def _directions_apart(
     axes = {"x": (0,), "y": (1,)}.get(drift, (0, 1))
     total = len(scenes) * len(motions)
 
-    def told(first: int) -> Progress | None:
+    def progress_from(first: int) -> Progress | None:
         return None if progress is None else lambda done, _: progress((first + done) // len(axes), total)
 
     pairs = in_directions(scenes)
     parts = [
-        solve(pairs[axis], motions.direction(axis), threads=threads, progress=told(number * total))
+        solve(pairs[axis], motions.direction(axis), threads=threads, progress=progress_from(number * total))
         for number, axis in enumerate(axes)
     ]
     if len(parts) == 1:

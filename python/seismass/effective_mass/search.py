@@ -118,7 +118,7 @@ class Search:
 
     motions: NamedMotions
     options: Options
-    at: Callable[[float], tuple[Peaks, Peaks]]
+    peaks_at: Callable[[float], tuple[Peaks, Peaks]]
     scene_at: Callable[[float], Scene]
     above_one: Peaks | None = None
 
@@ -220,7 +220,7 @@ class Search:
         """Peaks of the real building and of the model at a share, from the grid where it is one of its shares."""
         on_grid = np.flatnonzero(self.options.fractions == share)
         if not len(on_grid):
-            return self.at(share)
+            return self.peaks_at(share)
         index = int(on_grid[0])
         return sliding.one(index if sliding.scenes > 1 else 0), model.one(index)
 
@@ -322,6 +322,8 @@ class _Difference:
     def __call__(self, share: float) -> float:
         if share not in self._known:
             statistic = self._search.options.statistic
-            sliding, model = (float(over_records(peaks.largest[0], statistic)) for peaks in self._search.at(share))
+            sliding, model = (
+                float(over_records(peaks.largest[0], statistic)) for peaks in self._search.peaks_at(share)
+            )
             self._known[share] = (model - sliding) / sliding
         return self._known[share]

@@ -372,26 +372,26 @@ def _batch(scenes: Any, motions: Any, pairs: ArrayLike | None) -> _Batch:
 class _SceneBatch:
     """Runs of scenes that exist as objects: those of `pairs`, or every scene under every motion."""
 
-    of: SceneRuns
+    scene_runs: SceneRuns
     pairs: IndexArray | None
 
     @property
     def total(self) -> int:
-        return len(self.of.scenes) * len(self.of.motions) if self.pairs is None else len(self.pairs)
+        return len(self.scene_runs.scenes) * len(self.scene_runs.motions) if self.pairs is None else len(self.pairs)
 
     def check(self) -> None:
         """Refuse motions that do not suit their scenes; every scene is solved under every motion, or those of pairs."""
-        if self.of.plane or any(isinstance(motion, tuple) for motion in self.of.motions):
-            self.of.check(self._rows(range(self.total)))
+        if self.scene_runs.plane or any(isinstance(motion, tuple) for motion in self.scene_runs.motions):
+            self.scene_runs.check(self._rows(range(self.total)))
 
     def _rows(self, runs: range) -> IndexArray:
         """Scene and motion of each run."""
         if self.pairs is not None:
             return self.pairs[runs.start : runs.stop]
-        return np.stack(np.divmod(np.arange(runs.start, runs.stop), max(len(self.of.motions), 1)), axis=1)
+        return np.stack(np.divmod(np.arange(runs.start, runs.stop), max(len(self.scene_runs.motions), 1)), axis=1)
 
     def solve(self, runs: range, options: _Options, progress: Progress | None) -> pl.DataFrame:
-        return self.of.table(self._rows(runs), **options, progress=progress)
+        return self.scene_runs.table(self._rows(runs), **options, progress=progress)
 
 
 @dataclass(frozen=True, slots=True)

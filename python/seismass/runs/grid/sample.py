@@ -72,7 +72,7 @@ class _Drawn:
     """Values of an axis at coordinates of the unit cube, of which it takes some."""
 
     dimensions: int
-    at: Callable[[FloatArray], Any]
+    values_at: Callable[[FloatArray], Any]
 
 
 def drawn_columns(
@@ -96,7 +96,7 @@ def drawn_columns(
     columns: dict[str, Any] = {}
     first = 0
     for name, item in drawn.items():
-        columns[name] = item.at(cube[:, first : first + item.dimensions])
+        columns[name] = item.values_at(cube[:, first : first + item.dimensions])
         first += item.dimensions
     if isinstance(columns.get("storeys"), tuple):
         columns["storeys"], columns["period"] = columns["storeys"]
@@ -134,7 +134,7 @@ def _per_block(name: str, value: Sequence[Any]) -> _Drawn:
     def at(u: FloatArray) -> FloatArray:
         columns, first = [], 0
         for item in items:
-            columns.append(np.broadcast_to(item.at(u[:, first : first + item.dimensions]), len(u)))
+            columns.append(np.broadcast_to(item.values_at(u[:, first : first + item.dimensions]), len(u)))
             first += item.dimensions
         return np.stack(columns, axis=1)
 

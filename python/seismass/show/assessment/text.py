@@ -41,35 +41,35 @@ def assessment_text(result: Assessment) -> str:
     return "\n".join(lines)
 
 
-def _told(label: str, text: str) -> list[str]:
+def _paragraph(label: str, text: str) -> list[str]:
     return textwrap.wrap(text, WIDTH, initial_indent=f"{label:10}", subsequent_indent=" " * 10)
 
 
 def _answer(result: Assessment) -> list[str]:
     answer = result.answer
     doubts = enumerate(answer.doubt_lines)
-    lines = [line for number, doubt in doubts for line in _told("ANSWER" if number == 0 else "", doubt)]
-    lines += _told("" if lines else "ANSWER", answer.statement)
+    lines = [line for number, doubt in doubts for line in _paragraph("ANSWER" if number == 0 else "", doubt)]
+    lines += _paragraph("" if lines else "ANSWER", answer.statement)
     for one, words in zip(answer.analyses, answer.pair, strict=True):
         lines += textwrap.wrap(f"{one.number}  {words}", WIDTH, initial_indent=" " * 10, subsequent_indent=" " * 13)
     for number, sentence in enumerate(answer.governs):
-        lines += _told("governs" if number == 0 else "", sentence)
+        lines += _paragraph("governs" if number == 0 else "", sentence)
     if answer.goods:
-        lines += _told("goods", f"present: {answer.goods}")
+        lines += _paragraph("goods", f"present: {answer.goods}")
     if answer.why:
-        lines += _told("why", answer.why)
+        lines += _paragraph("why", answer.why)
     if answer.design:
-        lines += _told("strength", answer.design)
-    lines += _told("motions", answer.motions)
+        lines += _paragraph("strength", answer.design)
+    lines += _paragraph("motions", answer.motions)
     if not result.effective:
         return lines
-    lines += _told("code", _code(result))
+    lines += _paragraph("code", _code(result))
     if answer.analyses:
         share = result.effective[SLIDING]
         unknown = [remark for remark in share.remarks if remark.startswith(RULE_UNKNOWN)]
         if unknown:
-            return [*lines, *_told("rule", f"not applied: {'; '.join(unknown)}")]
-        lines += _told(
+            return [*lines, *_paragraph("rule", f"not applied: {'; '.join(unknown)}")]
+        lines += _paragraph(
             "rule",
             f"eta = mu_k/C1 = {share.eta:.3f}, C1 = {share.base_shear_coefficient:.4f}, mean peak base shear of the "
             f"runs: {RULE} = {share.estimate:.2f} at best, {SAFE_RULE} = {share.conservative:.2f} to be safe",
