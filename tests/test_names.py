@@ -86,8 +86,10 @@ def silent(node: ast.FunctionDef) -> Iterator[str]:
     section = (ast.get_docstring(node) or "").partition("Parameters\n---")[2].partition("\n\nR")[0]
     lines = [line.split(" : ", 1) for line in section.splitlines() if line[:1].isalpha() and " : " in line]
     marked = {name: "optional" in kind or "default" in kind for names, kind in lines for name in names.split(", ")}
-    places, keywords = [*node.args.posonlyargs, *node.args.args], zip(node.args.kwonlyargs, node.args.kw_defaults)
-    having = places[len(places) - len(node.args.defaults) :] + [word for word, value in keywords if value is not None]
+    places, keywords = [*node.args.posonlyargs, *node.args.args], node.args.kwonlyargs
+    having = places[len(places) - len(node.args.defaults) :] + [
+        word for word, value in zip(keywords, node.args.kw_defaults, strict=True) if value is not None
+    ]
     yield from (f"{node.name}: {each.arg}" for each in having if not marked.get(each.arg, True))
 
 

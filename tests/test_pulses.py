@@ -20,10 +20,10 @@ from seismass.media.svg import save_figure
 from seismass.motions.pulses import (
     baker2007,
     baker2007_orientations,
+    extraction,
     pulse_indicator_2007,
     pulse_indicator_2014,
     shahi_baker2014,
-    wavelet,
 )
 from seismass.motions.pulses.extraction import scale_range
 from seismass.motions.records import Pair
@@ -117,13 +117,13 @@ def test_transform_of_a_wavelet_is_one_where_it_is(scale: int) -> None:
     the samples are coarse: 1.2 % at 21 samples.
     """
     at = 2000
-    history = wavelet.wavelet_history(SAMPLES, scale, at)
-    coefficients = wavelet.transform(history, scale)
+    history = extraction.wavelet_history(SAMPLES, scale, at)
+    coefficients = extraction.transform(history, scale)
     assert abs(int(np.argmax(np.abs(coefficients))) - at) <= 1
     assert coefficients[at] == pytest.approx(1.0, abs=0.015)
-    near = wavelet.transform_near(history, scale, at - 50, at + 50)
+    near = extraction.transform_near(history, scale, at - 50, at + 50)
     np.testing.assert_allclose(near, coefficients[at - 50 : at + 51], atol=1e-12)
-    assert wavelet.coefficient(history, scale, at) == pytest.approx(coefficients[at], abs=1e-12)
+    assert extraction.coefficient(history, scale, at) == pytest.approx(coefficients[at], abs=1e-12)
 
 
 def test_transform_is_the_integral_with_the_wavelet() -> None:
@@ -134,8 +134,8 @@ def test_transform_is_the_integral_with_the_wavelet() -> None:
     velocity = noise(1, 1.0)
     for scale, at in ((40, 10), (101, 700), (400, 5990)):
         expected = np.interp((np.arange(SAMPLES) - at) / scale + 3.5, places, psi, left=0.0, right=0.0) / scale**0.5
-        largest = np.abs(wavelet.transform(velocity, scale)).max()
-        assert wavelet.transform(velocity, scale)[at] == pytest.approx(velocity @ expected, abs=0.03 * largest)
+        largest = np.abs(extraction.transform(velocity, scale)).max()
+        assert extraction.transform(velocity, scale)[at] == pytest.approx(velocity @ expected, abs=0.03 * largest)
 
 
 @pytest.mark.parametrize("period", PERIODS)
@@ -303,7 +303,7 @@ def test_pulse_and_residual_are_the_velocity() -> None:
         np.testing.assert_allclose(candidate.velocity, expected, atol=1e-15)
         np.testing.assert_allclose(candidate.pulse + candidate.residual, expected, atol=1e-14)
         rebuilt = sum(
-            coefficient * wavelet.wavelet_history(SAMPLES, candidate.scale, round(centre / DT))
+            coefficient * extraction.wavelet_history(SAMPLES, candidate.scale, round(centre / DT))
             for coefficient, centre in zip(candidate.coefficients, candidate.centres, strict=True)
         )
         np.testing.assert_allclose(candidate.pulse, rebuilt, atol=1e-14)
@@ -463,8 +463,8 @@ def test_short_records_and_fine_steps_are_taken() -> None:
 
 
 def test_a_missing_package_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    wavelet._wavelet.cache_clear()
-    wavelet._integral.cache_clear()
+    extraction._wavelet.cache_clear()
+    extraction._integral.cache_clear()
     monkeypatch.setitem(sys.modules, "pywt", None)
     with pytest.raises(MissingPackage, match=r"must be installed \(pip install PyWavelets\)"):
         baker2007(record(noise(1, 0.3)))

@@ -321,9 +321,7 @@ class _Difference:
 
     def __call__(self, share: float) -> float:
         if share not in self._known:
-            statistic = self._search.options.statistic
-            sliding, model = (
-                float(over_records(peaks.largest[0], statistic)) for peaks in self._search.peaks_at(share)
-            )
+            statistic, both = self._search.options.statistic, self._search.peaks_at(share)
+            sliding, model = (float(over_records(peaks.largest[0], statistic)) for peaks in both)
             self._known[share] = (model - sliding) / sliding
         return self._known[share]
