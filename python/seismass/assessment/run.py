@@ -51,7 +51,6 @@ from seismass.model.friction import bound_factors
 from seismass.motions.motion import motion_names
 from seismass.motions.records import Pair, Pairs, Suite, builtin_pairs, builtin_suite
 from seismass.motions.spectra import TargetSpectrum
-from seismass.runs.opensees_export import write_opensees
 from seismass.runs.simulate import instruction_set
 
 FIXED_MODELS: Final = 4
@@ -274,6 +273,8 @@ def write_models(folder: str | os.PathLike[str], result: Assessment, suite: Suit
     """Write OpenSeesPy models of an assessed building, with goods that slide and of both analyses, and analysis.csv.
     `suite` holds its motions, unscaled.
     """
+    from seismass.runs.opensees_export import write_opensees
+
     share = next((one.share_of_goods_present for one in result.answer.analyses if one.model == ADVISED), None)
     scenes = compared_models(result.building, result.target, share)
     factors = np.ones(len(suite)) if result.scaling is None else result.scaling.factors

@@ -283,7 +283,8 @@ def as_array(
         array = np.asarray(value)
     except (TypeError, ValueError):
         raise refusal(kind, parameter, owner, requirement, brief(value)) from None
-    if (array.dtype.kind not in "iuf" and array.size) or np.ma.is_masked(value):
+    masked = hasattr(value, "_mask") and np.ma.is_masked(value)  # numpy.ma is slow to import
+    if (array.dtype.kind not in "iuf" and array.size) or masked:
         raise refusal(kind, parameter, owner, requirement, brief(value))
     if array.ndim != dimensions and not (or_number and array.ndim == 0):
         got = brief(value) if array.ndim == 0 else f"an array of shape {array.shape}"

@@ -11,9 +11,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal, cast, get_args
 
-from seismass.base.units import ACCELERATION_UNITS
-from seismass.model.springs import SHAPE_FIELDS
-from seismass.motions.scaling.suite import TARGET_HELP, target_of
+from seismass.motions.scaling import TARGET_HELP
 
 if TYPE_CHECKING:
     from seismass.model.codes import CodeFraction
@@ -58,6 +56,8 @@ def add_target_options(group: argparse._ActionsContainer, *, stand_in: bool = Tr
 
 def add_spring_options(group: argparse._ActionsContainer, names: Iterable[str] = SPRING_OPTIONS, of: str = "") -> None:
     """Add --overstrength, --second-slope and --third-slope, or those of them that are named; `of` precedes defaults."""
+    from seismass.model.springs import SHAPE_FIELDS
+
     for name in names:
         field = SHAPE_FIELDS[name]
         group.add_argument(
@@ -70,6 +70,8 @@ def add_spring_options(group: argparse._ActionsContainer, names: Iterable[str] =
 
 def add_reading_options(parser: argparse.ArgumentParser) -> None:
     """Add --dt, --unit, --format, --skip and --channel, which say of one file what it does not state."""
+    from seismass.base.units import ACCELERATION_UNITS
+
     parser.add_argument(
         "--dt", type=positive_option, metavar="S", help="time step of a record whose file does not state it, s"
     )
@@ -199,6 +201,7 @@ def add_opensees_option(parser: argparse.ArgumentParser, what: str) -> None:
 def read_target(args: argparse.Namespace) -> TargetSpectrum:
     """Return the target spectrum that the options describe; --target excludes the numbers of the ASCE 7 shape."""
     from seismass.base.errors import InvalidOption
+    from seismass.motions.scaling.suite import target_of
     from seismass.motions.spectra import DEFAULT_SD1_G, DEFAULT_SDS_G, DEFAULT_TL, TargetSpectrum
 
     parameters = {"sds": args.sds, "sd1": args.sd1, "tl": args.tl}

@@ -7,7 +7,6 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass.base.values import counted
 from seismass.commands.answer_output import write_figure
 from seismass.commands.frame import Command, show
 from seismass.commands.options import (
@@ -238,6 +237,7 @@ def _print(
     selection: Selection | None,
     remarks: tuple[str, ...],
 ) -> None:
+    from seismass.base.values import counted
     from seismass.show.motions import factor_lines, scaling_lines
 
     show(f"suite   {suite.name}: {counted(len(suite), 'motion')}")

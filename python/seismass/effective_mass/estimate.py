@@ -22,6 +22,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from typing import Any, Final, TypeAlias
 
@@ -35,6 +36,7 @@ from seismass.effective_mass.models import building_of, frame_mass, friction, fu
 from seismass.effective_mass.runs import LARGER, DriftMeasure, NamedMotions, Peaks
 from seismass.model.building import Building
 from seismass.model.scene import Scene
+from seismass.motions.motion import Motion
 from seismass.motions.spectra import corner_period, mean_spectrum
 
 ELASTIC_GROWTH: Final = 0.5
@@ -195,7 +197,7 @@ def rule_by_hand(scene: Scene, motions: NamedMotions, yields: bool) -> ByHand:
 
     elastic = response_spectrum_analysis(mass + load_mass, building.stiffness, spectrum, stiffness_matrix=walls)
     weight = full_weight(scene)
-    corner, period = corner_period(spectrum), float(building.periods[0])
+    corner, period = _corner_period(tuple(components)), float(building.periods[0])
     heights = height_ratio(load_mass, mass, building.heights)
     # Elastic walls set no limit to the base shear.
     strength = building.yield_shear[0] if walls is None else np.inf
@@ -213,6 +215,12 @@ def rule_by_hand(scene: Scene, motions: NamedMotions, yields: bool) -> ByHand:
     eta = friction(scene) / coefficient
     estimate = float(best_estimate(friction_factor(scene) * eta, power, heights))
     return ByHand(period, corner, yields, heights, power, coefficient, eta, estimate)
+
+
+@lru_cache(maxsize=1)
+def _corner_period(motions: tuple[Motion, ...]) -> float:
+    """T_c of the mean spectrum of a suite, of which an assessment asks several times."""
+    return corner_period(lambda periods: mean_spectrum(motions, np.ones(len(motions)), periods))
 
 
 def yield_drift(building: Building) -> FloatArray:

@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
 
 import numpy as np
-import polars as pl
 
 from seismass.base.errors import InvalidOption, SeismassError
 from seismass.base.files import open_regular, read_file, write_table, written_whole
@@ -24,6 +23,7 @@ from seismass.base.views import view
 from seismass.media.roles import CODE, SLIDE
 
 if TYPE_CHECKING:
+    import polars as pl
     from matplotlib.figure import Figure
 
 
@@ -57,11 +57,13 @@ def folder_for(out: Path) -> Iterator[None]:
 @contextmanager
 def as_written(folder: Path) -> Iterator[None]:
     """Refuse a folder whose documents and tables do not fit together, whatever error they cause."""
+    from polars.exceptions import PolarsError
+
     try:
         yield
     except SeismassError:
         raise
-    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, pl.exceptions.PolarsError) as error:
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, PolarsError) as error:
         got = f"{type(error).__name__}: {error}"
         requirement = "with documents and tables as seismass wrote them"
         raise refusal(InvalidOption, f"folder {folder}", "report", requirement, short(got)) from None

@@ -6,12 +6,13 @@ A row of which any part was not read in the code itself says so: check it in the
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, replace
-from typing import Final, Literal, TypeAlias, get_args
-
-import polars as pl
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias, get_args
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import brief, is_one_of, known_id, refusal
+
+if TYPE_CHECKING:
+    import polars as pl
 
 __all__ = [
     "AS_STATED",
@@ -368,6 +369,8 @@ def code_table() -> pl.DataFrame:
         Columns `code_id`, `code`, `use`, `fraction`, `low`, `high`, `clause`, `note`, `status`, `checked`, as
         `CodeFraction` has them.
     """
+    import polars as pl
+
     return pl.DataFrame([asdict(row) | {"checked": row.checked} for row in _ROWS])
 
 

@@ -46,7 +46,7 @@ MAX_ROWS: Final = 2**32 - 1
 MAX_THREADS: Final = _kernel.MAX_THREADS
 """Most threads of a batch, as the kernel has it: more than any machine has cores for."""
 
-MotionsLike: TypeAlias = MotionLike | Pair | Iterable[MotionLike | MotionPair]
+MotionsLike: TypeAlias = "MotionLike | Pair | Iterable[MotionLike | MotionPair]"
 """Motions of a batch: one or many; pairs, or tuples of two motions, are those of scenes in two directions."""
 Progress: TypeAlias = Callable[[int, int], object]
 """Called with (runs done, runs in all)."""

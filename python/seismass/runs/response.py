@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Protocol, TypedDict, cast
 
 import numpy as np
-import polars as pl
 from numpy.typing import ArrayLike, NDArray
 
 from seismass import _kernel
@@ -21,6 +20,7 @@ from seismass.motions.motion import Motion
 from seismass.runs.response_parts import BaseResults, RackResults, ResponseDocument
 
 if TYPE_CHECKING:
+    import polars as pl
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -412,6 +412,8 @@ class Response(RackResults, BaseResults, ResponseDocument):
             self._asked("events", "events", stored="event_time")
             listed = self.event_log
             require_polars("events", "event_log")
+            import polars as pl
+
             columns = {
                 "time": pl.Series(listed["time"], dtype=pl.Float64),
                 "kind": pl.Series(listed["kind"].tolist(), dtype=pl.String),

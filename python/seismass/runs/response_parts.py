@@ -9,7 +9,6 @@ import numpy as np
 
 from seismass.base.errors import InvalidScene
 from seismass.base.values import FloatArray, frozen, refusal
-from seismass.media.result import finite_values
 from seismass.model.scene import Scene, goods_names
 
 
@@ -243,6 +242,8 @@ class ResponseDocument:
         if building is not None:
             result["damping_matrix"] = building.damping_matrix.tolist()
         result["statistics"] = response.statistics
+        from seismass.media.result import finite_values
+
         finite: dict[str, Any] = finite_values(result)
         return finite
 

@@ -9,10 +9,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
 from itertools import takewhile
 from pathlib import Path
-from typing import Any, Final, Literal
+from typing import TYPE_CHECKING, Any, Final, Literal
 
 import numpy as np
-import polars as pl
 
 from seismass.base.errors import InvalidMotion, InvalidOption, RecordFormatError
 from seismass.base.values import FloatArray, Value, as_number, as_path, brief, is_one_of, printable, refusal
@@ -21,6 +20,9 @@ from seismass.motions.records.formats.labels import azimuth_of, is_vertical
 from seismass.motions.records.read import files_below, read_record, vertical_reason
 from seismass.motions.records.record import Record
 from seismass.motions.records.suite import Excluded, read_file
+
+if TYPE_CHECKING:
+    import polars as pl
 
 
 def between(first: float, second: float) -> float:
@@ -415,6 +417,8 @@ class Pairs(Card):
 
     def table(self) -> pl.DataFrame:
         """Return one row per pair: labels, files, azimuths (degrees), samples, dt (s), PGA (g) and remarks."""
+        import polars as pl
+
         rows = [
             {
                 "pair": number,

@@ -9,8 +9,7 @@ import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-
-import polars as pl
+from typing import TYPE_CHECKING
 
 from seismass.base.errors import InvalidMotion, RecordFormatError
 from seismass.base.files import open_regular
@@ -40,6 +39,9 @@ from seismass.motions.records.read import (
     wide_encoding,
 )
 from seismass.motions.records.record import Record
+
+if TYPE_CHECKING:
+    import polars as pl
 
 _SAID_BY_NAME = "files are read by name or from a list, where their units can be given"
 LARGEST_COLUMNS = 32 * 1024 * 1024
@@ -115,6 +117,8 @@ class Suite:
 
     def table(self) -> pl.DataFrame:
         """Return one row per file, those taken first, in order, then those left out with the reason."""
+        import polars as pl
+
         schema = {
             "taken": pl.Boolean,
             "name": pl.String,

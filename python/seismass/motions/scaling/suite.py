@@ -22,6 +22,7 @@ from seismass.base.values import (
     refusal,
 )
 from seismass.motions.motion import motion_names
+from seismass.motions.scaling import FORMS
 from seismass.motions.scaling.result import ScalingResult
 from seismass.motions.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 from seismass.motions.spectra.elastic import check_not_zero
@@ -145,20 +146,6 @@ def checked_range(ends: Any) -> tuple[float, float]:
     if not (0.0 < shortest < longest < np.inf):
         raise refusal(InvalidOption, "period_range", "scaling", requirement, brief(ends))
     return shortest, longest
-
-
-FORMS: Final = {
-    "asce7": "asce7:SDS:SD1[:TL]",
-    "asce7-22": "asce7-22:CSV",
-    "ec8": "ec8:TYPE:GROUND:AGR[:IMPORTANCE[:DAMPING]]",
-    "nzs1170": "nzs1170:CLASS:Z[:R[:KM]]",
-    "mean": "mean:RECORDS",
-}
-"""What may stand in place of a CSV, by name."""
-
-TARGET_HELP: Final = (
-    "target spectrum: a CSV of period (s) and Sa (g), or one of " + ", ".join(FORMS.values()) + "; accelerations in g"
-)
 
 
 ALIASES: Final = {"nzs": "nzs1170", "asce": "asce7"}

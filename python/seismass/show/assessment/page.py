@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import math
-import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -13,9 +11,7 @@ import polars as pl
 from markupsafe import Markup
 
 from seismass.assessment.models import ADVISED, BARE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
-from seismass.base.errors import InvalidOption
 from seismass.base.files import written_whole
-from seismass.base.values import as_path
 from seismass.effective_mass.estimate import BY_HAND, RULE, RULE_IN_WORDS, SAFE_RULE
 from seismass.effective_mass.result import KIND_TEXTS
 from seismass.media.page import (
@@ -28,7 +24,7 @@ from seismass.media.page import (
     table_html,
     text_html,
 )
-from seismass.media.result import PAGE, as_written, check_out, edited_files, write_folder
+from seismass.media.result import as_written, edited_files
 from seismass.media.roles import EFFECTIVE, ETA, LAMBDA, MU, OMEGA, OVER_MODEL, lettered, sentence_html
 from seismass.media.text_table import number_text
 from seismass.show.assessment.page_input import Pictures, in_motion_html, input_html, motions_html, names_of
@@ -36,16 +32,15 @@ from seismass.show.assessment.sheet import NOT_COVERED, sheet_html, signed_perce
 from seismass.show.assessment.tables import (
     ANIMATION,
     DOCUMENT,
+    TABLES,
     AssessmentTables,
     Fraction,
-    assessment_tables,
     read_assessment_tables,
 )
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from seismass.assessment.result import Assessment
     from seismass.runs.batch import Progress
 
 
@@ -358,39 +353,6 @@ def _provenance(result: AssessmentTables) -> list[Markup]:
     ]
 
 
-FIGURES: Final = ("effective_fraction", "drift", "slip", "spectrum")
-"""Names of all figures; those of an earlier assessment that are not written again are removed."""
-TABLES: Final = ("storeys", "governing", "analysis", "slip", "runs", "checks", "spectra", "curve", "scaling")
-"""Names of all tables, likewise."""
-
-
-def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
-    """Write text, tables (Parquet and CSV), assessment.json, figures (PNG and SVG) and the page to a folder; return the
-    files in that order. On an error no file is changed.
-    """
-    out = as_path(folder, "assessment", InvalidOption)
-    check_out(out, "assessment")
-    documents = {"assessment.txt": result.text + "\n", DOCUMENT: result.to_json() + "\n"}
-    drawn: dict[str, Figure] = {}
-    if figures:
-        tables = assessment_tables(result, animated=True)
-        if tables.animation is not None:
-            documents[ANIMATION] = json.dumps(tables.animation) + "\n"
-        drawn, drawings = _drawn(tables)
-        documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
-        documents[PAGE] = _page(tables, drawings)
-    ours = {PAGE, ANIMATION} | {f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")}
-    ours |= {f"{name}.{kind}" for name in TABLES for kind in ("parquet", "csv")}
-    return write_folder(
-        out,
-        tables=result.tables,
-        documents=documents,
-        figures=drawn,
-        kinds=("png",),
-        earlier=ours.__contains__,
-    )
-
-
 def write_assessment_page(
     folder: Path, target: Path, *, force: bool = False, progress: Progress | None = None
 ) -> tuple[str, ...]:
@@ -401,14 +363,16 @@ def write_assessment_page(
     edited = edited_files(folder, read, force=force)
     with as_written(folder):
         tables = read_assessment_tables(folder)
-        _, drawings = _drawn(tables, progress)
-        page = _page(tables, drawings, edited)
+        _, drawings = drawn_figures(tables, progress)
+        page = page_with(tables, drawings, edited)
     with written_whole(target) as temporary:
         temporary.write_text(page, encoding="utf-8")
     return edited
 
 
-def _drawn(tables: AssessmentTables, progress: Progress | None = None) -> tuple[dict[str, Figure], dict[str, str]]:
+def drawn_figures(
+    tables: AssessmentTables, progress: Progress | None = None
+) -> tuple[dict[str, Figure], dict[str, str]]:
     """Figures and their SVG texts, each drawn once for its file and for the page."""
     from seismass.media.svg import figure_svgs
     from seismass.show.assessment.figures import assessment_figures
@@ -417,7 +381,8 @@ def _drawn(tables: AssessmentTables, progress: Progress | None = None) -> tuple[
     return figures, figure_svgs(figures, progress)
 
 
-def _page(tables: AssessmentTables, drawings: dict[str, str], edited: tuple[str, ...] = ()) -> str:
+def page_with(tables: AssessmentTables, drawings: dict[str, str], edited: tuple[str, ...] = ()) -> str:
+    """Return the page with the SVG texts of its figures; those for phones are drawn."""
     from seismass.media.svg import figure_svgs
     from seismass.show.assessment.figures import PHONE_SIZE, assessment_figures
 

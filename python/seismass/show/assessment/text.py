@@ -1,19 +1,31 @@
-"""The page that an assessment prints: the answer first, then drifts, stability, slip, advice and every assumption."""
+"""The page that an assessment prints: the answer first, then drifts, stability, slip, advice and every assumption; and
+the folder that it writes.
+"""
 
 from __future__ import annotations
 
+import json
+import os
 import textwrap
-from typing import Any, Final
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
 
 import polars as pl
 
 from seismass.assessment.answer import analysis_table
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
 from seismass.assessment.result import Assessment
+from seismass.base.errors import InvalidOption
+from seismass.base.values import as_path
 from seismass.effective_mass import ByHand
 from seismass.effective_mass.estimate import RULE, RULE_UNKNOWN, SAFE_RULE
+from seismass.media.result import PAGE, check_out, write_folder
 from seismass.media.text_table import number_text, text_table
 from seismass.model.codes import NOT_CHECKED
+from seismass.show.assessment.tables import ANIMATION, DOCUMENT, FIGURES, TABLES, assessment_tables
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 WIDTH: Final = 108
 """Columns of the page."""
@@ -240,3 +252,32 @@ def _bullets(sentences: tuple[str, ...]) -> list[str]:
     for sentence in sentences:
         lines += textwrap.wrap(sentence, WIDTH, initial_indent="  - ", subsequent_indent="    ")
     return lines
+
+
+def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
+    """Write text, tables (Parquet and CSV), assessment.json, figures (PNG and SVG) and the page to a folder; return the
+    files in that order. On an error no file is changed.
+    """
+    out = as_path(folder, "assessment", InvalidOption)
+    check_out(out, "assessment")
+    documents = {"assessment.txt": result.text + "\n", DOCUMENT: result.to_json() + "\n"}
+    drawn: dict[str, Figure] = {}
+    if figures:
+        from seismass.show.assessment.page import drawn_figures, page_with
+
+        tables = assessment_tables(result, animated=True)
+        if tables.animation is not None:
+            documents[ANIMATION] = json.dumps(tables.animation) + "\n"
+        drawn, drawings = drawn_figures(tables)
+        documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
+        documents[PAGE] = page_with(tables, drawings)
+    ours = {PAGE, ANIMATION} | {f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")}
+    ours |= {f"{name}.{kind}" for name in TABLES for kind in ("parquet", "csv")}
+    return write_folder(
+        out,
+        tables=result.tables,
+        documents=documents,
+        figures=drawn,
+        kinds=("png",),
+        earlier=ours.__contains__,
+    )
