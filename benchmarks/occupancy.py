@@ -30,7 +30,7 @@ def share_of_design_load(tables: dict[str, Any], mu_factor: float = 1.0) -> tupl
     """Return the share of the design live load to attach, and the same at the ends of its interval over suites."""
     building = sm.read_building(tables)
     suite = sm.builtin_suite("forty")
-    scaling = sm.scaling.scale_asce7_10(suite, building.site_spectrum(), building.period(building.goods))
+    scaling = sm.scaling.scale_asce7_10(suite, building.site_spectrum(), building.period(building.goods_mass))
     motions = [record.scaled(float(factor)) for record, factor in zip(suite, scaling.factors, strict=True)]
     found = sm.effective_mass(building.scene(mu_factor=mu_factor), motions, resamples=500)
     low, high = found.suite_interval or (math.nan, math.nan)

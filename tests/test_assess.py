@@ -113,7 +113,10 @@ def test_attached_models_are_those_of_the_effective_fraction() -> None:
 def test_motions_are_scaled_for_the_period_with_goods(small: sm.Assessment) -> None:
     building = sm.read_building(tables())
     scaling = sm.scaling.scale_asce7_10(
-        sm.builtin_suite("forty"), sm.TargetSpectrum.asce7(1.0, 0.6), building.period(building.goods), between=False
+        sm.builtin_suite("forty"),
+        sm.TargetSpectrum.asce7(1.0, 0.6),
+        building.period(building.goods_mass),
+        between=False,
     )
     assert small.scaling is not None
     np.testing.assert_array_equal(small.scaling.factors, scaling.factors)
@@ -510,7 +513,9 @@ def test_the_governing_drift_is_the_largest_of_its_row(warehouse: sm.Assessment,
 
 def test_masses_of_both_analyses_are_those_of_the_models(warehouse: sm.Assessment) -> None:
     masses, building = warehouse.tables["analysis"], warehouse.building
-    np.testing.assert_allclose(1e3 * masses["mass_1_t"], building.mass + warehouse.advised * building.goods, rtol=1e-14)
+    np.testing.assert_allclose(
+        1e3 * masses["mass_1_t"], building.mass + warehouse.advised * building.goods_mass, rtol=1e-14
+    )
     np.testing.assert_allclose(1e3 * masses["mass_2_t"], building.mass, rtol=1e-14)
     np.testing.assert_allclose(masses["weight_1_kn"], G * masses["mass_1_t"].to_numpy(), rtol=1e-14)
     # Goods are 0.8 of the live load on floors 1 to 3, and the roof has none.
@@ -523,7 +528,9 @@ def test_the_share_for_strengths_is_that_of_the_design(small: sm.Assessment) -> 
     building = sm.read_building(tables())
     motions = [r.scaled(f) for r, f in zip(sm.builtin_suite("forty"), small.scaling.factors, strict=True)]
     alone = sm.effective_mass_of_design(
-        lambda share: building.structure(None, share * building.goods), building.scene(mu_factor=1.5).blocks, motions
+        lambda share: building.structure(None, share * building.goods_mass),
+        building.scene(mu_factor=1.5).blocks,
+        motions,
     )
     assert small.design is not None
     assert small.design.value == pytest.approx(alone.value, abs=1e-9)

@@ -17,14 +17,14 @@ RAISE = "raise the number in the same commit and say in CHANGELOG.md which featu
 
 # Ceilings are the present numbers: lower them where less is left. "top" holds the files beside the folders.
 LINES = """
-assessment 5224   base 1706   commands 3922   design 3403   design/scaling 834   effective_mass 2978   media 1607
-model 3282   motions 377   motions/matching 1480   motions/pulses 1066   motions/records 4027
-motions/records/formats 3853   motions/records/synthetic 1118   motions/scaling 808   motions/spectra 1794
-runs 3326   runs/grid 1564   show 3122   show/animation 1520   show/assessment 2024   show/explore 289
-show/plots 1836   show/study 2023   studies 8   studies/campaign 1612   studies/fragility 3171   studies/risk 1594
-studies/slip 1775   studies/study 1772   studies/validation 1227   top 86
+assessment 5204   base 1707   commands 3923   design 3412   design/scaling 834   effective_mass 3020   media 1605
+model 3285   motions 377   motions/matching 1478   motions/pulses 1053   motions/records 4005
+motions/records/formats 3853   motions/records/synthetic 1118   motions/scaling 810   motions/spectra 1785   runs 3337
+runs/grid 1564   show 3127   show/animation 1518   show/assessment 2037   show/explore 289   show/plots 1836
+show/study 2023   studies 8   studies/campaign 1604   studies/fragility 3172   studies/risk 1594   studies/slip 1776
+studies/study 1772   studies/validation 1227   top 85
 """
-FILES, SMALL_FILES, SMALL, LONGEST = 248, 8, 60, 600  # small: fewer than 60 lines, without __init__.py
+FILES, SMALL_FILES, SMALL, LONGEST = 246, 8, 60, 600  # small: fewer than 60 lines, without __init__.py
 DOCSTRING = 3  # lines of what no user can reach
 KERNEL_RUNS = """
 effective_mass/runs.py motions/spectra/inelastic.py runs/batch.py runs/batch_tables.py runs/simulate.py

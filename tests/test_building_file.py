@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 import seismass as sm
+from seismass.assessment.building import DesignRule
 from seismass.assessment.building_file import KEYS, US_KEYS, example_file
-from seismass.assessment.own_building import DesignRule
 
 G = 9.80665
 
@@ -47,7 +47,7 @@ def test_units_are_those_of_the_keys() -> None:
     building = sm.read_building(given(goods={"occupied": 0.7}))
     np.testing.assert_allclose(building.mass, [2.5e6 / G, 2.5e6 / G], rtol=1e-15)
     np.testing.assert_allclose(building.live_load, [3.0e6 / G, 0.0], rtol=1e-15)
-    np.testing.assert_allclose(building.goods, [2.1e6 / G, 0.0], rtol=1e-15)
+    np.testing.assert_allclose(building.goods_mass, [2.1e6 / G, 0.0], rtol=1e-15)
     np.testing.assert_array_equal(building.stiffness, [2.0e8, 2.0e8])
     assert building.yield_shear is not None
     np.testing.assert_array_equal(building.yield_shear, [9.0e5, 9.0e5])
@@ -139,7 +139,7 @@ def test_a_storey_replaces_the_default_in_any_of_its_units() -> None:
     assert building.mass[0] == 1000.0
     assert building.yield_shear is not None
     assert building.yield_shear.tolist() == [5.0, 9.0e5]
-    assert building.goods[1] == 3.5
+    assert building.goods_mass[1] == 3.5
     assert [(kind.contact, kind.mu_s) for kind in building.kinds] == [("timber-on-steel", 0.4), ("", 0.9)]
 
 
@@ -186,7 +186,7 @@ def test_without_heights_there_is_no_p_delta_and_no_limit() -> None:
 
 def test_floors_without_goods_need_no_friction() -> None:
     building = sm.read_building(given(goods={"friction": None}, storeys=[{"live_load_kpa": 0}, {"occupied": 0.0}]))
-    assert not building.goods.any()
+    assert not building.goods_mass.any()
     assert building.scene().blocks == ()
     assert building.present_share == 0.0
 
@@ -197,7 +197,7 @@ def test_the_example_is_read_and_names_every_key() -> None:
     building = sm.read_building(example_file())
     assert building.storeys == 4
     assert building.period() == pytest.approx(0.57, rel=1e-12)
-    assert building.goods[3] == 0.0
+    assert building.goods_mass[3] == 0.0
     for table in KEYS.values():
         for key in table:
             assert re.search(rf"\b{key}\b", text), key
@@ -390,7 +390,7 @@ def test_the_file_of_the_page_is_read(tmp_path: Path) -> None:
     (tmp_path / "warehouse.toml").write_text(text)
     building = sm.read_building(tmp_path / "warehouse.toml")
     assert building.storeys == 2
-    assert building.goods[0] == pytest.approx(0.8 * 7.2 * 1200.0 * 1e3 / G, rel=1e-14)
+    assert building.goods_mass[0] == pytest.approx(0.8 * 7.2 * 1200.0 * 1e3 / G, rel=1e-14)
 
 
 def test_us_units_are_the_same_building() -> None:

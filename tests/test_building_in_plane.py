@@ -76,7 +76,7 @@ def test_an_assessment_in_two_directions() -> None:
     assert "friction of goods is of the circle" in " ".join(result.text.split())
     # From 0.2 of the shorter first period to 1.5 of the longer, both with the goods attached.
     assert building.other is not None
-    ends = [0.2 * building.period(building.goods), 1.5 * building.other.period(building.goods)]
+    ends = [0.2 * building.period(building.goods_mass), 1.5 * building.other.period(building.goods_mass)]
     np.testing.assert_allclose(result.scaling.periods[[0, -1]], ends, rtol=1e-12)
     # One factor: the mean of the geometric means of both components' spectra is the target where it governs.
     spectra = [sm.response_spectrum([pair.first, pair.second], result.scaling.periods) for pair in scaled]

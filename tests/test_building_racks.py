@@ -48,7 +48,7 @@ def test_a_direction_stands_for_a_period() -> None:
     assert building.kinds[0].rack is not None
     assert building.kinds[0].rack.levels == DEFAULT_LEVELS
     assert "from memory" in building.kinds[0].rack.how
-    np.testing.assert_allclose(building.frames, DEFAULT_FRAME * building.goods * [1, 0, 1], rtol=1e-14)
+    np.testing.assert_allclose(building.frames, DEFAULT_FRAME * building.goods_mass * [1, 0, 1], rtol=1e-14)
     assert building.sliding == ((1, 0), (0, 1), (0, 2), (0, 3), (2, 1), (2, 2), (2, 3))
 
 
@@ -140,7 +140,7 @@ def test_an_assessment_with_racks() -> None:
     assert effective.value < 0.9
     advised = result.answer.analyses[0]
     assert effective.value <= advised.share_of_goods_present < effective.value + 0.05 + 1e-9
-    masses = building.mass + building.frames + advised.share_of_goods_present * building.goods
+    masses = building.mass + building.frames + advised.share_of_goods_present * building.goods_mass
     np.testing.assert_allclose(advised.mass, masses, rtol=1e-14)
     assert result.slip["goods"].to_list() == ["level 1", "level 2"] * 2
     assert result.slips["level"].to_list()[:4] == [1, 2, 1, 2]

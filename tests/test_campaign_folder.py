@@ -15,7 +15,7 @@ import polars as pl
 import pytest
 
 import seismass as sm
-from seismass.base.kept import write_checked
+from seismass.base.stored_results import write_checked
 from seismass.studies.campaign.manifest import part_path
 
 MOTIONS = [sm.Motion([2.0, -2.0, 2.0, 0.0], dt=0.1), sm.Motion([0.0, 3.0, -4.0, 1.0, 2.0], dt=0.1)]

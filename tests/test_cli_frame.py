@@ -20,9 +20,8 @@ import rich.progress
 import seismass as sm
 from seismass import cli, commands
 from seismass.commands.frame import Command, progress, seconds_left
-from seismass.commands.help_text import BAD_INPUT, FAILED, INTERRUPTED
 from seismass.commands.options import numbers_option
-from seismass.commands.parser import COMMANDS, joined_numbers, parse
+from seismass.commands.parser import BAD_INPUT, COMMANDS, FAILED, INTERRUPTED, joined_numbers, parse
 from seismass.media.text_table import fit_text
 
 FOLDER = Path(commands.__file__).parent

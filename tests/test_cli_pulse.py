@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from seismass.cli import main
-from seismass.motions.pulses import wavelet
+from seismass.motions.pulses import extraction
 
 DT, PERIOD = 0.01, 2.0
 TIME = np.arange(3000) * DT
@@ -133,8 +133,8 @@ def test_orientations_are_a_number(pair: list[str], capsys: pytest.CaptureFixtur
 def test_a_missing_package_is_one_line(
     pair: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    wavelet._wavelet.cache_clear()
-    wavelet._integral.cache_clear()
+    extraction._wavelet.cache_clear()
+    extraction._integral.cache_clear()
     monkeypatch.setitem(sys.modules, "pywt", None)
     assert main(["pulse", *pair]) == 2
     assert "pip install PyWavelets" in capsys.readouterr().err

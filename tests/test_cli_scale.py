@@ -129,11 +129,11 @@ def test_a_building_gives_period_and_pushover(tmp_path: Path, capsys: pytest.Cap
     file.write_text(capsys.readouterr().out)
     own = sm.read_building(file)
     target = sm.TargetSpectrum.asce7(0.8, 0.5)
-    loaded = with_mass(own.scene(target), own.goods).building
+    loaded = with_mass(own.scene(target), own.goods_mass).building
     expected = sm.scaling.scale_modal_pushover(SUITE, target, loaded)
     document = scaled(capsys, "--method", "mps", "--building", file, "--sds", 0.8, "--sd1", 0.5)
     assert [row["factor"] for row in document["motions"]] == expected.factors.tolist()
-    assert document["period"] == pytest.approx(own.period(own.goods), rel=1e-12)
+    assert document["period"] == pytest.approx(own.period(own.goods_mass), rel=1e-12)
     assert any(remark.startswith("P-Delta is left out") for remark in document["remarks"])
 
 

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from scipy.linalg import eigh
+from scipy.linalg import eigh, eigh_tridiagonal
 
 import seismass as sm
 from seismass.design import modal_correlation, response_spectrum_analysis, vibration_modes
@@ -144,3 +144,13 @@ def test_bad_arguments_are_refused(arguments: dict, error: type[sm.SeismassError
     given = {"mass": [1.0, 1.0], "stiffness": [1.0, 1.0], "spectrum": lambda t: t} | arguments
     with pytest.raises(error, match=re.escape(message)):
         response_spectrum_analysis(**given)
+
+
+@pytest.mark.parametrize("storeys", [1, 2, 3, 4, 7, 12, 25, 26, 40])
+def test_modes_have_the_bits_of_the_solver_of_tridiagonal_matrices(storeys):
+    random = np.random.default_rng(storeys)
+    for _ in range(20):
+        mass, stiffness = random.uniform(0.3, 3.0, (2, storeys)) * 10.0 ** random.uniform(2.0, 9.0, (2, 1))
+        beside = -stiffness[1:] / (np.sqrt(mass[1:]) * np.sqrt(mass[:-1]))
+        squares, _ = eigh_tridiagonal((stiffness + np.append(stiffness[1:], 0.0)) / mass, beside)
+        assert np.array_equal(vibration_modes(mass, stiffness).periods, 2.0 * np.pi / np.sqrt(squares))

@@ -41,7 +41,7 @@ def largest(motions: list[sm.Record]) -> np.ndarray:
     own = building(None)
     rows = []
     for share in DESIGN_SHARES:
-        scene = sm.Scene(own.structure(None, share * own.goods), own.scene().blocks)
+        scene = sm.Scene(own.structure(None, share * own.goods_mass), own.scene().blocks)
         rows.append([(sm.simulate(scene, motion).peak_drift / 4.0).max() for motion in motions])
     return np.array(rows)
 
@@ -49,7 +49,7 @@ def largest(motions: list[sm.Record]) -> np.ndarray:
 def test_without_a_collapse_it_is_that_of_the_public_function(motions: list[sm.Record]) -> None:
     own = building(None)
     alone = sm.effective_mass_of_design(
-        lambda share: own.structure(None, share * own.goods),
+        lambda share: own.structure(None, share * own.goods_mass),
         own.scene().blocks,
         motions,
         fractions=DESIGN_SHARES,
@@ -57,9 +57,9 @@ def test_without_a_collapse_it_is_that_of_the_public_function(motions: list[sm.R
     )
     found = design_share(own, None, 1.0, motions, None, None)
     assert found.reason == ""
-    assert found.found is not None
-    assert found.found.value == alone.value
-    assert found.found.statistic == "mean"
+    assert found.effective is not None
+    assert found.effective.value == alone.value
+    assert found.effective.statistic == "mean"
 
 
 def test_few_collapses_leave_a_share_by_the_median(motions: list[sm.Record], largest: np.ndarray) -> None:
@@ -68,9 +68,9 @@ def test_few_collapses_leave_a_share_by_the_median(motions: list[sm.Record], lar
     ratio = 0.5 * (worst[:, -1].max() + worst[:, -2].max())
     assert ((largest > ratio).sum(axis=1) <= 1).all()
     found = design_share(building(ratio), None, 1.0, motions, None, None)
-    assert found.found is not None
-    assert found.found.statistic == "median"
-    assert 0.0 <= found.found.value <= 1.0
+    assert found.effective is not None
+    assert found.effective.statistic == "median"
+    assert 0.0 <= found.effective.value <= 1.0
 
 
 def test_many_collapses_leave_none_and_say_which(motions: list[sm.Record], largest: np.ndarray) -> None:
@@ -80,7 +80,7 @@ def test_many_collapses_leave_none_and_say_which(motions: list[sm.Record], large
     fallen = (largest > ratio).sum(axis=1)
     many = DESIGN_SHARES[fallen > 1]
     found = design_share(building(ratio), None, 1.0, motions, None, None)
-    assert found.found is None
+    assert found.effective is None
     assert found.reason == (
         f"the building designed with shares of {many[0]:.2f} to {many[-1]:.2f} of the goods present collapses under up "
         f"to {fallen.max()} of 11 motions"

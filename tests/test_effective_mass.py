@@ -11,11 +11,12 @@ from typing import Any
 import numpy as np
 import polars as pl
 import pytest
+from scipy.optimize import brentq
 
 import seismass as sm
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.design import response_spectrum_analysis
-from seismass.effective_mass.models import interpolated
+from seismass.effective_mass.models import TOLERANCE, interpolated, refined_root
 from seismass.motions.spectra import mean_spectrum
 
 SUITE = sm.builtin_suite("seven")
@@ -560,3 +561,42 @@ def test_interval_over_suites_is_wider_at_each_end() -> None:
     assert f"over suites too {found.suite_interval[0]:.2f}" in found.text
     stuck = sm.effective_mass(case(3, 0.47, 1.0, 4.0, 50.0), MOTIONS, resamples=2)
     assert stuck.suite_interval == stuck.interval == (1.0, 1.0)
+
+
+SHAPES: dict[str, Callable[[float, float, float, float], float]] = {
+    "smooth": lambda x, root, slope, bend: slope * (x - root) + bend * (x - root) ** 3,
+    "steep": lambda x, root, slope, _: (x - root) / abs(1e-3 * slope),
+    "kinked": lambda x, root, slope, bend: abs(x - root) * slope - 0.1 * bend,
+    "with a jump": lambda x, root, slope, bend: slope * (x - root) + bend * (x > root),
+    "wavy": lambda x, root, slope, _: float(np.tanh(5.0 * slope * (x - root)) + 0.02 * np.sin(40.0 * x)),
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_roots_are_those_of_scipy_bit_for_bit_by_the_same_steps(shape: str) -> None:
+    """`brentq` with the same tolerances asks for the same shares, in any bracket of any function."""
+    random = np.random.default_rng(1)
+    asked: list[float] = []
+
+    def function(x: float) -> float:
+        asked.append(x)
+        return min(max(SHAPES[shape](x, *numbers), -1.0), 10.0)
+
+    compared = 0
+    while compared < 200:
+        numbers = (random.uniform(-0.5, 1.5), *random.normal(size=2))
+        low, high = sorted(random.uniform(0.0, 1.0, 2))
+        if function(low) * function(high) >= 0.0 or min(abs(function(low)), abs(function(high))) <= 1e-9:
+            continue
+        asked.clear()
+        expected = brentq(function, low, high, xtol=TOLERANCE, rtol=1e-14)
+        steps = asked.copy()
+        asked.clear()
+        assert refined_root(function, (low, high)) == expected
+        assert asked[2:] == steps  # the first two tell whether an end is the root
+        compared += 1
+
+
+def test_a_drift_that_is_no_number_is_an_error_and_no_root() -> None:
+    with pytest.raises(sm.errors.SimulationError, match=r"drift of building at share 0\.5\d* must be finite"):
+        refined_root(lambda x: -1.0 if x == 0.0 else 1.0 if x == 1.0 else float("nan"), (0.0, 1.0))

@@ -144,7 +144,7 @@ def test_curve_is_a_power_law_between_points() -> None:
     assert CURVE.slope(0.2) == pytest.approx(np.log(0.007 / 8e-4) / np.log(3.0), rel=1e-14)
     assert CURVE.rate(4.0, extrapolate=True) == pytest.approx(3e-6 * 2.0 ** -CURVE.slopes[-1], rel=1e-12)
     assert CURVE.probability(0.3, 50.0) == pytest.approx(1.0 - np.exp(-50.0 * 8e-4), rel=1e-13)
-    tilted = CURVE.tilted(1.2, about=1e-3)
+    tilted = CURVE.tilted(1.2, pivot=1e-3)
     assert tilted.intensity(1e-3) == pytest.approx(CURVE.intensity(1e-3), rel=1e-13)
     np.testing.assert_allclose(tilted.slopes, 1.2 * CURVE.slopes, rtol=1e-12)
     assert pickle.loads(pickle.dumps(CURVE)) == CURVE

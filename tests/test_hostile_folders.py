@@ -17,7 +17,7 @@ import pytest
 
 import seismass as sm
 from seismass.base.files import PREFIX, remove_left_behind, temporary_name
-from seismass.base.kept import kept_folder
+from seismass.base.stored_results import result_store
 from seismass.cli import main
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="links, users and modes of POSIX")
@@ -53,10 +53,10 @@ def test_no_pickle_of_a_folder_is_read(tmp_path: Path) -> None:
     ]
     for name in [*names, "owner"]:
         (folder / name).write_bytes(pickle.dumps(Bait(trace)))
-    with kept_folder(out, "study", digest) as kept:  # the owner is read, and is no name of a process that has ended
+    with result_store(out, "study", digest) as kept:  # the owner is read, and is no name of a process that has ended
         kept.of("runs", lambda: TABLE)
     (folder / "owner").unlink()
-    with kept_folder(out, "study", digest) as kept:
+    with result_store(out, "study", digest) as kept:
         for name in ("runs", "effective-1"):
             assert kept.of(name, lambda: TABLE).equals(TABLE)
     assert not trace.exists()
@@ -127,14 +127,14 @@ def test_only_what_was_kept_is_removed(tmp_path: Path) -> None:
 
 def test_a_folder_that_takes_the_name_meanwhile_is_not_touched(tmp_path: Path) -> None:
     before = files_of_the_victim(tmp_path / "victim")
-    with kept_folder(tmp_path, "rows", "a") as kept:
+    with result_store(tmp_path, "rows", "a") as kept:
         kept.file("0", lambda: TABLE)
         assert kept.folder is not None
         kept.folder.rename(tmp_path / "moved")
         kept.folder.symlink_to(tmp_path / "victim")
     assert content(tmp_path / "victim") == before
     kept.folder.unlink()
-    with kept_folder(tmp_path, "rows", "a"):
+    with result_store(tmp_path, "rows", "a"):
         kept.folder.rename(tmp_path / "moved too")
         shutil.copytree(tmp_path / "victim", kept.folder)
     assert content(kept.folder) == before
@@ -142,17 +142,17 @@ def test_a_folder_that_takes_the_name_meanwhile_is_not_touched(tmp_path: Path) -
 
 def test_a_copy_of_a_hidden_folder_counts_for_nothing(tmp_path: Path) -> None:
     """As an archive brings one: its parts may have any numbers, with digests that fit."""
-    with pytest.raises(KeyboardInterrupt), kept_folder(tmp_path, "rows", "a") as kept:
+    with pytest.raises(KeyboardInterrupt), result_store(tmp_path, "rows", "a") as kept:
         kept.file("0", lambda: pl.DataFrame({"a": [666.0]}))
         raise KeyboardInterrupt
     (tmp_path / "victim").mkdir()
     shutil.copytree(hidden(tmp_path, "rows"), hidden(tmp_path / "victim", "rows"))
-    with kept_folder(tmp_path / "victim", "rows", "a") as kept:
+    with result_store(tmp_path / "victim", "rows", "a") as kept:
         assert kept.of("0", lambda: TABLE).equals(TABLE)
 
 
 def test_a_new_hidden_folder_is_closed_to_others(tmp_path: Path) -> None:
-    with kept_folder(tmp_path, "rows", "a") as kept:
+    with result_store(tmp_path, "rows", "a") as kept:
         assert kept.folder is not None
         assert stat.S_IMODE(kept.folder.stat().st_mode) == 0o700
 

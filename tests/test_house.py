@@ -6,6 +6,7 @@ import shlex
 import subprocess
 import sys
 import tomllib
+from collections.abc import Sequence
 from importlib import metadata
 from pathlib import Path
 
@@ -60,6 +61,47 @@ def test_import_leaves_what_is_slow_to_import_for_when_it_is_used() -> None:
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split()
     assert {"numpy", "polars"} <= set(found)
     assert not {"scipy", "matplotlib", "pywt"} & set(found)
+
+
+HEAVY = ("polars", "scipy", "matplotlib", "PIL", "jinja2", "pywt", "rich")
+CHAIN = "sm.Building.uniform(2, 0.6, yield_shear_over_weight=[0.24, 0.20]), sm.blocks_on_floors([1, 0], mu=0.2)"
+SHAKEN = "sm.Motion([2.0, 2.0, -3.0, 0.0], dt=0.1)"
+RACKED = "racks=[sm.Rack(1, 1, level_mass_ratio=[0.1], period=0.5, blocks=[sm.RackBlock(1, mass_ratio=0.2, mu=0.2)])]"
+PROGRAMS = {
+    "a chain": f"sm.simulate(sm.Scene({CHAIN}), {SHAKEN}, histories=True, energy=True).drift",
+    "a built-in record": f"sm.simulate(sm.Scene({CHAIN}), sm.builtin_record('synthetic-1').scaled(1.5)).peak_drift",
+    "a record of its own": f"sm.simulate(sm.Scene({CHAIN}), sm.Record([1.0, 2.0], 0.1)).counts",
+    "a rack": f"sm.simulate(sm.Scene({CHAIN}, {RACKED}), {SHAKEN}).event_log",
+    "goods on the ground": f"sm.simulate(sm.Scene(None, [sm.Block(0, mass=1.0, mu=0.1)]), {SHAKEN}).peak_slip",
+    "two directions": f"sm.simulate(sm.Scene({CHAIN}, other_direction=True), ({SHAKEN}, {SHAKEN})).counts",
+    "a scene file": (
+        "from seismass.runs.scene_file import example_scene; file = sm.read_scene(example_scene()); "
+        "sm.simulate(file.scene, file.motion)"
+    ),
+    "periods": "sm.design.vibration_modes([1.0, 2.0], [3.0, 4.0]).periods",
+    "a code": "sm.codes.code_fraction('asce7-10', 'storage').fraction",
+    "parsers": "[parser.build_parser(name) for name in parser.COMMANDS]",
+}
+
+
+@pytest.mark.parametrize("program", PROGRAMS.values(), ids=PROGRAMS)
+def test_what_makes_no_table_and_no_figure_imports_nothing_for_them(program: str) -> None:
+    """One run, its peaks and histories, a scene file, and the parser of any command."""
+    assert imported(f"import seismass as sm; from seismass.commands import parser; {program}", HEAVY) == []
+
+
+def test_an_assessment_without_figures_imports_nothing_for_them(tmp_path: Path) -> None:
+    (tmp_path / "own.toml").write_text(run_python("-m", "seismass", "building", "--example"), encoding="utf-8")
+    words = [str(tmp_path / "own.toml"), "--suite", "seven", "--no-figures", "--out", str(tmp_path / "own")]
+    program = f"from seismass.cli import main; assert main(['building', *{words!r}]) == 0"
+    assert imported(program, HEAVY) == ["polars"]
+    assert (tmp_path / "own" / "storeys.csv").is_file()
+
+
+def imported(program: str, packages: Sequence[str]) -> list[str]:
+    """Those of some packages that a program imports in a process of its own."""
+    said = run_python("-c", f"import sys; {program}\nprint('', *{packages!r} & sys.modules.keys())")
+    return said.splitlines()[-1].split()
 
 
 @pytest.mark.parametrize("page", ["usage.md", "question.md", "grid.md", "campaign.md"])

@@ -13,19 +13,19 @@ import seismass as sm
 from seismass.assessment.building_file import example_file
 from seismass.media.page import LIMITS, MOST_STOREYS
 from seismass.show import explore
-from seismass.show.assessment.page_input import OwnCase, own_case
+from seismass.show.assessment.page_input import Outcome, live_case
 from seismass.show.assessment.tables import assessment_tables
 
 SCRIPT = (Path(explore.__file__).parent / "templates" / "case.js").read_text(encoding="utf-8")
 
 
-def case_of(**changes: Any) -> OwnCase:
+def case_of(**changes: Any) -> Outcome:
     """What the live page opens of the example, its tables changed as told; the motions do not enter."""
     tables = tomllib.loads(example_file().read_text(encoding="utf-8"))
     for table, values in changes.items():
         tables[table] = values if table == "storeys" else {**tables[table], **values}
     motions = [record.with_duration(4.0) for record in sm.builtin_suite("forty")[:3]]
-    return own_case(assessment_tables(sm.assess(tables, motions, mu_factors=(1.0, 1.0), resamples=2)))
+    return live_case(assessment_tables(sm.assess(tables, motions, mu_factors=(1.0, 1.0), resamples=2)))
 
 
 def test_ranges_are_those_of_the_page() -> None:
@@ -57,4 +57,4 @@ def test_the_example_is_opened_and_its_differences_are_said() -> None:
     ],
 )
 def test_what_cannot_be_expressed_is_said(changes: dict[str, Any], reason: str) -> None:
-    assert case_of(**changes) == OwnCase(None, (reason,), ())
+    assert case_of(**changes) == Outcome(None, (reason,), ())

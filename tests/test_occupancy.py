@@ -98,7 +98,7 @@ def test_the_tables_are_printed_and_stand_in_the_docs(capsys: pytest.CaptureFixt
 def test_a_floor_is_occupied_as_surveys_say() -> None:
     """3.5 kPa whatever the design load; the share of the table where no area is known; never above the design load."""
     building = sm.read_building(given(goods={"occupancy": "storage, sustained"}))
-    assert building.goods[0] == pytest.approx(3.5e3 * 500.0 / G, rel=1e-14)
+    assert building.goods_mass[0] == pytest.approx(3.5e3 * 500.0 / G, rel=1e-14)
     # sqrt(2.5^2 + 6.9^2 100/500)/6.0 = 0.66.
     assert building.kinds[0].presence.startswith("+/- 0.66 of the design live load, by storage, sustained (3.5 kPa)")
     loads = given(
@@ -154,7 +154,7 @@ def test_bolted_goods_are_mass_and_loose_ones_slide_each_by_its_friction() -> No
     load = 3.0e6 / G
     np.testing.assert_allclose(building.mass, 2.5e6 / G + 0.3 * load, rtol=1e-14)
     np.testing.assert_allclose(building.live_load, 0.7 * load, rtol=1e-14)
-    np.testing.assert_allclose(building.goods, (0.2 + 0.3) * load, rtol=1e-14)
+    np.testing.assert_allclose(building.goods_mass, (0.2 + 0.3) * load, rtol=1e-14)
     np.testing.assert_allclose(building.bolted, 0.3 * load, rtol=1e-14)
     scene = building.scene(mu_factor=1.5)
     np.testing.assert_allclose(scene.block_mass, [0.2 * load, 0.3 * load], rtol=1e-14)

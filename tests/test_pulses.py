@@ -20,10 +20,10 @@ from seismass.media.svg import save_figure
 from seismass.motions.pulses import (
     baker2007,
     baker2007_orientations,
+    extraction,
     pulse_indicator_2007,
     pulse_indicator_2014,
     shahi_baker2014,
-    wavelet,
 )
 from seismass.motions.pulses.extraction import scale_range
 from seismass.motions.records import Pair
@@ -117,13 +117,13 @@ def test_transform_of_a_wavelet_is_one_where_it_is(scale: int) -> None:
     the samples are coarse: 1.2 % at 21 samples.
     """
     at = 2000
-    history = wavelet.wavelet_history(SAMPLES, scale, at)
-    coefficients = wavelet.transform(history, scale)
+    history = extraction.wavelet_history(SAMPLES, scale, at)
+    coefficients = extraction.transform(history, scale)
     assert abs(int(np.argmax(np.abs(coefficients))) - at) <= 1
     assert coefficients[at] == pytest.approx(1.0, abs=0.015)
-    near = wavelet.transform_near(history, scale, at - 50, at + 50)
+    near = extraction.transform_near(history, scale, at - 50, at + 50)
     np.testing.assert_allclose(near, coefficients[at - 50 : at + 51], atol=1e-12)
-    assert wavelet.coefficient(history, scale, at) == pytest.approx(coefficients[at], abs=1e-12)
+    assert extraction.coefficient(history, scale, at) == pytest.approx(coefficients[at], abs=1e-12)
 
 
 def test_transform_is_the_integral_with_the_wavelet() -> None:
@@ -134,8 +134,8 @@ def test_transform_is_the_integral_with_the_wavelet() -> None:
     velocity = noise(1, 1.0)
     for scale, at in ((40, 10), (101, 700), (400, 5990)):
         expected = np.interp((np.arange(SAMPLES) - at) / scale + 3.5, places, psi, left=0.0, right=0.0) / scale**0.5
-        largest = np.abs(wavelet.transform(velocity, scale)).max()
-        assert wavelet.transform(velocity, scale)[at] == pytest.approx(velocity @ expected, abs=0.03 * largest)
+        largest = np.abs(extraction.transform(velocity, scale)).max()
+        assert extraction.transform(velocity, scale)[at] == pytest.approx(velocity @ expected, abs=0.03 * largest)
 
 
 @pytest.mark.parametrize("period", PERIODS)
@@ -147,7 +147,7 @@ def test_a_wavelet_is_found_at_its_period(period: float) -> None:
     for result in (single, both):
         assert result.is_pulse
         assert result.period == pytest.approx(period, rel=0.003, abs=1.4 * DT)
-        assert result.chosen.time == pytest.approx(4.0 + 2.0 * period, abs=0.02 * period)
+        assert result.primary.time == pytest.approx(4.0 + 2.0 * period, abs=0.02 * period)
         assert result.energy_ratio < 0.01
     assert both.angle == pytest.approx(30.0, abs=1e-3)
 
@@ -202,13 +202,13 @@ def test_a_late_pulse_is_refused(period: float) -> None:
     for velocity, arrives in ((early, True), (late, False)):
         single, both = baker2007(record(velocity)), shahi_baker2014(*pair(velocity, across, 10.0))
         for result in (single, both):
-            assert result.chosen.early is arrives
+            assert result.primary.early is arrives
             assert result.is_pulse is arrives
     assert single.indicator > 0.85
     assert both.indicator > 0.0
     assert "arrives late" in single.text
     assert both.period is None
-    assert any("arrives late" in reason for reason in both.chosen.reasons)
+    assert any("arrives late" in reason for reason in both.primary.reasons)
 
 
 def test_early_is_a_record_below_its_share_at_the_time_of_the_pulse() -> None:
@@ -223,8 +223,8 @@ def test_early_is_a_record_below_its_share_at_the_time_of_the_pulse() -> None:
         bell = np.where(np.abs(x) < 1.0, 0.5 * (1.0 + np.cos(np.pi * x)) * np.cos(2.0 * np.pi * x), 0.0)
         velocity = 0.6 * bell + rng.uniform(0.05, 0.3) * rng.standard_normal(60) * np.exp(-0.02 * samples)
         made = sm.Record(np.gradient(velocity, dt), dt)
-        single = baker2007(made).chosen
-        both = shahi_baker2014(made, sm.Record(1e-3 * np.gradient(bell, dt), dt)).chosen
+        single = baker2007(made).primary
+        both = shahi_baker2014(made, sm.Record(1e-3 * np.gradient(bell, dt), dt)).primary
         assert single.early is bool(single.energy_before < 0.20)
         assert both.early is bool(both.energy_before < 0.17)
         # The last sample at which the pulse has at most 5 %, and what the record has there.
@@ -249,7 +249,7 @@ def test_a_small_pulse_is_none() -> None:
     assert not small.is_pulse
     assert not small.ambiguous
     assert small.indicator == pytest.approx(large.indicator, rel=1e-12)
-    assert small.chosen.reasons == ("peak velocity 29.9 cm/s is not above 30 cm/s",)
+    assert small.primary.reasons == ("peak velocity 29.9 cm/s is not above 30 cm/s",)
 
 
 def test_size_and_sign_do_not_move_the_pulse() -> None:
@@ -303,7 +303,7 @@ def test_pulse_and_residual_are_the_velocity() -> None:
         np.testing.assert_allclose(candidate.velocity, expected, atol=1e-15)
         np.testing.assert_allclose(candidate.pulse + candidate.residual, expected, atol=1e-14)
         rebuilt = sum(
-            coefficient * wavelet.wavelet_history(SAMPLES, candidate.scale, round(centre / DT))
+            coefficient * extraction.wavelet_history(SAMPLES, candidate.scale, round(centre / DT))
             for coefficient, centre in zip(candidate.coefficients, candidate.centres, strict=True)
         )
         np.testing.assert_allclose(candidate.pulse, rebuilt, atol=1e-14)
@@ -315,12 +315,12 @@ def test_pulse_and_residual_are_the_velocity() -> None:
 def test_directions_are_from_north_where_the_records_say_so() -> None:
     velocity, across = 0.6 * bell_pulse(2.5, 8.0), 0.01 * bell_pulse(1.0, 9.0)
     first, second = pair(velocity, across, 30.0)
-    assert shahi_baker2014(first, second).chosen.azimuth is None
+    assert shahi_baker2014(first, second).primary.azimuth is None
     right = shahi_baker2014(first.replace(azimuth=225.0), second.replace(azimuth=315.0))
     left = shahi_baker2014(first.replace(azimuth=225.0), second.replace(azimuth=135.0))
     assert right.angle == pytest.approx(30.0, abs=0.5)
-    assert right.chosen.azimuth == pytest.approx((225.0 + right.angle) % 180.0, abs=1e-9)
-    assert left.chosen.azimuth == pytest.approx((225.0 - left.angle) % 180.0, abs=1e-9)
+    assert right.primary.azimuth == pytest.approx((225.0 + right.angle) % 180.0, abs=1e-9)
+    assert left.primary.azimuth == pytest.approx((225.0 - left.angle) % 180.0, abs=1e-9)
     with pytest.raises(InvalidMotion, match=r"azimuths of pair .* must be at right angles .*; got 225 and 270"):
         shahi_baker2014(first.replace(azimuth=225.0), second.replace(azimuth=270.0))
 
@@ -335,12 +335,12 @@ def test_orientations_are_single_components() -> None:
             acceleration=first.acceleration * math.cos(angle) + second.acceleration * math.sin(angle)
         )
         alone = baker2007(turned)
-        assert scan.results[place].chosen.scale == alone.chosen.scale
+        assert scan.results[place].primary.scale == alone.primary.scale
         assert scan.results[place].indicator == pytest.approx(alone.indicator, rel=1e-6)
-        assert scan.results[place].chosen.kind == alone.chosen.kind
+        assert scan.results[place].primary.kind == alone.primary.kind
     table = scan.table()
     assert table.height == 12
-    assert table["kind"].to_list() == [one.chosen.kind for one in scan.results]
+    assert table["kind"].to_list() == [one.primary.kind for one in scan.results]
     assert scan.pulses == (table["kind"] == "pulse").sum()
     assert 0 < scan.pulses < 12
     assert scan.strongest.is_pulse
@@ -369,7 +369,7 @@ def test_figures_show_what_they_say(tmp_path: Path) -> None:
     assert shown == [
         f"{name}, peak {100.0 * np.abs(history).max():.1f} cm/s"
         for name, history in (
-            ("velocity", result.chosen.velocity),
+            ("velocity", result.primary.velocity),
             ("extracted pulse", result.pulse),
             ("residual", result.residual),
         )
@@ -386,7 +386,7 @@ def test_components_of_unlike_length_are_cut_and_it_is_said() -> None:
     first, second = pair(0.6 * bell_pulse(2.5, 8.0), noise(6, 0.25), 35.0)
     shorter = second.replace(acceleration=second.acceleration[:-30])
     result = shahi_baker2014(first, shorter)
-    assert len(result.chosen.velocity) == SAMPLES - 30
+    assert len(result.primary.velocity) == SAMPLES - 30
     assert "first cut to the 5970 samples of its pair, from 6000" in result.remarks
     assert "remark: first cut to the 5970 samples" in result.text
 
@@ -437,7 +437,7 @@ def test_the_shortest_records_are_judged(samples: int, dt: float) -> None:
     for result in (baker2007(first), shahi_baker2014(first, second)):
         assert np.isfinite(result.indicator)
         assert 1 <= len(result.candidates) <= 5
-        doubtful = result.chosen.period > 0.5 * (samples - 1) * dt
+        doubtful = result.primary.period > 0.5 * (samples - 1) * dt
         assert any("is above half the record" in remark for remark in result.remarks) == doubtful
 
 
@@ -463,8 +463,8 @@ def test_short_records_and_fine_steps_are_taken() -> None:
 
 
 def test_a_missing_package_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    wavelet._wavelet.cache_clear()
-    wavelet._integral.cache_clear()
+    extraction._wavelet.cache_clear()
+    extraction._integral.cache_clear()
     monkeypatch.setitem(sys.modules, "pywt", None)
     with pytest.raises(MissingPackage, match=r"must be installed \(pip install PyWavelets\)"):
         baker2007(record(noise(1, 0.3)))

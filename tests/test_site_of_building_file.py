@@ -20,8 +20,7 @@ import seismass as sm
 import seismass.assessment
 import seismass.studies.risk.targeted_share
 from seismass.cli import main
-from seismass.commands.help_text import FAILED
-from seismass.commands.parser import COMMANDS
+from seismass.commands.parser import COMMANDS, FAILED
 from seismass.studies.fragility.hunt import exact_capacities
 from seismass.studies.fragility.run import setting_of
 
@@ -106,7 +105,7 @@ def in_words(case: Case) -> str:
 
 def shared_by_building(case: Case, *_: Any) -> None:
     """ASCE 7-10 for T with the goods attached: the method by itself, in two directions over both ranges."""
-    periods = [each.period(case.own.goods) for each in (case.own, case.own.other) if each is not None]
+    periods = [each.period(case.own.goods_mass) for each in (case.own, case.own.other) if each is not None]
     periods = [0.8] if case.own.scaling_period else periods
     target = case.own.site_spectrum()
     within = (0.2 * min(periods) / max(periods), 1.5)
@@ -202,7 +201,7 @@ def shared_by_risk(case: Case, capsys: pytest.CaptureFixture[str], monkeypatch: 
 def shared_by_scale(case: Case, capsys: pytest.CaptureFixture[str], _: Any) -> None:
     words = ("scale", "--method", "mps", "--building", case.file, "--records", case.records, "--json")
     document = json.loads(printed(capsys, *words))
-    assert document["period"] == pytest.approx(case.own.period(case.own.goods), rel=1e-12)
+    assert document["period"] == pytest.approx(case.own.period(case.own.goods_mass), rel=1e-12)
     assert document["target"] == case.answer.target.label
 
 

@@ -104,13 +104,13 @@ class Golden:
         omega, shapes = modes(mass, stiffness)
         self.damping = (mass[:, None] * shapes) @ np.diag(2.0 * DAMPING * omega) @ (mass[:, None] * shapes).T
         self.k = k
-        self.goods, self.mass = goods, mass
+        self.goods_mass, self.mass = goods, mass
 
     def design(self, factors: np.ndarray) -> dict[str, np.ndarray]:
         """V_e (N) of each occupancy: square root of the sum of squares of the modal storey shears."""
         found = {}
         for name, share in SHARES.items():
-            mass = self.mass + share * self.goods
+            mass = self.mass + share * self.goods_mass
             omega, shapes = modes(mass, np.full(STOREYS, self.k))
             ordinates = factors @ spectrum(self.motions, self.dt, 2.0 * np.pi / omega) / len(factors)
             forces = mass[:, None] * shapes * (mass @ shapes) * ordinates
@@ -122,8 +122,8 @@ class Golden:
         """Peak drifts and slips (m), shape (occupancies, R, models, motions, storeys), by a leapfrog."""
         runs = list(product(SHARES, R, MODELS, range(len(self.motions))))
         attached = np.array([{"real": 0.0, "code": SHARES[name], "attached": 1.0}[model] for name, _, model, _ in runs])
-        mass = self.mass + attached[:, None] * self.goods
-        block = np.array([model == "real" for _, _, model, _ in runs])[:, None] * self.goods
+        mass = self.mass + attached[:, None] * self.goods_mass
+        block = np.array([model == "real" for _, _, model, _ in runs])[:, None] * self.goods_mass
         strength = np.array(
             [np.full(STOREYS, np.inf) if factor == 1.0 else design[name] / factor for name, factor, *_ in runs]
         )

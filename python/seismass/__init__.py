@@ -8,7 +8,7 @@ At the top stands what a first hour needs. The rest is in modules: `records`, `s
 import lazy_loader
 
 from seismass import _kernel
-from seismass.base import forks, views
+from seismass.base import fork_check, views
 
 # Names are those of __init__.pyi. NumPy, Polars and matplotlib are imported when a name needs them: a command that
 # prints its help does not wait for them.
@@ -19,4 +19,4 @@ __version__ = _kernel.VERSION
 # Values are declared below what shows them; this is where the declarations find it.
 views.made_in("seismass.show")
 
-del forks, lazy_loader, views  # `forks` watches for forks from here on
+del fork_check, lazy_loader, views  # `fork_check` watches for fork_check from here on

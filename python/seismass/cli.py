@@ -9,8 +9,7 @@ import sys
 from collections.abc import Sequence
 
 from seismass.base.errors import SeismassError, SimulationError
-from seismass.commands.help_text import BAD_INPUT, DONE, FAILED, INTERRUPTED
-from seismass.commands.parser import parse
+from seismass.commands.parser import BAD_INPUT, DONE, FAILED, INTERRUPTED, parse
 
 
 def _make_output_safe() -> None:

@@ -87,7 +87,7 @@ def synthetic_table() -> str:
     rows = []
     for period in SYNTHETIC_PERIODS:
         results = [shahi_baker2014(synthetic_pair(period, seed, 0.18)) for seed in range(SEEDS)]
-        ratio = np.array([one.chosen.period / period for one in results])
+        ratio = np.array([one.primary.period / period for one in results])
         off = max(abs(one.angle - 30.0) for one in results)
         spread = ", ".join(f"{value:.2f}" for value in (ratio.min(), np.median(ratio), ratio.max()))
         rows.append((f"{period:g}", f"{sum(one.is_pulse for one in results)} of {SEEDS}", spread, f"{off:.1f}°"))
@@ -121,7 +121,7 @@ def class_2014(result: PulseResult) -> str:
 
 def class_2007(result: PulseResult) -> str:
     """Return class and indicator of one component."""
-    one = result.chosen
+    one = result.primary
     found = f"{one.period:.2f} s" if one.is_pulse else one.kind
     return f"{found} ({one.indicator:.2f})"
 
@@ -148,7 +148,7 @@ def seven_table(
         components = "; ".join(f"{one.component}: {class_2007(baker2007(one))}" for one in (pair.first, pair.second))
         own = (
             class_2014(result),
-            f"{result.chosen.azimuth:.0f}°",
+            f"{result.primary.azimuth:.0f}°",
             components,
             f"{scans[number].pulses} of {ORIENTATIONS}",
         )
@@ -181,16 +181,16 @@ def differences(
         "El Centro has no pulse in any of {} orientations (largest indicator {}). Erzincan has one in {}, and {} s as"
     )
     page.words(f"{said} a pair.", ORIENTATIONS, f"{found[0]:.2f}", found[1], f"{found[2]:.2f}")
-    brawley = f"{normal[3].chosen.period:.2f}", f"{strike[3]:g}", f"{results[3].period:.2f}"
+    brawley = f"{normal[3].primary.period:.2f}", f"{strike[3]:g}", f"{results[3].period:.2f}"
     said = "component: {} s by Baker (2007), turned by the strike of the flatfile, {} degrees. The pair has {} s."
     page.words(said, *brawley)
-    gilroy = f"{results[2].period:.2f}", f"{baker2007(pairs['RSN767'].second).chosen.period:.2f}"
+    gilroy = f"{results[2].period:.2f}", f"{baker2007(pairs['RSN767'].second).primary.period:.2f}"
     page.words("2.6 s is that of the pair, {} s, and of component 090, {} s.", *gilroy)
-    of = f"{strike[2]:g}", normal[2].chosen.kind, f"{normal[2].indicator:.2f}", f"{normal[2].chosen.period:.2f}"
+    of = f"{strike[2]:g}", normal[2].primary.kind, f"{normal[2].indicator:.2f}", f"{normal[2].primary.period:.2f}"
     page.words("The fault-normal component (strike {} degrees) is {}: indicator {}, wavelet of {} s.", *of)
     page.words("fault-normal component has an indicator of {}. Lamont", f"{normal[1].indicator:.2f}")
     page.words("at a peak velocity of {} cm/s, too small", f"{100.0 * results[4].pgv:.0f}")
-    of = kobe.chosen.kind, f"{kobe.indicator:.2f}", f"{100.0 * kobe.pgv:.0f}"
+    of = kobe.primary.kind, f"{kobe.indicator:.2f}", f"{100.0 * kobe.pgv:.0f}"
     page.words("was at hand, is {} in it: indicator {}, peak velocity {} cm/s.", *of)
 
 

@@ -20,7 +20,7 @@ TESTS: Final = (
     ("a campaign killed (-9) at random times, 20 times, and again until whole; workers killed; a full disk",
      "test_campaign_killed.py", "the same bytes as undisturbed"),
     ("kept results of a study or a file: killed, damaged, of other inputs, in a folder of somebody else",
-     "test_kept.py", "the same bytes, or solved again; nothing foreign is read"),
+     "test_stored_results.py", "the same bytes, or solved again; nothing foreign is read"),
     ("folders that bring pickles, links, other parts, edited axes", "test_hostile_folders.py",
      "nothing is run, nothing of others deleted; refused in one line"),
     ("a campaign's folder, its bits flipped, parts exchanged, cut or missing", "test_campaign_folder.py",

@@ -9,11 +9,11 @@ import numpy as np
 import polars as pl
 
 from seismass.assessment.answer import Answer, presence_sentence
+from seismass.assessment.building import DEFAULT_THETA_LIMIT, OwnBuilding
 from seismass.assessment.checks import drift_source, friction_words
 from seismass.assessment.floors import BY_RULE, LARGER, NOTHING_STATED, FloorGoods
-from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, REAL, REALS
-from seismass.assessment.own_building import DEFAULT_THETA_LIMIT, OwnBuilding
-from seismass.assessment.structure import about_support, base_advice, rule_advice
+from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, SLIDING, SLIDING_ALL
+from seismass.assessment.structure import base_advice, rule_advice, support_remarks
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.design import THETA_THRESHOLD
 from seismass.design.scaling import ScalingResult
@@ -26,15 +26,15 @@ from seismass.model.occupancy import STORAGE, USUAL, surveyed_load
 from seismass.motions.spectra import TargetSpectrum
 
 
-def about_code_mass(building: OwnBuilding) -> list[str]:
+def code_mass_remarks(building: OwnBuilding) -> list[str]:
     """Return remarks on floors that the code exempts, and those of ordinary use that are taken as full."""
-    found = [
+    remarks = [
         f"floor {floor} is {one.exception} ({building.code.clause}): nothing of its live load counts for the code; "
         "exempt = false in its table counts it"
         for floor, one in enumerate(building.counted, start=1)
         if one.exception.startswith(BY_RULE)
     ]
-    found += [
+    remarks += [
         f"floor {floor}: {one.fraction:g} of its live load is {one.exception}, more than the use that is stated has; "
         "fraction in its table states another"
         for floor, one in enumerate(building.counted, start=1)
@@ -42,7 +42,7 @@ def about_code_mass(building: OwnBuilding) -> list[str]:
     ]
     code = building.code
     if code.low < code.high:
-        found.append(
+        remarks.append(
             f"{code.code} has {code.low:g} to {code.high:g} for the use {code.use}, and {code.fraction:g} is taken: "
             f"{code.note} (another use, or fraction)"
         )
@@ -51,7 +51,7 @@ def about_code_mass(building: OwnBuilding) -> list[str]:
         kind.presence.endswith(NOTHING_STATED) and kind.mass and uses[kind.floor - 1] in ("storage", "archive")
         for kind in building.loose
     ):
-        found.append(
+        remarks.append(
             f"floors of storage are full, {NOTHING_STATED}: surveys find {surveyed_load(STORAGE).share:.2f} of "
             "the design live load in light storage, and how much is there moves the answer more than the mechanics "
             "do (occupied, or occupancy)"
@@ -63,17 +63,17 @@ def about_code_mass(building: OwnBuilding) -> list[str]:
     ]
     if full:
         usual = surveyed_load(USUAL)
-        found.append(
+        remarks.append(
             f"all of the ordinary live load of floor {', '.join(dict.fromkeys(full))} is taken as rigid goods that are "
             f"there: surveys find {usual.share:.2f} of it in offices (occupied, or occupancy)"
         )
-    return found
+    return remarks
 
 
-def about_goods(building: OwnBuilding) -> list[str]:
+def goods_remarks(building: OwnBuilding) -> list[str]:
     """Return what is assumed of the goods, sentence by sentence."""
     there = [kind for kind in building.loose if kind.mass > 0.0]
-    fixed = _about_bolted(building)
+    fixed = _bolted_remarks(building)
     if not there:
         return fixed
     low, high = building.mu_factors
@@ -92,28 +92,28 @@ def about_goods(building: OwnBuilding) -> list[str]:
         lines.append(f"Bounds of friction: {low:g} and {high:g} times mu ({source}); high for mass, low for slip.")
     return [
         *lines,
-        _about_presence(building, there),
+        _presence_remark(building, there),
         "Effective fraction: smallest share with a mean largest drift not below that with sliding goods, there and at "
         "every larger share; its interval resamples the motions, and is 0.05 wider at each end for another suite.",
     ]
 
 
-def _about_bolted(building: OwnBuilding) -> list[str]:
+def _bolted_remarks(building: OwnBuilding) -> list[str]:
     """Goods that are part of the mass of their floors."""
-    found = [
+    items = [
         f"{kind.name or 'goods'} on floor {kind.floor}, {1e-3 * STANDARD_GRAVITY * kind.mass:.0f} kN"
         for kind in building.kinds
         if kind.attached and kind.mass > 0.0
     ]
-    if not found:
+    if not items:
         return []
     return [
-        f"Bolted: {'; '.join(found)}. They are mass in every model, in both analyses and, as permanent equipment, for "
+        f"Bolted: {'; '.join(items)}. They are mass in every model, in both analyses and, as permanent equipment, for "
         "the code; shares are of the loose goods."
     ]
 
 
-def _about_presence(building: OwnBuilding, there: list[FloorGoods]) -> str:
+def _presence_remark(building: OwnBuilding, there: list[FloorGoods]) -> str:
     """How much of the goods is present, and how that is known."""
     how = presence_sentence(building)
     surveyed = any("sustained" in kind.presence for kind in there)
@@ -121,7 +121,7 @@ def _about_presence(building: OwnBuilding, there: list[FloorGoods]) -> str:
     return f"Goods present: {building.present_share:.3g} of the design live load of the whole building; {how}.{source}"
 
 
-def about_code(building: OwnBuilding) -> str:
+def code_remark(building: OwnBuilding) -> str:
     """Return what the code counts, floor by floor where they differ."""
     code = building.code
     parts = [f"{code.code}, {code.use}" + " (none was stated)" * (not building.code_stated)]
@@ -138,11 +138,11 @@ def about_code(building: OwnBuilding) -> str:
 
 def _by_floor(building: OwnBuilding) -> str:
     """Fraction, use and exception of each floor."""
-    found = []
-    for floor, (one, of) in enumerate(zip(building.counted, building.floor_codes, strict=True), start=1):
-        what = ", ".join(part for part in (of.use, one.exception) if part)
-        found.append(f"{floor}: {one.fraction:g}{f' ({what})' * bool(what)}")
-    return ", ".join(found)
+    parts = []
+    for floor, (one, code_of_floor) in enumerate(zip(building.counted, building.floor_codes, strict=True), start=1):
+        what = ", ".join(part for part in (code_of_floor.use, one.exception) if part)
+        parts.append(f"{floor}: {one.fraction:g}{f' ({what})' * bool(what)}")
+    return ", ".join(parts)
 
 
 SHORT: Final = 1.05
@@ -160,8 +160,8 @@ def advice_of(
     runs: pl.DataFrame,
 ) -> tuple[str, ...]:
     """Return what to use in an analysis, and what the checks say, sentence by sentence."""
-    reals = [name for name in REALS if name in collapses]
-    if not reals:
+    sliding = [name for name in SLIDING_ALL if name in collapses]
+    if not sliding:
         return (
             "There are no goods on the floors: the effective fraction has no meaning, and there is no live load to "
             "attach.",
@@ -170,7 +170,7 @@ def advice_of(
         )
     lines = []
     if answer.reason is not None:
-        lines += _collapses(collapses, (*reals, ADVISED, BARE), motions)
+        lines += _collapses(collapses, (*sliding, ADVISED, BARE), motions)
         lines.append("A share that fits drifts says nothing of collapse: strengthen the building before it is used.")
     else:
         one, _ = answer.analyses
@@ -180,11 +180,11 @@ def advice_of(
             "keep the whole weight of the goods in P-Delta, and the damping of the building without goods. Take the "
             "larger drift of each storey."
         )
-        lines += _envelope(building, storeys, reals)
+        lines += _envelope(building, storeys, sliding)
         lines.append(f"For strengths: {answer.design}.")
         lines += rule_advice(building, effective)
-    lines += _checks(building, storeys, reals)
-    lines += _against_code(building, storeys, reals)
+    lines += _checks(building, storeys, sliding)
+    lines += _against_code(building, storeys, sliding)
     lines += _slip_advice(slip, in_plane=building.other is not None)
     return (*lines, *base_advice(runs))
 
@@ -195,21 +195,21 @@ def _mean(storeys: pl.DataFrame, model: str) -> list[float | None]:
 
 
 def _largest_ratio(
-    storeys: pl.DataFrame, reals: Sequence[str], models: tuple[str, ...]
+    storeys: pl.DataFrame, sliding: Sequence[str], models: tuple[str, ...]
 ) -> tuple[float, int, str] | None:
     """Largest real mean over the largest of the models, over storeys and frictions, with its storey and friction."""
-    found: list[tuple[float, int, str]] = []
+    ratios: list[tuple[float, int, str]] = []
     covers = [_mean(storeys, model) for model in models]
-    for real in reals:
-        for number, (drift, *of) in enumerate(zip(_mean(storeys, real), *covers, strict=True), start=1):
-            known = [value for value in of if value is not None]
-            if drift is not None and len(known) == len(of) and max(known) > 0.0:
-                found.append((drift / max(known), number, real))
-    return max(found, key=lambda one: one[:2]) if found else None
+    for sliding_model in sliding:
+        for number, (drift, *others) in enumerate(zip(_mean(storeys, sliding_model), *covers, strict=True), start=1):
+            known = [value for value in others if value is not None]
+            if drift is not None and len(known) == len(others) and max(known) > 0.0:
+                ratios.append((drift / max(known), number, sliding_model))
+    return max(ratios, key=lambda one: one[:2]) if ratios else None
 
 
-def _envelope(building: OwnBuilding, storeys: pl.DataFrame, reals: Sequence[str]) -> list[str]:
-    alone, both = (_largest_ratio(storeys, reals, models) for models in ((ADVISED,), (ADVISED, BARE)))
+def _envelope(building: OwnBuilding, storeys: pl.DataFrame, sliding: Sequence[str]) -> list[str]:
+    alone, both = (_largest_ratio(storeys, sliding, models) for models in ((ADVISED,), (ADVISED, BARE)))
     if alone is None or both is None:
         return []
     words = friction_words(building)
@@ -229,10 +229,10 @@ def _checks(building: OwnBuilding, storeys: pl.DataFrame, models: Any) -> list[s
     """Drift and stability of the models beside their limits."""
     if building.heights is None:
         return ["Heights are not known: drifts are in millimetres, without P-Delta and without a limit."]
-    of = storeys.filter(pl.col("model").is_in(list(models)))
+    rows = storeys.filter(pl.col("model").is_in(list(models)))
     lines = []
-    missing = of.filter(pl.col("mean").is_null())["model"].unique(maintain_order=True).to_list()
-    worst = of.drop_nulls("mean").sort("mean", descending=True)
+    missing = rows.filter(pl.col("mean").is_null())["model"].unique(maintain_order=True).to_list()
+    worst = rows.drop_nulls("mean").sort("mean", descending=True)
     limit = 100.0 * building.drift_limit
     if missing:
         listed = ", ".join(NAMES[model] for model in missing)
@@ -243,16 +243,16 @@ def _checks(building: OwnBuilding, storeys: pl.DataFrame, models: Any) -> list[s
     if worst.height:
         row = worst.row(0, named=True)
         verdict = "above" if row["mean_over_limit"] > 1.0 else "within"
-        without = " of the others" if missing else ""
+        ending = " of the others" if missing else ""
         lines.append(
-            f"The mean drift ratio{without} is {verdict} the limit of {limit:g} %: largest {100.0 * row['mean']:.2f} % "
+            f"The mean drift ratio{ending} is {verdict} the limit of {limit:g} %: largest {100.0 * row['mean']:.2f} % "
             f"(storey {row['storey']}, {NAMES[row['model']]}; motions above the limit: {row['motions_above_limit']})."
         )
-    stable = of.drop_nulls("theta").sort("theta", descending=True)
+    stable = rows.drop_nulls("theta").sort("theta", descending=True)
     if stable.height:
         row = stable.row(0, named=True)
         verdict = "above" if row["theta"] > building.theta_limit else "within"
-        elastic = float(of["theta_elastic"].max())  # type: ignore[arg-type]
+        elastic = float(rows["theta_elastic"].max())  # type: ignore[arg-type]
         needed = "above" if elastic > THETA_THRESHOLD else "up to"
         lines.append(
             f"The stability coefficient P d/(V h) is {verdict} its limit of {building.theta_limit:g}: largest "
@@ -270,8 +270,8 @@ def _collapses(collapses: dict[str, int], models: Any, motions: int) -> list[str
     ]
 
 
-def _against_code(building: OwnBuilding, storeys: pl.DataFrame, reals: Sequence[str]) -> list[str]:
-    worst = _largest_ratio(storeys, reals, (CODE,))
+def _against_code(building: OwnBuilding, storeys: pl.DataFrame, sliding: Sequence[str]) -> list[str]:
+    worst = _largest_ratio(storeys, sliding, (CODE,))
     if worst is None:
         return []
     return [
@@ -288,12 +288,12 @@ def _slip_advice(slip: pl.DataFrame, *, in_plane: bool) -> list[str]:
     if not row["peak_max"]:
         return ["No goods slide under any motion."]
     sentence = one_direction_of_slip()
-    beside = [] if in_plane else [f"{sentence[:1].upper()}{sentence[1:]}."]
+    sentences = [] if in_plane else [f"{sentence[:1].upper()}{sentence[1:]}."]
     way = "in any direction" if in_plane else "each way"
     return [
         f"Allow for {1e3 * row['peak_p84']:.0f} mm of slip {way} on floor {row['floor']} (84 % of the motions, mu = "
         f"{row['mu_s']:.3g}; largest {1e3 * row['peak_max']:.0f} mm): edges, aisles and neighbours.",
-        *beside,
+        *sentences,
     ]
 
 
@@ -305,13 +305,13 @@ def remarks_of(
     suite: dict[str, Any],
 ) -> tuple[str, ...]:
     """Return the doubts, and what to know about the numbers, each sentence once."""
-    found = list(doubts)
+    remarks = list(doubts)
     if scaling is not None:
-        found += scaling.doubts
+        remarks += scaling.doubts
     if suite["synthetic"] == len(suite["motions"]):
-        found.append("all motions are synthetic: give recordings of the site's hazard (--records) for a decision")
+        remarks.append("all motions are synthetic: give recordings of the site's hazard (--records) for a decision")
     for name, result in effective.items():
-        label = "" if name == REAL else f"{NAMES[name]}: "
+        label = "" if name == SLIDING else f"{NAMES[name]}: "
         # What storeys the share does not cover is advice, of the share that is advised.
         once = [
             text
@@ -320,11 +320,13 @@ def remarks_of(
         ]
         once = [text for text in once if text not in doubts and not _of_friction(text)]
         everywhere = (" motions are few", RULE_UNKNOWN)
-        found += [label + remark for remark in once if name == REAL or not any(part in remark for part in everywhere)]
-    found += about_code_mass(building)
+        remarks += [
+            label + remark for remark in once if name == SLIDING or not any(part in remark for part in everywhere)
+        ]
+    remarks += code_mass_remarks(building)
     if building.code.status not in (VERIFIED, AS_STATED):
-        found.append(f"the fraction of {building.code.code} was {NOT_CHECKED} ({building.code.status})")
-    return tuple(dict.fromkeys(found))
+        remarks.append(f"the fraction of {building.code.code} was {NOT_CHECKED} ({building.code.status})")
+    return tuple(dict.fromkeys(remarks))
 
 
 def _of_friction(text: str) -> bool:
@@ -339,19 +341,19 @@ def assumptions_of(
     suite: dict[str, Any],
     period: tuple[str, ...],
 ) -> tuple[str, ...]:
-    """Return everything that was assumed, sentence by sentence; `period` is what is said of the first period."""
+    """Return everything that was assumed, sentence by sentence; `period` is the sentence on the first period."""
     return (
-        *_about_motions(building, target, scaling, suite),
-        *_about_structure(building),
+        *_motion_remarks(building, target, scaling, suite),
+        *_structure_remarks(building),
         *period,
-        *_about_limits(building),
-        *about_goods(building),
-        *about_support(building),
-        about_code(building),
+        *_limit_remarks(building),
+        *goods_remarks(building),
+        *support_remarks(building),
+        code_remark(building),
     )
 
 
-def _about_motions(
+def _motion_remarks(
     building: OwnBuilding, target: TargetSpectrum | None, scaling: ScalingResult | None, suite: dict[str, Any]
 ) -> list[str]:
     motions, synthetic = len(suite["motions"]), suite["synthetic"]
@@ -370,10 +372,10 @@ def _about_motions(
         return [*lines, "Motions are taken as they are."]
     shortest, longest = scaling.periods[0], scaling.periods[-1]
     period = scaling.period
-    longest_period = max(each.period(building.goods) for each in (building, building.other) if each is not None)
+    longest_period = max(each.period(building.goods_mass) for each in (building, building.other) if each is not None)
     fits = abs(period / longest_period - 1.0) < 1e-9
-    of = " of the more flexible direction" if building.other is not None else ""
-    which = f"first period{of} with the goods present attached" if fits else "as asked for"
+    direction = " of the more flexible direction" if building.other is not None else ""
+    which = f"first period{direction} with the goods present attached" if fits else "as asked for"
     both = "one factor for both components, geometric " if suite["pairs"] else ""
     return [
         *lines,
@@ -382,7 +384,7 @@ def _about_motions(
     ]
 
 
-def _about_structure(building: OwnBuilding) -> list[str]:
+def _structure_remarks(building: OwnBuilding) -> list[str]:
     lines = [
         "Shear building: rigid floors, one degree of freedom per floor, trilinear storeys with Masing unloading, no "
         "loss of strength but by P-Delta.",
@@ -398,9 +400,9 @@ def _about_structure(building: OwnBuilding) -> list[str]:
             f"the site spectrum, with {building.design_fraction:g} of the design live load as mass."
         )
     first = building.damping_from_storey
-    of = "" if first == 1 else f" above floor {first - 1}; the storeys below are not damped"
+    place = "" if first == 1 else f" above floor {first - 1}; the storeys below are not damped"
     lines.append(
-        f"Damping: {100.0 * building.damping:g} % in every mode of the building without goods{of}; every model has "
+        f"Damping: {100.0 * building.damping:g} % in every mode of the building without goods{place}; every model has "
         "that matrix."
     )
     if building.gravity_load is not None:
@@ -409,7 +411,7 @@ def _about_structure(building: OwnBuilding) -> list[str]:
     return [*lines, f"P-Delta: none ({why})."]
 
 
-def _about_limits(building: OwnBuilding) -> list[str]:
+def _limit_remarks(building: OwnBuilding) -> list[str]:
     if building.heights is None:
         return []
     drift, theta = drift_source(building), "as stated"

@@ -14,10 +14,10 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
+from seismass.assessment.building import OwnBuilding
 from seismass.assessment.checks import ANALYSES, few_collapses, friction_words, largest_change
 from seismass.assessment.floors import by_floor
-from seismass.assessment.models import ADVISED, ATTACHED, BARE, REALS
-from seismass.assessment.own_building import OwnBuilding
+from seismass.assessment.models import ADVISED, ATTACHED, BARE, SLIDING_ALL
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.design.scaling import ScalingResult
@@ -143,7 +143,7 @@ class DesignShare:
     there is none. Where few runs of a designed building collapse it is that of the median.
     """
 
-    found: EffectiveMass | None
+    effective: EffectiveMass | None
     reason: str
 
 
@@ -167,7 +167,7 @@ def answer_of(
         few = "" if reason is not None else _collapsing(collapses, {}, len(suite["motions"]))
         return Answer(f"{few}no answer: {why}", why, doubts, motions=on)
     words = friction_words(building)
-    change = largest_change(storeys, (*(name for name in REALS if name in effective), ATTACHED, BARE))
+    change = largest_change(storeys, (*(name for name in SLIDING_ALL if name in effective), ATTACHED, BARE))
     matters = change is None or change > NO_MATTER
     statement = "two analyses; the larger drift of each storey counts"
     if not matters:
@@ -192,14 +192,14 @@ def answer_of(
 
 def presence_sentence(building: OwnBuilding) -> str:
     """Return how much of the design live load is taken as present, and how that is known, floor by floor."""
-    found: dict[str, list[str]] = {}
+    by_share: dict[str, list[str]] = {}
     for kind in building.loose:
         if kind.mass > 0.0:
-            found.setdefault(f"{kind.occupied:.2f} {kind.presence}", []).append(f"{kind.floor} {kind.name}".rstrip())
-    if len(found) == 1:
-        (how,) = found
+            by_share.setdefault(f"{kind.occupied:.2f} {kind.presence}", []).append(f"{kind.floor} {kind.name}".rstrip())
+    if len(by_share) == 1:
+        (how,) = by_share
         return how
-    return "; ".join(f"floor {', '.join(floors)}: {how}" for how, floors in found.items())
+    return "; ".join(f"floor {', '.join(floors)}: {how}" for how, floors in by_share.items())
 
 
 def rounded_up(value: float) -> float:
@@ -217,13 +217,13 @@ def deciding(effective: dict[str, EffectiveMass]) -> str:
 def motions_sentence(suite: dict[str, Any], scaling: ScalingResult | None) -> str:
     """Return on how many motions of which kind an answer stands, and how they were scaled."""
     count, synthetic = len(suite["motions"]), suite["synthetic"]
-    of = "pairs of " * suite["pairs"]
+    pairs_of = "pairs of " * suite["pairs"]
     if synthetic == count:
-        kind = f"{count} {of}synthetic motions, none recorded"
+        kind = f"{count} {pairs_of}synthetic motions, none recorded"
     elif synthetic:
-        kind = f"{count} {of}motions, {synthetic} of them synthetic"
+        kind = f"{count} {pairs_of}motions, {synthetic} of them synthetic"
     else:
-        kind = f"{count} {of}recorded motions"
+        kind = f"{count} {pairs_of}recorded motions"
     if scaling is None:
         how = "taken as they are"
     else:
@@ -238,11 +238,11 @@ def _reason(
 ) -> str | None:
     """Why there is no answer: what collapses, the building first, then the analyses."""
     words = friction_words(building)
-    fallen = {name: collapses[name] for name in REALS if not few_collapses(collapses.get(name, 0), motions)}
+    fallen = {name: collapses[name] for name in SLIDING_ALL if not few_collapses(collapses.get(name, 0), motions)}
     if fallen:
         worst = max(fallen, key=lambda name: fallen[name])
-        at = "" if len(effective) == 1 else f" ({words[worst]})"
-        return f"the building collapses under {fallen[worst]} of {motions} motions{at}"
+        friction_text = "" if len(effective) == 1 else f" ({words[worst]})"
+        return f"the building collapses under {fallen[worst]} of {motions} motions{friction_text}"
     if not effective:
         count = collapses.get(BARE, 0)
         many = not few_collapses(count, motions)
@@ -258,7 +258,7 @@ def _collapsing(collapses: dict[str, int], words: dict[str, str], motions: int) 
     analyses. `words` are those of the frictions; empty for a building without goods.
     """
     mean = "mean drifts are 1.2 times the median or the mean of the others; "
-    fallen = {name: collapses[name] for name in REALS if collapses.get(name)}
+    fallen = {name: collapses[name] for name in SLIDING_ALL if collapses.get(name)}
     if fallen:
         worst = max(fallen, key=lambda name: fallen[name])
         return (
@@ -268,25 +268,25 @@ def _collapsing(collapses: dict[str, int], words: dict[str, str], motions: int) 
     if not words:
         count = collapses.get(BARE, 0)
         return f"THE BUILDING COLLAPSES under {count} of {motions} motions: {mean}" if count else ""
-    told = [
+    sentences = [
         f"{called.upper()} COLLAPSES under {collapses[name]} of {motions} motions: its {mean}"
         for name, called in ANALYSES.items()
         if collapses.get(name)
     ]
-    return "".join(told)
+    return "".join(sentences)
 
 
 def _analysis(building: OwnBuilding, number: int, model: str, share: float) -> Analysis:
-    goods = share * building.goods
+    goods_mass = share * building.goods_mass
     load = by_floor(building.kinds, [kind.live_load for kind in building.kinds], building.storeys)
-    multipliers = np.divide(goods + building.bolted, load, out=np.zeros(len(load)), where=load > 0.0)
+    multipliers = np.divide(goods_mass + building.bolted, load, out=np.zeros(len(load)), where=load > 0.0)
     return Analysis(
         number,
         model,
         share,
         share * building.present_share,
-        tuple((building.mass + building.frames + goods).tolist()),
-        tuple(goods.tolist()),
+        tuple((building.mass + building.frames + goods_mass).tolist()),
+        tuple(goods_mass.tolist()),
         tuple(multipliers.tolist()),
         _mass_source(multipliers[load > 0.0]),
     )
@@ -305,24 +305,24 @@ def _governs(governing: pl.DataFrame) -> tuple[str, ...]:
     """One sentence per analysis that governs a storey, and one about the goods that slide."""
     scale, unit = (1e2, "%") if governing["unit"][0] == "ratio" else (1e3, "mm")
     lines = []
-    for by in dict.fromkeys(governing["governed_by"].to_list()):
-        of = governing.filter(pl.col("governed_by") == by).sort("governing", descending=True)
-        row = of.row(0, named=True)
-        if by.startswith("goods slide"):
-            times = max(one["governing"] / max(one[ADVISED], one[BARE]) for one in of.iter_rows(named=True))
-            by = f"{by}, {times:.2f} times the larger analysis"
+    for model in dict.fromkeys(governing["governed_by"].to_list()):
+        rows = governing.filter(pl.col("governed_by") == model).sort("governing", descending=True)
+        row = rows.row(0, named=True)
+        if model.startswith("goods slide"):
+            times = max(one["governing"] / max(one[ADVISED], one[BARE]) for one in rows.iter_rows(named=True))
+            model = f"{model}, {times:.2f} times the larger analysis"
         limit = "" if row["limit"] is None else f" of {scale * row['limit']:g} %"
-        over = "" if row["limit"] is None or row["governing_over_limit"] <= 1.0 else ", above the limit"
-        where = _storeys(of["storey"].to_list())
-        largest = "" if of.height == 1 else f"storey {row['storey']}, "
+        ending = "" if row["limit"] is None or row["governing_over_limit"] <= 1.0 else ", above the limit"
+        where = _storeys(rows["storey"].to_list())
+        largest = "" if rows.height == 1 else f"storey {row['storey']}, "
         named = f" {row['name']}" if row["name"] else ""
-        called = f"storey {row['storey']}{named}" if of.height == 1 else where
-        lines.append(f"{called}: {by}, {largest}{scale * row['governing']:.2f} {unit}{limit}{over}")
-    ratio, storey, at = max(
+        called = f"storey {row['storey']}{named}" if rows.height == 1 else where
+        lines.append(f"{called}: {model}, {largest}{scale * row['governing']:.2f} {unit}{limit}{ending}")
+    ratio, storey, mu = max(
         (row["sliding"] / max(row[ADVISED], row[BARE]), row["storey"], row["sliding_at"])
         for row in governing.iter_rows(named=True)
     )
-    lines.append(f"with sliding goods no storey drifts more than {ratio:.2f} times the larger (storey {storey}, {at})")
+    lines.append(f"with sliding goods no storey drifts more than {ratio:.2f} times the larger (storey {storey}, {mu})")
     return tuple(lines)
 
 
@@ -356,10 +356,10 @@ def _design(building: OwnBuilding, advised: float, design: DesignShare | None) -
     if building.design is None or design is None:
         return "strengths are as stated: lambda is for the analysis, not for W of a design"
     here = f"W here has {building.design_fraction:.3g} of the design live load"
-    if design.found is None:
+    if design.effective is None:
         return f"{here}: keep it; there is no share for W, since {design.reason}"
-    share = rounded_up(design.found.value)
-    median = "" if design.found.statistic == "mean" else ", by the median since some designs collapse"
+    share = rounded_up(design.effective.value)
+    median = "" if design.effective.statistic == "mean" else ", by the median since some designs collapse"
     return (
         f"for a design of strengths {share:.2f} of the goods present ({share * building.present_share:.2f} of the "
         f"design live load) go into W{median}; {here}, and lambda = {advised:.2f} is for the analysis of that building"
@@ -375,10 +375,10 @@ def analysis_table(answer: Answer, building: OwnBuilding) -> pl.DataFrame:
         columns = {"floor": list(range(1, building.storeys + 1)), "name": list(building.storey_names)}
     schema: dict[str, Any] = {"floor": pl.UInt32, "name": pl.String}
     for number in (1, 2):
-        of = next((one for one in answer.analyses if one.number == number), None)
-        columns[f"mass_{number}_t"] = [] if of is None else [1e-3 * mass for mass in of.mass]
-        columns[f"weight_{number}_kn"] = [] if of is None else [1e-3 * STANDARD_GRAVITY * mass for mass in of.mass]
-        columns[f"multiplier_{number}"] = [] if of is None else list(of.multipliers)
+        row = next((one for one in answer.analyses if one.number == number), None)
+        columns[f"mass_{number}_t"] = [] if row is None else [1e-3 * mass for mass in row.mass]
+        columns[f"weight_{number}_kn"] = [] if row is None else [1e-3 * STANDARD_GRAVITY * mass for mass in row.mass]
+        columns[f"multiplier_{number}"] = [] if row is None else list(row.multipliers)
     schema |= dict.fromkeys(list(columns)[2:], pl.Float64)
     return pl.DataFrame(columns, schema=schema)
 
@@ -402,19 +402,17 @@ def fractions_by_friction(
     threads: int | None,
     progress: Progress | None,
 ) -> dict[str, EffectiveMass]:
-    """Return the effective fraction at each friction (a factor for each model) by the mean; by the median, where the
-    building collapses.
-    """
+    """Return the effective fraction by factor of friction: by the mean, or the median where the building collapses."""
     if not frictions:
         return {}
     scenes = [building.scene(target, mu_factor=factor) for factor in frictions.values()]
     drawn = (bootstrap["confidence"], bootstrap["resamples"], bootstrap["seed"])
     options = checked_options("mean", SAME_DAMPING, None, *drawn, threads, progress)
-    found = {}
+    fractions = {}
     named = named_motions(motions, OWNER, scenes[0])
     for name, solved in zip(frictions, solved_frictions(scenes, named, options), strict=True):
-        found[name] = solved.answer("median" if solved.real.collapsed.any() else "mean")
-    return found
+        fractions[name] = solved.answer("median" if solved.sliding.collapsed.any() else "mean")
+    return fractions
 
 
 def advised_share(effective: dict[str, EffectiveMass]) -> float | None:
@@ -443,7 +441,7 @@ def design_share(
     """
 
     def designed(share: float) -> Designed:
-        attached, other = share * building.goods, building.other
+        attached, other = share * building.goods_mass, building.other
         in_x = building.structure(target, attached)
         return in_x if other is None else (in_x, other.structure(target, attached))
 
@@ -452,7 +450,7 @@ def design_share(
     options = checked_options("mean", SAME_DAMPING, shares, 0.9, 1, 0, threads, progress)
     named = named_motions(motions, OWNER, scene)
     solved = solved_designs(designed, scene.blocks, named, options, scene.racks, scene.collapse_drift, scene.base)
-    fallen = solved.real.collapsed.sum(axis=1)
+    fallen = solved.sliding.collapsed.sum(axis=1)
     if not few_collapses(int(fallen.max()), len(motions)):
         return DesignShare(None, _collapsing_shares(shares, fallen, len(motions)))
     return DesignShare(solved.answer("median" if fallen.any() else "mean"), "")
@@ -461,6 +459,6 @@ def design_share(
 def _collapsing_shares(shares: FloatArray, fallen: NDArray[np.int64], motions: int) -> str:
     """Which designs collapse under how many motions."""
     many = shares[[not few_collapses(int(count), motions) for count in fallen]]
-    of = f"{many[0]:.2f}" if len(many) == 1 else f"{many[0]:.2f} to {many[-1]:.2f}"
-    whole = "every share" if len(many) == len(shares) else f"shares of {of} of the goods present"
+    shares_text = f"{many[0]:.2f}" if len(many) == 1 else f"{many[0]:.2f} to {many[-1]:.2f}"
+    whole = "every share" if len(many) == len(shares) else f"shares of {shares_text} of the goods present"
     return f"the building designed with {whole} collapses under up to {int(fallen.max())} of {motions} motions"

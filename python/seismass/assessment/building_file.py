@@ -13,6 +13,7 @@ from typing import Any, Final, NamedTuple, cast, get_args
 
 import numpy as np
 
+from seismass.assessment.building import DEFAULT_THETA_LIMIT, PROJECT, DesignRule, OwnBuilding, project_of
 from seismass.assessment.file_parts import (
     BASE_KEYS,
     FRICTION,
@@ -48,7 +49,6 @@ from seismass.assessment.file_site import (
     site_of,
 )
 from seismass.assessment.floors import by_floor, counted_fractions
-from seismass.assessment.own_building import DEFAULT_THETA_LIMIT, PROJECT, DesignRule, OwnBuilding, project_of
 from seismass.base.errors import InvalidBuildingFile
 from seismass.base.input_table import (
     BUILDING_FILE,
@@ -113,17 +113,17 @@ PLAIN_GOODS_KEYS: Final = {"live_load": {SI: "live_load_kpa", US: "live_load_psf
 
 def plain_keys(keys: dict[str, dict[str, str]], units: str) -> tuple[str, ...]:
     """Return the keys without a unit that a file may have; none where it does not state its system."""
-    return tuple(key for key, of in keys.items() if units in of)
+    return tuple(key for key, systems in keys.items() if units in systems)
 
 
 def to_si(table: Table, units: str) -> None:
     """Convert the table in place to SI units: keys without a unit are in the `units` of the file ("", "si" or "us"). A
     key stated in two units is refused.
     """
-    for name, of in (PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS).items():
-        if name in table.values and units in of:
-            table.excluded(name, of[units])
-            table.values[of[units]] = table.values.pop(name)
+    for name, factors in (PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS).items():
+        if name in table.values and units in factors:
+            table.excluded(name, factors[units])
+            table.values[factors[units]] = table.values.pop(name)
     for name, us in (US_STOREY_KEYS | US_GOODS_KEYS).items():
         if name in table.values:
             table.excluded(name, us.key)
@@ -163,20 +163,20 @@ _OF_BUILDING: Final = {
 
 def sources_of(file: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
     """Return each quantity with the keys that state it, as the file has them, or `DEFAULT`."""
-    building, goods = file.get("building") or {}, file.get("goods") or {}
+    building, goods_table = file.get("building") or {}, file.get("goods") or {}
     storeys: Sequence[Mapping[str, Any]] = file.get("storeys") or []
-    found = {}
+    sources = {}
     for name, keys in _OF_STOREYS.items():
-        found[name] = _stated(keys, ("building", building), storeys)
+        sources[name] = _stated(keys, ("building", building), storeys)
     for name, keys in _OF_GOODS.items():
-        found[name] = _stated(keys, ("goods", goods), storeys)
+        sources[name] = _stated(keys, ("goods", goods_table), storeys)
     for name, keys in _OF_BUILDING.items():
-        found[name] = ", ".join(f"building.{key}" for key in keys if building.get(key) is not None) or DEFAULT
-    found["mu_factors"] = "goods.mu_factors" if goods.get("mu_factors") is not None else DEFAULT
+        sources[name] = ", ".join(f"building.{key}" for key in keys if building.get(key) is not None) or DEFAULT
+    sources["mu_factors"] = "goods.mu_factors" if goods_table.get("mu_factors") is not None else DEFAULT
     for name in ("site", "code"):
-        given = file.get(name) or {}
-        found[name] = ", ".join(f"{name}.{key}" for key in given if given[key] is not None) or DEFAULT
-    return tuple(found.items())
+        stated = file.get(name) or {}
+        sources[name] = ", ".join(f"{name}.{key}" for key in stated if stated[key] is not None) or DEFAULT
+    return tuple(sources.items())
 
 
 def _stated(keys: Sequence[str], default: tuple[str, Mapping[str, Any]], storeys: Sequence[Mapping[str, Any]]) -> str:
@@ -184,27 +184,27 @@ def _stated(keys: Sequence[str], default: tuple[str, Mapping[str, Any]], storeys
     known = {*keys, *_in_other_units(keys)}
     place, table = default
     parts = [f"{place}.{key}" for key in table if key in known and table[key] is not None]
-    own: dict[str, list[str]] = {}
+    places: dict[str, list[str]] = {}
     for number, storey in enumerate(storeys, start=1):
         for key in storey:
             if key in known and storey[key] is not None:
-                own.setdefault(key, []).append(str(number))
+                places.setdefault(key, []).append(str(number))
         for kind in storey.get("goods") or []:
             for key in kind:
-                if key in known and kind[key] is not None and str(number) not in own.setdefault(f"goods.{key}", []):
-                    own[f"goods.{key}"].append(str(number))
-    parts += [f"storeys[{', '.join(numbers)}].{key}" for key, numbers in own.items()]
+                if key in known and kind[key] is not None and str(number) not in places.setdefault(f"goods.{key}", []):
+                    places[f"goods.{key}"].append(str(number))
+    parts += [f"storeys[{', '.join(numbers)}].{key}" for key, numbers in places.items()]
     return "; ".join(parts) or DEFAULT
 
 
 def _in_other_units(keys: Sequence[str]) -> set[str]:
     """Keys in US units, and those without a unit, that stand in the place of keys."""
     us = {**US_STOREY_KEYS, **US_GOODS_KEYS}
-    found = {other for other, one in us.items() if one.key in keys}
-    for key, of in (PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS).items():
-        if any(one in keys or one in found for one in of.values()):
-            found.add(key)
-    return found
+    others = {other for other, one in us.items() if one.key in keys}
+    for key, factors in (PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS).items():
+        if any(one in keys or one in others for one in factors.values()):
+            others.add(key)
+    return others
 
 
 _MASS: Final = ("dead_load_kpa", "mass_kg")
@@ -341,10 +341,10 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
         _known(storey, "storeys", units)
         for kind in storey.tables("goods"):
             _known(kind, "storeys.goods", units)
-    building, goods, site, code, walls, base, project = (
+    building, goods_table, site, code, walls, base, project = (
         _table(top, key, units) for key in ("building", "goods", "site", "code", "walls", "base", "project")
     )
-    _unique(building, goods, storeys)
+    _unique(building, goods_table, storeys)
     frame = np.array([_mass(storey, building) for storey in storeys])
     heights = _heights(storeys, building)
     fraction = code_of(code)
@@ -357,8 +357,8 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
         for kind in kinds_of(
             number,
             storey,
-            goods,
-            live_load_of(storey, goods, building),
+            goods_table,
+            live_load_of(storey, goods_table, building),
             float(area[number - 1]),
             of_floors[number - 1].use or fraction.use,
         )
@@ -385,11 +385,11 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
         counted["code share"] = fixed + np.array(shares) * live_load
     limit, limit_rule = limit_of(building, fraction)
     stiffness = _stiffness(storeys, building, frame, counted[period.mass], period.value)
-    beside = walls_of(walls, building, frame + counted[period.mass], stiffness, heights, period.value)
-    if beside is not None and "damping_from_storey" in building.values:
+    wall_matrix = walls_of(walls, building, frame + counted[period.mass], stiffness, heights, period.value)
+    if wall_matrix is not None and "damping_from_storey" in building.values:
         building.refuse("damping_from_storey", f"left out where {top.key('walls')} is given", "both")
     gravity = _gravity_load(storeys, building, frame) + STANDARD_GRAVITY * fixed if p_delta else None
-    if gravity is not None and heights is not None and beside is None:
+    if gravity is not None and heights is not None and wall_matrix is None:
         load = np.cumsum((gravity + STANDARD_GRAVITY * present)[::-1])[::-1]
         check_period(building, period, stiffness, load / heights)
     return OwnBuilding(
@@ -397,7 +397,7 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
         note=printable(top.text("note"), lines=True),
         storey_names=tuple(printable(storey.text("name")) for storey in storeys),
         mass=mass,
-        stiffness=stiffness if beside is None else beside.stiffness,
+        stiffness=stiffness if wall_matrix is None else wall_matrix.stiffness,
         stated_period=period.value,
         period_mass=period.mass,
         period_rule=period.rule,
@@ -415,7 +415,7 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
         area=area,
         dead_load_stated=np.array([key_of(storey, building, _MASS) == "dead_load_kpa" for storey in storeys]),
         kinds=kinds,
-        mu_factors=mu_factors_of(goods),
+        mu_factors=mu_factors_of(goods_table),
         target=site_of(site, Path() if path is None else path.parent),
         code=fraction,
         floor_codes=of_floors,
@@ -428,8 +428,8 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
         path=path,
         project=project_of(project),
         sources=sources_of(top.values),
-        walls=None if beside is None else beside.matrix,
-        walls_stated="" if beside is None else beside.how,
+        walls=None if wall_matrix is None else wall_matrix.matrix,
+        walls_stated="" if wall_matrix is None else wall_matrix.how,
         base=base_of(base),
     )
 
@@ -447,12 +447,12 @@ def _known(table: Table, kind: str, units: str) -> None:
     to_si(table, units)
 
 
-def _unique(building: Table, goods: Table, storeys: list[Table]) -> None:
+def _unique(building: Table, goods_table: Table, storeys: list[Table]) -> None:
     """Refuse two keys of one table that say the same."""
-    for table in (building, goods, *storeys):
+    for table in (building, goods_table, *storeys):
         for group in (_MASS, _STIFFNESS, _STRENGTH, LIVE_LOAD):
             table.one_of(*group)
-    for table in (goods, *storeys, *(kind for storey in storeys for kind in storey.tables("goods"))):
+    for table in (goods_table, *storeys, *(kind for storey in storeys for kind in storey.tables("goods"))):
         for group in (PRESENT, FRICTION):
             table.one_of(*group)
         for key in ("mu", "friction"):

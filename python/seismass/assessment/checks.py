@@ -8,8 +8,8 @@ from typing import Any, Final, Literal
 import numpy as np
 import polars as pl
 
-from seismass.assessment.models import ADVISED, BARE, REAL, REAL_HIGH, REAL_LOW, REALS, friction_factors
-from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding
+from seismass.assessment.building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding
+from seismass.assessment.models import ADVISED, BARE, SLIDING, SLIDING_ALL, SLIDING_HIGH, SLIDING_LOW, friction_factors
 from seismass.base.statistics import QUANTILES
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
@@ -23,7 +23,7 @@ def checks_table(building: OwnBuilding, storeys: pl.DataFrame, collapses: dict[s
     """Return one row per check and model: the storey with the largest value, value, limit, whether it is met (null
     where collapses leave no value), and the clause of the limit. `collapses` counts collapsed runs by model.
     """
-    models = [model for model in (*REALS, ADVISED, BARE) if model in collapses]
+    models = [model for model in (*SLIDING_ALL, ADVISED, BARE) if model in collapses]
     rows: list[dict[str, Any]] = [
         {"check": "collapsed runs", "model": model, "value": float(collapses[model]), "limit": 0.0, "source": ""}
         for model in models
@@ -56,12 +56,12 @@ def checks_table(building: OwnBuilding, storeys: pl.DataFrame, collapses: dict[s
 
 
 def _largest(storeys: pl.DataFrame, check: str, model: str, column: str, limit: float, source: str) -> dict[str, Any]:
-    of = storeys.filter(model=model)
+    rows = storeys.filter(model=model)
     row: dict[str, Any] = {"check": check, "model": model, "limit": limit, "source": source}
-    if of[column].null_count():
+    if rows[column].null_count():
         return {**row, "storey": None, "value": None}
-    place = int(np.argmax(of[column].to_numpy()))
-    return {**row, "storey": int(of["storey"][place]), "value": float(of[column][place])}
+    place = int(np.argmax(rows[column].to_numpy()))
+    return {**row, "storey": int(rows["storey"][place]), "value": float(rows[column][place])}
 
 
 def _judged(row: dict[str, Any]) -> dict[str, Any]:
@@ -75,12 +75,12 @@ def drift_source(building: OwnBuilding) -> str:
     if row is None:
         if building.drift_limit != DEFAULT_DRIFT_LIMIT:
             return "as stated"
-        row, of = drift_limit("asce7-10"), "risk category I or II"
+        row, categories = drift_limit("asce7-10"), "risk category I or II"
     else:
-        of = f"{row.structure}, risk category or importance class {row.risk_category}"
+        categories = f"{row.structure}, risk category or importance class {row.risk_category}"
     checked = row.status if row.status == VERIFIED else f"{row.status}; {NOT_CHECKED}"
     note = f"; {row.note}" if row.note and building.drift_limit_rule is not None else ""
-    return f"{row.code}, {row.clause}, {of} ({checked}); it limits {row.of}, here nonlinear drift{note}"
+    return f"{row.code}, {row.clause}, {categories} ({checked}); it limits {row.of}, here nonlinear drift{note}"
 
 
 def _theta_source(building: OwnBuilding) -> str:
@@ -95,7 +95,7 @@ def _in_y(building: OwnBuilding, target: TargetSpectrum | None) -> dict[str, Any
     rule = building.design
     return {
         "period_bare": building.period(),
-        "period_attached": building.period(building.goods),
+        "period_attached": building.period(building.goods_mass),
         "R": None if rule is None else rule.R,
         "damping": building.damping,
         "stiffness": building.stiffness.tolist(),
@@ -121,7 +121,7 @@ def input_document(building: OwnBuilding, target: TargetSpectrum | None) -> dict
         "area": [None if np.isnan(area) else float(area) for area in building.area],
         "live_load": building.live_load.tolist(),
         "bolted": building.bolted.tolist(),
-        "goods": building.goods.tolist(),
+        "goods": building.goods_mass.tolist(),
         "use": [one.use or building.code.use for one in building.floor_codes],
         "code_fraction": [one.fraction for one in building.counted],
         "code_exception": [one.exception for one in building.counted],
@@ -133,12 +133,12 @@ def input_document(building: OwnBuilding, target: TargetSpectrum | None) -> dict
         "goods": [asdict(kind) | {"mass": kind.mass} for kind in building.kinds if kind.live_load > 0.0],
         "goods_present_over_design_live_load": building.present_share,
         "weight": building.weight,
-        "weight_of_goods": STANDARD_GRAVITY * float(building.goods.sum()),
+        "weight_of_goods": STANDARD_GRAVITY * float(building.goods_mass.sum()),
         "period_stated": building.stated_period,
         "period_mass": building.period_mass if building.stated_period is not None else None,
         "period_rule": None if building.period_rule is None else asdict(building.period_rule),
         "period_bare": building.period(),
-        "period_attached": building.period(building.goods),
+        "period_attached": building.period(building.goods_mass),
         "damping": building.damping,
         "p_delta": building.gravity_load is not None,
         "design": None
@@ -168,7 +168,7 @@ DIGITS: Final = 2
 def friction_words(building: OwnBuilding) -> dict[str, str]:
     """Return the friction of each model with sliding goods in words, "mu as stated" first."""
     low, high = building.mu_factors
-    return {REAL: "mu as stated", REAL_HIGH: f"mu x {high:g}", REAL_LOW: f"mu x {low:g}"}
+    return {SLIDING: "mu as stated", SLIDING_HIGH: f"mu x {high:g}", SLIDING_LOW: f"mu x {low:g}"}
 
 
 def governing_table(building: OwnBuilding, storeys: pl.DataFrame) -> pl.DataFrame:
@@ -177,34 +177,35 @@ def governing_table(building: OwnBuilding, storeys: pl.DataFrame) -> pl.DataFram
     """
     words = friction_words(building)
     known = storeys["model"].unique(maintain_order=True).to_list()
-    columns = [name for name in (ADVISED, BARE, REAL, REAL_HIGH, REAL_LOW) if name in known]
+    models = (ADVISED, BARE, SLIDING, SLIDING_HIGH, SLIDING_LOW)
+    columns = [name for name in models if name in known]
     rows: list[dict[str, Any]] = []
     for storey in range(1, building.storeys + 1):
-        of = storeys.filter(pl.col("storey") == storey)
-        means = dict(of.select("model", "mean").iter_rows())
+        rows_of_storey = storeys.filter(pl.col("storey") == storey)
+        means = dict(rows_of_storey.select("model", "mean").iter_rows())
         drifts = {name: means[name] for name in columns}
-        first = of.row(0, named=True)
+        first = rows_of_storey.row(0, named=True)
         row = {"storey": storey, "name": first["name"], "unit": first["unit"], "limit": first["limit"], **drifts}
-        sliding = {name: drifts[name] for name in REALS if drifts.get(name) is not None}
+        sliding = {name: drifts[name] for name in SLIDING_ALL if drifts.get(name) is not None}
         if sliding:
-            at = max(sliding, key=lambda name: sliding[name])
-            row |= {"sliding": sliding[at], "sliding_at": words[at]}
+            worst = max(sliding, key=lambda name: sliding[name])
+            row |= {"sliding": sliding[worst], "sliding_at": words[worst]}
         if all(value is not None for value in drifts.values()):
             row |= _governing(drifts, words, 1e2 if first["unit"] == "ratio" else 1e3)
             if first["limit"] is not None:
                 row["governing_over_limit"] = row["governing"] / first["limit"]
         rows.append(row)
     texts = dict.fromkeys(("name", "unit", "governed_by", "sliding_at"), pl.String)
-    numbers = (ADVISED, BARE, REAL, REAL_HIGH, REAL_LOW, "governing", "sliding", "limit", "governing_over_limit")
+    numbers = (*models, "governing", "sliding", "limit", "governing_over_limit")
     return pl.DataFrame(rows, schema={"storey": pl.UInt32, **texts, **dict.fromkeys(numbers, pl.Float64)})
 
 
 def _governing(drifts: dict[str, float], words: dict[str, str], scale: float) -> dict[str, Any]:
     """The largest drift and what has it; sliding goods only where they drift more than both analyses."""
-    by = max((name for name in ANALYSES if name in drifts), key=lambda name: drifts[name])
+    model = max((name for name in ANALYSES if name in drifts), key=lambda name: drifts[name])
     largest = max(drifts, key=lambda name: drifts[name])
-    if round(scale * drifts[largest], DIGITS) == round(scale * drifts[by], DIGITS):
-        return {"governing": drifts[by], "governed_by": ANALYSES[by]}
+    if round(scale * drifts[largest], DIGITS) == round(scale * drifts[model], DIGITS):
+        return {"governing": drifts[model], "governed_by": ANALYSES[model]}
     return {"governing": drifts[largest], "governed_by": f"goods slide, {words[largest]}"}
 
 
@@ -212,13 +213,13 @@ def largest_change(storeys: pl.DataFrame, models: tuple[str, ...]) -> float | No
     """Return the largest over the smallest mean drift of a storey among `models`, less one: the largest of any storey.
     None without means.
     """
-    found = []
-    for _, of in storeys.filter(pl.col("model").is_in(models)).group_by("storey"):
-        means = of["mean"].to_list()
+    changes = []
+    for _, rows in storeys.filter(pl.col("model").is_in(models)).group_by("storey"):
+        means = rows["mean"].to_list()
         if any(value is None for value in means) or not means or min(means) <= 0.0:
             return None
-        found.append(max(means) / min(means) - 1.0)
-    return max(found) if found else None
+        changes.append(max(means) / min(means) - 1.0)
+    return max(changes) if changes else None
 
 
 MOST_COLLAPSES: Final = 0.1
@@ -228,9 +229,7 @@ MEDIAN_FACTOR: Final = 1.2
 
 
 def drift_statistics(drifts: FloatArray) -> dict[str, float | None]:
-    """Return `statistics_of` drifts, with a mean where no more than `MOST_COLLAPSES` of the runs collapsed (infinite
-    drifts).
-    """
+    """Return `statistics_of` drifts, with a mean where at most `MOST_COLLAPSES` of the runs collapsed (infinite)."""
     known, fallen = statistics_of(drifts), np.isinf(drifts)
     if fallen.any() and few_collapses(int(fallen.sum()), len(drifts)):
         known["mean"] = max(MEDIAN_FACTOR * float(np.median(drifts)), float(drifts[~fallen].mean()))
@@ -243,39 +242,37 @@ def few_collapses(collapsed: int, motions: int) -> bool:
 
 
 def statistics_of(values: FloatArray) -> dict[str, float | None]:
-    """Return mean, quantiles and largest value over the motions; what a collapsed run (an infinite value) decides is
-    null.
-    """
+    """Return mean, quantiles and largest value over the motions; what a collapsed run (infinite) decides is null."""
     collapsed = bool(np.isinf(values).any())
     # Between a number and infinity nothing can be interpolated; then a quantile is the next larger value.
     method: Literal["higher", "linear"] = "higher" if collapsed else "linear"
-    found = {"mean": float(values.mean())}
-    found |= {name: float(np.quantile(values, share, method=method)) for name, share in QUANTILES.items()}
-    found["max"] = float(values.max())
-    return {name: value if np.isfinite(value) else None for name, value in found.items()}
+    statistics = {"mean": float(values.mean())}
+    statistics |= {name: float(np.quantile(values, share, method=method)) for name, share in QUANTILES.items()}
+    statistics["max"] = float(values.max())
+    return {name: value if np.isfinite(value) else None for name, value in statistics.items()}
 
 
 def gravity_of_storeys(building: OwnBuilding, scene: Scene) -> FloatArray:
     """Return the gravity load P above each storey (N), goods included, shape (storeys,)."""
     if building.heights is not None and scene.geometric_stiffness.any():
         return scene.geometric_stiffness * building.heights
-    return np.cumsum((STANDARD_GRAVITY * (building.mass + building.frames + building.goods))[::-1])[::-1]
+    return np.cumsum((STANDARD_GRAVITY * (building.mass + building.frames + building.goods_mass))[::-1])[::-1]
 
 
-def storey_table(building: OwnBuilding, real: Scene, runs: pl.DataFrame) -> pl.DataFrame:
+def storey_table(building: OwnBuilding, sliding_scene: Scene, runs: pl.DataFrame) -> pl.DataFrame:
     """Return one row per model and storey: statistics of the peak drift (null where a collapsed run decides), its
     limit, and theta = P d/(V h) of mean peak drift and shear with its limit (null beside walls).
     """
     heights = building.heights
-    gravity, rows = gravity_of_storeys(building, real), []
+    gravity, rows = gravity_of_storeys(building, sliding_scene), []
     column = "peak_drift" if heights is None else "peak_drift_ratio"
     for model in runs["model"].unique(maintain_order=True):
         for storey in range(1, building.storeys + 1):
-            of = runs.filter((pl.col("model") == model) & (pl.col("storey") == storey))
-            collapsed = of["collapsed"].to_numpy()
-            drift = np.where(collapsed, np.inf, of[column].to_numpy())
+            rows_of_storey = runs.filter((pl.col("model") == model) & (pl.col("storey") == storey))
+            collapsed = rows_of_storey["collapsed"].to_numpy()
+            drift = np.where(collapsed, np.inf, rows_of_storey[column].to_numpy())
             known = drift_statistics(drift)
-            shears = of["peak_storey_shear"].to_numpy()[~collapsed]
+            shears = rows_of_storey["peak_storey_shear"].to_numpy()[~collapsed]
             shear = float(shears.mean()) if known["mean"] is not None else None
             mean, load = known["mean"], float(gravity[storey - 1])
             alone = building.walls is None
@@ -311,15 +308,15 @@ def slip_table(building: OwnBuilding, slips: pl.DataFrame) -> pl.DataFrame:
     """Return one row per friction, kind of loose goods present and level of its rack: motions that slide, statistics of
     peak and residual slip (m), and collapsed runs, whose slips are those until the collapse.
     """
-    words = dict(zip(REALS, ("as stated", "lower bound", "upper bound"), strict=True))
+    words = dict(zip(SLIDING_ALL, ("as stated", "lower bound", "upper bound"), strict=True))
     rows = []
     for model, factor in friction_factors(building).items():
         for number, level in sorted(building.sliding):
             kind = building.loose[number]
-            of = slips.filter((pl.col("model") == model) & (pl.col("kind") == number) & (pl.col("level") == level))
-            if of.height == 0:
+            of_kind = slips.filter((pl.col("model") == model) & (pl.col("kind") == number) & (pl.col("level") == level))
+            if of_kind.height == 0:
                 continue
-            peak, residual = of["peak_slip"].to_numpy(), np.abs(of["residual_slip"].to_numpy())
+            peak, residual = of_kind["peak_slip"].to_numpy(), np.abs(of_kind["residual_slip"].to_numpy())
             left = statistics_of(residual)
             rows.append(
                 {
@@ -334,7 +331,7 @@ def slip_table(building: OwnBuilding, slips: pl.DataFrame) -> pl.DataFrame:
                     "motions_that_slide": int((peak > 0.0).sum()),
                     **{f"peak_{name}": value for name, value in statistics_of(peak).items()},
                     **{f"residual_{name}": left[name] for name in ("mean", "median", "p84")},
-                    "collapsed": int(of["collapsed"].sum()),
+                    "collapsed": int(of_kind["collapsed"].sum()),
                 }
             )
     numbers = [f"peak_{name}" for name in ("mean", *QUANTILES, "max")]

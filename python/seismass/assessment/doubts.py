@@ -10,8 +10,8 @@ from typing import Any, Final
 import numpy as np
 import polars as pl
 
+from seismass.assessment.building import OwnBuilding
 from seismass.assessment.models import NAMES
-from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.structure import damping_doubts
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
@@ -49,7 +49,7 @@ ROOFS: Final = ("roof", "dach", "toit", "techo", "tetto")
 
 def doubts_of(
     building: OwnBuilding,
-    real: Scene,
+    sliding_scene: Scene,
     motions: list[Any],
     target: TargetSpectrum | None,
     storeys: pl.DataFrame,
@@ -57,34 +57,34 @@ def doubts_of(
     """Return what makes the input of an assessment doubtful, each sentence once. `real` is the building with its goods,
     `motions` are scaled.
     """
-    directions = [(real, motions)]
-    if real.other_direction is not False:
-        x, y = real._directions()
+    directions = [(sliding_scene, motions)]
+    if sliding_scene.other_direction is not False:
+        x, y = sliding_scene._directions()
         directions = [(x, [pair.first for pair in motions]), (y, [pair.second for pair in motions])]
-    found = [
-        *building_doubts(building, real, target),
-        *usage_remarks((), [motion for _, of in directions for motion in of]),
-        *_about_drifts(storeys),
+    doubts = [
+        *building_doubts(building, sliding_scene, target),
+        *usage_remarks((), [motion for _, records in directions for motion in records]),
+        *_drift_doubts(storeys),
     ]
     if building.walls is None:
-        found += [doubt for scene, of in directions for doubt in damping_doubts(scene, of)]
-    return tuple(dict.fromkeys(found))
+        doubts += [doubt for scene, records in directions for doubt in damping_doubts(scene, records)]
+    return tuple(dict.fromkeys(doubts))
 
 
-def building_doubts(building: OwnBuilding, real: Scene, target: TargetSpectrum | None) -> tuple[str, ...]:
+def building_doubts(building: OwnBuilding, sliding_scene: Scene, target: TargetSpectrum | None) -> tuple[str, ...]:
     """Return what makes a building file and its site doubtful, without any run."""
-    found = [
-        *real.remarks,
-        *_about_loads(building),
-        *_about_order(building),
-        *_about_strength(building),
-        *_about_limits(building),
+    doubts = [
+        *sliding_scene.remarks,
+        *_load_doubts(building),
+        *_order_doubts(building),
+        *_strength_doubts(building),
+        *_limit_doubts(building),
         *(() if target is None else target_remarks(target)),
     ]
-    return tuple(dict.fromkeys(found))
+    return tuple(dict.fromkeys(doubts))
 
 
-def _about_loads(building: OwnBuilding) -> list[str]:
+def _load_doubts(building: OwnBuilding) -> list[str]:
     """Loads over their areas, and goods over the building."""
     heaviest = MAX_LIVE_LOAD_OF_PIERS if building.code.code_id in PIER_CODES else MAX_LIVE_LOAD
     low, high = FLOOR_WEIGHT_RANGE
@@ -92,22 +92,22 @@ def _about_loads(building: OwnBuilding) -> list[str]:
     live, floor = (1e-3 * STANDARD_GRAVITY * mass / building.area for mass in (building.live_load, frame))
     dead = np.where(building.dead_load_stated, floor, np.nan)
     psf = "are loads in kPa (1 psf is 0.0479 kPa)?"
-    found = [
+    doubts = [
         *_outside(building, "design live load", live, 0.0, heaviest, f"above {heaviest:g} kPa{{others}}: {psf}"),
         *_outside(building, "dead load", dead, 0.0, MAX_DEAD_LOAD, f"above {MAX_DEAD_LOAD:g} kPa{{others}}: {psf}"),
     ]
-    if not any(text.startswith("dead load") for text in found):
+    if not any(text.startswith("dead load") for text in doubts):
         asked = (
             f"outside {low:g} to {high:g} kPa{{others}}: are area and mass or load in the units of their keys, and is "
             "the mass no weight?"
         )
-        found += _outside(building, "weight over the area", floor, low, high, asked)
-    heavy = float(building.goods.sum() / building.mass.sum())
+        doubts += _outside(building, "weight over the area", floor, low, high, asked)
+    heavy = float(building.goods_mass.sum() / building.mass.sum())
     if heavy > MOST_GOODS:
-        found.append(
+        doubts.append(
             f"the goods present weigh {heavy:.3g} times the building: are both loads in the units of their keys?"
         )
-    return found
+    return doubts
 
 
 def _outside(building: OwnBuilding, what: str, values: FloatArray, low: float, high: float, sentence: str) -> list[str]:
@@ -122,7 +122,7 @@ def _outside(building: OwnBuilding, what: str, values: FloatArray, low: float, h
     return [f"{what} of {called} is {values[floor - 1]:.4g} kPa, {sentence.format(others=others)}"]
 
 
-def _about_order(building: OwnBuilding) -> list[str]:
+def _order_doubts(building: OwnBuilding) -> list[str]:
     """Storeys listed roof first: a lower floor is named roof, or is the only one without goods."""
     asked = "storeys are listed from the ground up; is the list from the roof down?"
     if building.storeys == 1:
@@ -130,12 +130,12 @@ def _about_order(building: OwnBuilding) -> list[str]:
     for floor, name in enumerate(building.storey_names[:-1], start=1):
         if any(word in name.lower().split() for word in ROOFS):
             return [f"floor {floor} of {building.storeys} is named {name}: {asked}"]
-    if building.storeys > 2 and building.goods[0] == 0.0 and (building.goods[1:] > 0.0).all():
+    if building.storeys > 2 and building.goods_mass[0] == 0.0 and (building.goods_mass[1:] > 0.0).all():
         return [f"floor 1 is the only one without goods, the uppermost has some: {asked}"]
     return []
 
 
-def _about_strength(building: OwnBuilding) -> list[str]:
+def _strength_doubts(building: OwnBuilding) -> list[str]:
     """A stated strength that no building has: weights typed as masses make the rest ten times as heavy."""
     if building.yield_shear is None or building.yield_shear[0] >= MIN_STRENGTH * building.weight:
         return []
@@ -146,7 +146,7 @@ def _about_strength(building: OwnBuilding) -> list[str]:
     ]
 
 
-def _about_limits(building: OwnBuilding) -> list[str]:
+def _limit_doubts(building: OwnBuilding) -> list[str]:
     """Limits in per cent."""
     limits = (
         ("drift limit", building.drift_limit, MAX_DRIFT_LIMIT, " of the height"),
@@ -154,13 +154,13 @@ def _about_limits(building: OwnBuilding) -> list[str]:
         ("limit of the stability coefficient", building.theta_limit, MAX_THETA_LIMIT, ""),
     )
     return [
-        f"the {name} is {value:g}{of}: limits are ratios, not per cent"
-        for name, value, largest, of in limits
+        f"the {name} is {value:g}{source}: limits are ratios, not per cent"
+        for name, value, largest, source in limits
         if value is not None and value > largest
     ]
 
 
-def _about_drifts(storeys: pl.DataFrame) -> list[str]:
+def _drift_doubts(storeys: pl.DataFrame) -> list[str]:
     """Drifts that no building stands."""
     worst = storeys.filter(pl.col("unit") == "ratio").drop_nulls("mean").sort("mean", descending=True)
     if not worst.height or worst["mean"][0] <= MAX_DRIFT:

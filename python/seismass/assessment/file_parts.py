@@ -78,9 +78,7 @@ STOP_KEYS: Final = ("clearance_m", "stiffness_kn_per_m")
 
 
 def rack_of(tables: tuple[Table, ...]) -> GoodsRack | None:
-    """Return the racks under goods; None where they stand on the floor. The first of `tables` that describes racks
-    counts.
-    """
+    """Return the racks under goods, by the first of `tables` that has racks; None where goods stand on the floor."""
     table = _stated(tables, "on_racks", RACK_KEYS)
     if table is None:
         return None
@@ -90,11 +88,11 @@ def rack_of(tables: tuple[Table, ...]) -> GoodsRack | None:
         period, how = table.number("period_s", need=POSITIVE), "as stated"
     else:
         try:
-            found = rack_direction(table.text("direction"))
+            row = rack_direction(table.text("direction"))
         except SeismassError as error:
             table.refuse_as("direction", error)
-        period = found.period
-        how = f"{found.name}, usually {found.low:g} to {found.high:g} s; {found.source}, {found.status}"
+        period = row.period
+        how = f"{row.name}, usually {row.low:g} to {row.high:g} s; {row.source}, {row.status}"
     strength = "yield_shear_over_weight" in table.values
     return GoodsRack(
         period,
@@ -126,9 +124,9 @@ def _stated(tables: tuple[Table, ...], key: str, known: tuple[str, ...]) -> Tabl
         return None
     if not isinstance(table.values[key], dict):
         table.refuse(key, f"a table with {' or '.join(known[:2])}, or false", str(table.values[key]))
-    found = table.table(key)
-    found.known(known)
-    return found
+    inner = table.table(key)
+    inner.known(known)
+    return inner
 
 
 LIVE_LOAD: Final = ("live_load_kpa", "live_load_kg")
@@ -141,9 +139,9 @@ SUM_ERROR: Final = 1e-6
 """By how much the shares of the kinds of goods on a floor may miss one."""
 
 
-def live_load_of(storey: Table, goods: Table, building: Table) -> float:
+def live_load_of(storey: Table, goods_table: Table, building: Table) -> float:
     """Design live load of a floor as a mass (kg)."""
-    place = held((storey, goods), LIVE_LOAD)
+    place = held((storey, goods_table), LIVE_LOAD)
     if place is None:
         return 0.0
     table, key = place
@@ -154,23 +152,25 @@ def live_load_of(storey: Table, goods: Table, building: Table) -> float:
 
 
 def kinds_of(
-    floor: int, storey: Table, goods: Table, live_load: float, area: float, use: str
+    floor: int, storey: Table, goods_table: Table, live_load: float, area: float, use: str
 ) -> tuple[FloorGoods, ...]:
     """Return the goods of a floor, kind by kind. Floors count from 1; `live_load` is the design live load as a mass
     (kg), `area` in m2, NaN where it is not known.
     """
     tables = storey.tables("goods")
     if not tables:
-        given = (storey, goods)
-        share, how, of = _present(given, live_load, area, use)
-        contact = _friction(given) if live_load * share > 0.0 else ("", 0.0, 0.0)
-        return (FloorGoods(floor, "", live_load, share, how, False, *contact, rack_of(given), stops_of(given), of),)
+        levels = (storey, goods_table)
+        share, how, source = _present(levels, live_load, area, use)
+        contact = _friction(levels) if live_load * share > 0.0 else ("", 0.0, 0.0)
+        return (
+            FloorGoods(floor, "", live_load, share, how, False, *contact, rack_of(levels), stops_of(levels), source),
+        )
     shares = [table.number("share", need=SHARE) if "share" in table.values else np.nan for table in tables]
     total = sum(shares)
     if not abs(total - 1.0) <= SUM_ERROR:
         got = "a kind without one" if np.isnan(total) else f"a sum of {total:g}"
         storey.refuse("goods", "kinds with a share of the design live load each, one in sum", got)
-    found = []
+    kinds = []
     for table, part in zip(tables, shares, strict=True):
         attached = table.flag("attached", False)
         name = printable(table.text("name"))
@@ -178,13 +178,15 @@ def kinds_of(
         if attached:
             table.left_out((*FRICTION, "mu_k", *SUPPORT), f"{table.key('attached')} is true", "both")
             share, how, _ = _present((table,), live_load, area, "")
-            found.append(FloorGoods(floor, name, load, share, how, True, "", 0.0, 0.0))
+            kinds.append(FloorGoods(floor, name, load, share, how, True, "", 0.0, 0.0))
             continue
-        places = (table, storey, goods)
-        share, how, of = _present(places, live_load, area, use)
+        places = (table, storey, goods_table)
+        share, how, source = _present(places, live_load, area, use)
         contact = _friction(places) if load * share > 0.0 else ("", 0.0, 0.0)
-        found.append(FloorGoods(floor, name, load, share, how, False, *contact, rack_of(places), stops_of(places), of))
-    return tuple(found)
+        kinds.append(
+            FloorGoods(floor, name, load, share, how, False, *contact, rack_of(places), stops_of(places), source)
+        )
+    return tuple(kinds)
 
 
 def _present(tables: tuple[Table, ...], live_load: float, area: float, use: str) -> tuple[float, str, str]:
@@ -200,19 +202,19 @@ def _present(tables: tuple[Table, ...], live_load: float, area: float, use: str)
     if key == "occupied":
         return number_of(place, SHARE), "of the design live load, as stated", ""
     try:
-        found = surveyed_load(table.text(key))
+        survey = surveyed_load(table.text(key))
     except SeismassError as error:
         table.refuse_as(key, error)
     design = 1e-3 * STANDARD_GRAVITY * live_load / area
     if not design > 0.0:
         return (
-            found.share,
-            f"of the design live load, by {found.occupancy_id}, the area not being known",
-            found.occupancy_id,
+            survey.share,
+            f"of the design live load, by {survey.occupancy_id}, the area not being known",
+            survey.occupancy_id,
         )
-    share, spread = found.mean / design, found.deviation(area) / design
-    scatter = f"+/- {spread:.2f} of the design live load, by {found.occupancy_id} ({found.mean:g} kPa)"
-    return min(1.0, share), scatter + (", which is more than all of it" if share > 1.0 else ""), found.occupancy_id
+    share, spread = survey.mean / design, survey.deviation(area) / design
+    scatter = f"+/- {spread:.2f} of the design live load, by {survey.occupancy_id} ({survey.mean:g} kPa)"
+    return min(1.0, share), scatter + (", which is more than all of it" if share > 1.0 else ""), survey.occupancy_id
 
 
 def _friction(tables: tuple[Table, ...]) -> tuple[str, float, float]:
@@ -234,13 +236,13 @@ def _friction(tables: tuple[Table, ...]) -> tuple[str, float, float]:
     return "", static, table.number("mu_k", need=Need(requirement, lambda number: 0.0 <= number <= static))
 
 
-def mu_factors_of(goods: Table) -> tuple[float, float]:
+def mu_factors_of(goods_table: Table) -> tuple[float, float]:
     """Return the factors of friction for its bounds."""
-    given = goods.values.get("mu_factors", BOUND_FACTORS)
+    factors = goods_table.values.get("mu_factors", BOUND_FACTORS)
     try:
-        return bound_factors(given, "goods")
+        return bound_factors(factors, "goods")
     except InvalidOption as error:
-        goods.refuse_as("mu_factors", error)
+        goods_table.refuse_as("mu_factors", error)
 
 
 WALL_KEYS: Final = (
@@ -300,8 +302,8 @@ def _matrix(key: str, walls: Table, mass: FloatArray, stiffness: FloatArray, hei
         return 1e3 * stated, "an elastic matrix over the floors, as stated"
     frame = Building(mass, stiffness, yield_shear=np.inf, heights=heights)
     if key == "flexural_rigidity_kn_m2":
-        given = walls.per_storey(key)
-        rigidity = np.full(len(mass), np.nan) if given is None else 1e3 * given * np.ones(len(mass))
+        rows = walls.per_storey(key)
+        rigidity = np.full(len(mass), np.nan) if rows is None else 1e3 * rows * np.ones(len(mass))
         return Wall(heights, rigidity).stiffness_matrix, "flexural cantilever of the stated EI"
     number = walls.number(key, need=POSITIVE)
     if key == "period_s":
@@ -331,9 +333,7 @@ _REPLACED: Final = ((*PERIOD, *STIFFNESS), STRENGTH)
 
 
 def tables_in_y(tables: Mapping[str, Any], file: str) -> Table:
-    """Return the tables of a building file as they are for the building in y, from `other_direction`; `tables` is not
-    changed.
-    """
+    """Return the tables of the building in y, made from `other_direction` of a file; `tables` stays as it is."""
     whole = copy.deepcopy(dict(tables))
     other = Table(whole.pop("other_direction"), "other_direction", file, InvalidBuildingFile)
     other.known(OTHER_DIRECTION)
@@ -342,13 +342,13 @@ def tables_in_y(tables: Mapping[str, Any], file: str) -> Table:
     for key, read in (("building", in_y.table), ("storeys", in_y.tables)):
         if key in whole:
             read(key)  # what is not a table is refused before it is changed
-    of_building, own = whole.setdefault("building", {}), whole.get("storeys", [])
-    if storeys and len(storeys) != len(own):
-        other.refuse("storeys", f"as many tables as the building has storeys, {len(own)}", str(len(storeys)))
-    _merge([of_building, *own], {key: value for key, value in other.values.items() if key != "storeys"})
+    of_building, storey_tables = whole.setdefault("building", {}), whole.get("storeys", [])
+    if storeys and len(storeys) != len(storey_tables):
+        other.refuse("storeys", f"as many tables as the building has storeys, {len(storey_tables)}", str(len(storeys)))
+    _merge([of_building, *storey_tables], {key: value for key, value in other.values.items() if key != "storeys"})
     for number, storey in enumerate(storeys):
         storey.known(OF_STOREYS)
-        _merge([own[number]], storey.values)
+        _merge([storey_tables[number]], storey.values)
         if any(key in storey.values for key in (*STIFFNESS, *STRENGTH)):
             for group in _REPLACED:
                 if any(key in storey.values for key in group):
@@ -356,19 +356,19 @@ def tables_in_y(tables: Mapping[str, Any], file: str) -> Table:
     return in_y
 
 
-def _merge(tables: list[dict[str, Any]], given: dict[str, Any]) -> None:
+def _merge(tables: list[dict[str, Any]], changes: dict[str, Any]) -> None:
     """Put what is given into the first table, in place of what all of them have of it."""
     for table in tables:
-        for key in given:
+        for key in changes:
             table.pop(key, None)
         for group in _REPLACED:
-            if any(key in given for key in group):
+            if any(key in changes for key in group):
                 _drop(table, group)
-        if any(key in given for key in STRENGTH):
+        if any(key in changes for key in STRENGTH):
             _drop(table, DESIGN)
-        if given.get("design") is True:
+        if changes.get("design") is True:
             _drop(table, STRENGTH)
-    tables[0].update(given)
+    tables[0].update(changes)
 
 
 def _drop(table: dict[str, Any], keys: tuple[str, ...]) -> None:
@@ -380,9 +380,7 @@ BASE_KEYS: Final = ("mu", "mu_s", "mu_k", "radius_m", "mass_kg", "mass_ratio")
 
 
 def base_of(table: Table) -> SlidingBase | None:
-    """Return the sliding base of a building file from its table `base`, which is empty where the file has none: then
-    None.
-    """
+    """Return the sliding base of a building file from its table `base`; None where that table is empty."""
     if not table.values:
         return None
     table.known(BASE_KEYS)
@@ -391,10 +389,10 @@ def base_of(table: Table) -> SlidingBase | None:
     table.one_of("mass_kg", "mass_ratio")
     friction = {key: table.number(key, need=NOT_NEGATIVE) for key in ("mu", "mu_s", "mu_k") if key in table.values}
     others = {"radius_m": "radius", "mass_kg": "mass", "mass_ratio": "mass_ratio"}
-    given: dict[str, Any] = {
+    values: dict[str, Any] = {
         name: table.number(key, need=POSITIVE) for key, name in others.items() if key in table.values
     }
     static = friction.get("mu_s", friction.get("mu"))
     if "mu_k" in friction and static is not None and friction["mu_k"] > static:
         table.refuse("mu_k", f"at most {table.key('mu_s')}", f"{friction['mu_k']:g}")
-    return SlidingBase(**friction, **given)
+    return SlidingBase(**friction, **values)

@@ -9,8 +9,8 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 import polars as pl
 
+from seismass.assessment.building import DEFAULT_DRIFT_LIMIT
 from seismass.assessment.floors import FloorCode
-from seismass.assessment.own_building import DEFAULT_DRIFT_LIMIT
 from seismass.base.errors import InvalidOption
 from seismass.base.input_table import POSITIVE, SHARE, Table
 from seismass.base.statistics import QUANTILES
@@ -92,17 +92,17 @@ def period_of(building: Table, heights: FloatArray | None, storeys: int, code: C
     if heights is None:
         building.refuse("height_m", f"given where {building.key('system')} is", "nothing")
     try:
-        found = code_period(code_id, building.text("system"), height=float(heights.sum()), storeys=storeys)
+        rule = code_period(code_id, building.text("system"), height=float(heights.sum()), storeys=storeys)
     except InvalidOption as error:
         building.refuse_as("system", error)
-    return StatedPeriod(found.approximate, _mass(building, "code share"), found.rule)
+    return StatedPeriod(rule.approximate, _mass(building, "code share"), rule.rule)
 
 
 def _mass(building: Table, default: str) -> str:
-    chosen = building.text("period_mass") if "period_mass" in building.values else default
-    if chosen not in PERIOD_MASSES:
-        building.refuse("period_mass", f"one of {', '.join(PERIOD_MASSES)}", brief(chosen))
-    return chosen
+    mass = building.text("period_mass") if "period_mass" in building.values else default
+    if mass not in PERIOD_MASSES:
+        building.refuse("period_mass", f"one of {', '.join(PERIOD_MASSES)}", brief(mass))
+    return mass
 
 
 def limit_of(building: Table, code: CodeFraction) -> tuple[float, DriftLimit | None]:
@@ -110,7 +110,7 @@ def limit_of(building: Table, code: CodeFraction) -> tuple[float, DriftLimit | N
     by_code = ("risk_category", "drift_class", "drift_limit_code")
     if not any(key in building.values for key in by_code):
         return building.number("drift_limit", DEFAULT_DRIFT_LIMIT, POSITIVE), None
-    building.left_out(("drift_limit",), f"{building.key(next(iter(building.given(*by_code))))} is given", "both")
+    building.left_out(("drift_limit",), f"{building.key(next(iter(building.subset(*by_code))))} is given", "both")
     code_id = _code_id(building, "drift_limit_code", code, DRIFT_LIMIT_CODES, "drift limits are known here")
     of_code = drift_limit_table().filter(code_id=code_id)
     category = building.choice("risk_category", of_code["risk_category"].unique(maintain_order=True), "II")
@@ -130,21 +130,21 @@ def check_period(building: Table, period: StatedPeriod, stiffness: FloatArray, g
     longest = period.value / np.sqrt(ratio[storey])
     if longest < PERIOD_RANGE[0]:  # no building has one so short: the loads are wrong, which the scene says
         return
-    told = (
+    sentence = (
         f"below {longest:.3g} s, where the gravity load P/h of storey {storey + 1} takes its whole stiffness (are "
         "loads and heights in the units of their keys?)"
     )
     if period.rule is None:
-        building.refuse("period_s", told, f"{period.value:g}")
-    building.refuse("system", f"one whose period is {told}", f"{period.value:.3g} s")
+        building.refuse("period_s", sentence, f"{period.value:g}")
+    building.refuse("system", f"one whose period is {sentence}", f"{period.value:.3g} s")
 
 
 def _code_id(building: Table, key: str, code: CodeFraction, known: tuple[str, ...], what: str) -> str:
     """The code that a key names, or else that of the file, whose rules must be known."""
-    chosen = building.text(key).lower() if key in building.values else code.code_id
-    if chosen in known:
-        return chosen
-    building.refuse(key, f"one of the codes whose {what}: {', '.join(known)}", brief(chosen) if chosen else "none")
+    code_id = building.text(key).lower() if key in building.values else code.code_id
+    if code_id in known:
+        return code_id
+    building.refuse(key, f"one of the codes whose {what}: {', '.join(known)}", brief(code_id) if code_id else "none")
 
 
 DEFAULT_CODE: Final = "asce7-10"
@@ -157,11 +157,11 @@ def code_of(table: Table) -> CodeFraction:
         table.excluded("id", "fraction")
         table.excluded("use", "fraction")
         value = table.number("fraction", need=SHARE)
-        return CodeFraction("own", "a fraction of one's own", "storage", value, value, value, "", "", AS_STATED)
+        return CodeFraction("own", "a fraction that the user states", "storage", value, value, value, "", "", AS_STATED)
     names = {key: table.text(key) for key in ("id", "use")}
     try:
-        found = code_fraction(names["id"] or DEFAULT_CODE)
-        return code_fraction(found.code_id, names["use"] or "storage")  # type: ignore[arg-type]
+        row = code_fraction(names["id"] or DEFAULT_CODE)
+        return code_fraction(row.code_id, names["use"] or "storage")  # type: ignore[arg-type]
     except InvalidOption as error:
         key = "use" if str(error).startswith("use") else "id"
         table.refuse_as(key, error)
@@ -169,7 +169,7 @@ def code_of(table: Table) -> CodeFraction:
 
 def floor_codes(storeys: list[Table], code: CodeFraction) -> tuple[FloorCode, ...]:
     """Return what the tables of the storeys say for the code: `use`, or `fraction`, and `exempt`."""
-    found = []
+    codes = []
     for storey in storeys:
         storey.one_of("use", "fraction")
         exempt = storey.flag("exempt", False) if "exempt" in storey.values else None
@@ -184,8 +184,8 @@ def floor_codes(storeys: list[Table], code: CodeFraction) -> tuple[FloorCode, ..
                 code_fraction(code.code_id, use)  # type: ignore[arg-type]
             except InvalidOption as error:
                 storey.refuse_as("use", error)
-        found.append(FloorCode(fraction, use, exempt))
-    return tuple(found)
+        codes.append(FloorCode(fraction, use, exempt))
+    return tuple(codes)
 
 
 PERIODS: Final[FloatArray] = np.round(np.geomspace(0.05, 5.0, 81), 4)
@@ -200,8 +200,8 @@ def spectra_table(motions: Sequence[Any], target: TargetSpectrum | None, *, thre
     spectra = spectra_of(list(motions), PERIODS, DAMPING, threads=threads)
     wanted = np.full(len(PERIODS), np.nan)
     if target is not None:
-        within = (target.shortest <= PERIODS) & (target.longest >= PERIODS)
-        wanted[within] = target(PERIODS[within])
+        covered = (target.shortest <= PERIODS) & (target.longest >= PERIODS)
+        wanted[covered] = target(PERIODS[covered])
     columns = {"period": PERIODS, "target": wanted, "mean": spectra.mean(axis=0)}
     columns |= {name: np.quantile(spectra, share, axis=0) for name, share in QUANTILES.items()}
     return pl.DataFrame(columns).with_columns(pl.col("target").fill_nan(None))

@@ -48,7 +48,7 @@ class GoodsStops:
         ----------
         mass : float
             Mass of that part (kg).
-        share : float
+        share : float, default 1.0
             That part of all goods of the kind, which has as much of their stiffness.
         """
         if self.stiffness is None:
@@ -98,9 +98,9 @@ class GoodsRack:
             Stops beside the goods of each level.
         """
         part = mass / self.levels
-        beside = None if stops is None else stops.beside(part, 1.0 / self.levels)
+        part_stops = None if stops is None else stops.beside(part, 1.0 / self.levels)
         goods = [
-            RackBlock(level, mass=part, mu_s=mu[0], mu_k=mu[1], stops=beside) for level in range(1, self.levels + 1)
+            RackBlock(level, mass=part, mu_s=mu[0], mu_k=mu[1], stops=part_stops) for level in range(1, self.levels + 1)
         ]
         return Rack(
             floor,
@@ -206,46 +206,46 @@ def counted_fractions(
     """Return what counts of the design live load of each floor. Storage that adds at most 5 % to the weight of its
     level is exempt (ASCE 7, 12.7.2); goods or a live load of a use with a larger fraction take that fraction.
     """
-    found = []
+    fractions = []
     for index, one in enumerate(floors):
-        goods = [kind for kind in kinds if kind.floor == index + 1]
+        kinds_of_floor = [kind for kind in kinds if kind.floor == index + 1]
         if one.exempt:
-            found.append(CountedFraction(0.0, "exempt as stated"))
+            fractions.append(CountedFraction(0.0, "exempt as stated"))
         elif not np.isnan(one.fraction):
-            found.append(CountedFraction(one.fraction, "as stated"))
+            fractions.append(CountedFraction(one.fraction, "as stated"))
         elif code.code_id not in CODE_IDS:
-            found.append(CountedFraction(code.fraction, ""))
+            fractions.append(CountedFraction(code.fraction, ""))
         else:
-            fraction, use, why = _largest(code.code_id, one.use or code.use, goods, float(area[index]))
+            fraction, use, why = _largest(code.code_id, one.use or code.use, kinds_of_floor, float(area[index]))
             dead = [STANDARD_GRAVITY * float(mass[index])]
-            live = [STANDARD_GRAVITY * sum(kind.live_load for kind in goods if not kind.attached)]
+            live = [STANDARD_GRAVITY * sum(kind.live_load for kind in kinds_of_floor if not kind.attached)]
             weight = effective_seismic_weight(dead, live, code_id=code.code_id, use=use, roof=False)
             exception = "" if one.exempt is False or fraction == 0.0 else str(weight.table["exception"][0])
-            found.append(CountedFraction(0.0, BY_RULE + exception) if exception else CountedFraction(fraction, why))
-    return tuple(found)
+            fractions.append(CountedFraction(0.0, BY_RULE + exception) if exception else CountedFraction(fraction, why))
+    return tuple(fractions)
 
 
-def _largest(code_id: str, stated: str, goods: list[FloorGoods], area: float) -> tuple[float, Use, str]:
+def _largest(code_id: str, stated: str, kinds_of_floor: list[FloorGoods], area: float) -> tuple[float, Use, str]:
     """Largest fraction of the use that is stated and of those that goods and load have; its use, and why that."""
     why = {stated: ""}
-    for kind in goods:
+    for kind in kinds_of_floor:
         if kind.occupancy and not kind.attached and kind.live_load > 0.0:
             why.setdefault(surveyed_load(kind.occupancy).use, kind.occupancy)
     limit = INTENSITY.get(code_id, (np.inf,))[0]
-    load = STANDARD_GRAVITY * sum(kind.live_load for kind in goods)
+    load = STANDARD_GRAVITY * sum(kind.live_load for kind in kinds_of_floor)
     if load > limit * area * (1.0 + 1e-12):  # as in the seismic weight; false where the area is not known
         why.setdefault("storage", f"a live load above {limit / 1e3:g} kPa")
-    found = []
+    fractions = []
     for use in cast(dict[Use, str], why):
         with suppress(InvalidOption):  # a code for storage alone says nothing of other goods
-            found.append((code_fraction(code_id, use).fraction, use))
-    fraction, use = max(found, key=lambda each: each[0])
+            fractions.append((code_fraction(code_id, use).fraction, use))
+    fraction, use = max(fractions, key=lambda each: each[0])
     return fraction, use, why[use] and f"{LARGER}{use}, by {why[use]}"
 
 
 def by_floor(kinds: tuple[FloorGoods, ...], values: list[float], storeys: int) -> FloatArray:
     """Return the sum of one value per kind of goods on each floor, shape (storeys,)."""
-    found = np.zeros(storeys)
+    total = np.zeros(storeys)
     for kind, value in zip(kinds, values, strict=True):
-        found[kind.floor - 1] += value
-    return found
+        total[kind.floor - 1] += value
+    return total

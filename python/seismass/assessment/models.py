@@ -10,8 +10,8 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
+from seismass.assessment.building import OwnBuilding
 from seismass.assessment.file_site import PERIOD_MASSES
-from seismass.assessment.own_building import OwnBuilding
 from seismass.base.errors import InvalidOption, SimulationError
 from seismass.base.values import FloatArray, as_number
 from seismass.design.scaling import ScalingResult, scale_asce7_10
@@ -27,25 +27,25 @@ from seismass.motions.spectra import TargetSpectrum
 from seismass.runs.batch import solve_many
 from seismass.runs.plane import MotionPair
 
-REAL: Final = "real"
-REAL_LOW: Final = "real_mu_low"
-REAL_HIGH: Final = "real_mu_high"
-REALS: Final = (REAL, REAL_LOW, REAL_HIGH)
+SLIDING: Final = "real"
+SLIDING_LOW: Final = "real_mu_low"
+SLIDING_HIGH: Final = "real_mu_high"
+SLIDING_ALL: Final = (SLIDING, SLIDING_LOW, SLIDING_HIGH)
 """Models with goods that slide, by their friction: as stated, its lower and its upper bound."""
 ADVISED: Final = "advised"
 CODE: Final = "code"
 ATTACHED: Final = "attached"
 BARE: Final = "bare"
 _SLIPS: Final = ("peak_slip", "residual_slip", "slip_path")
-NAMES: Final = {name: MODELS[name].name for name in (*REALS, ADVISED, CODE, ATTACHED, BARE)}
+NAMES: Final = {name: MODELS[name].name for name in (*SLIDING_ALL, ADVISED, CODE, ATTACHED, BARE)}
 """What texts and figures call the models."""
 
 
 def friction_factors(building: OwnBuilding) -> dict[str, float]:
     """Return the factor of friction of each model with goods that slide; equal ones once."""
     low, high = building.mu_factors
-    factors = {REAL: 1.0, REAL_LOW: low, REAL_HIGH: high}
-    return {name: factor for name, factor in factors.items() if name == REAL or factor != 1.0}
+    factors = {SLIDING: 1.0, SLIDING_LOW: low, SLIDING_HIGH: high}
+    return {name: factor for name, factor in factors.items() if name == SLIDING or factor != 1.0}
 
 
 def with_mass(scene: Scene, attached: FloatArray) -> Scene:
@@ -75,17 +75,17 @@ def compared_models(building: OwnBuilding, target: TargetSpectrum | None, advise
     """Return the scenes that are compared, by name; without goods the bare building alone. `advised` is the share of
     the goods attached in the advised model; None leaves it out.
     """
-    real = building.scene(target)
-    bare = with_mass(real, np.zeros(building.storeys))
-    if not (building.goods > 0.0).any():
+    sliding_scene = building.scene(target)
+    bare = with_mass(sliding_scene, np.zeros(building.storeys))
+    if not (building.goods_mass > 0.0).any():
         return {BARE: bare}
-    reals = {name: building.scene(target, mu_factor=factor) for name, factor in friction_factors(building).items()}
-    attached = {} if advised is None else {ADVISED: with_mass(real, advised * building.goods)}
+    by_factor = {name: building.scene(target, mu_factor=factor) for name, factor in friction_factors(building).items()}
+    attached = {} if advised is None else {ADVISED: with_mass(sliding_scene, advised * building.goods_mass)}
     return {
-        **reals,
+        **by_factor,
         **attached,
-        CODE: with_mass(real, building.code_mass),
-        ATTACHED: with_mass(real, building.goods),
+        CODE: with_mass(sliding_scene, building.code_mass),
+        ATTACHED: with_mass(sliding_scene, building.goods_mass),
         BARE: bare,
     }
 
@@ -111,10 +111,10 @@ def solve_models(
         if run["status"] == "failed":
             raise SimulationError(f"run of model {model} under motion {motion + 1}, {names[motion]}: {run['reason']}")
         collapsed = run["status"] == "collapsed"
-        about = {"model": model, "motion": motion + 1, "collapsed": collapsed}
+        labels = {"model": model, "motion": motion + 1, "collapsed": collapsed}
         blocks = building.sliding if scenes[model].goods else ()
         slides += [
-            {**about, "kind": kind, "level": level, **{name: run[name][block] for name in _SLIPS}}
+            {**labels, "kind": kind, "level": level, **{name: run[name][block] for name in _SLIPS}}
             for block, (kind, level) in enumerate(blocks)
         ]
         for storey in range(1, building.storeys + 1):
@@ -184,12 +184,12 @@ def period_sentences(
             f"{rule.coefficient:g} h^{rule.exponent:g} with h the {size}, {rule.code}, {rule.clause}, {rule.system} "
             f"({checked})"
         )
-    told = [
+    sentences = [
         f"Period: {building.stated_period:.3g} s, {source}, taken with {WORDS[building.period_mass]} as mass; "
-        f"{building.period():.3g} s without goods, {building.period(building.goods):.3g} s with all of them."
+        f"{building.period():.3g} s without goods, {building.period(building.goods_mass):.3g} s with all of them."
     ]
     if rule is not None:
-        told.append(
+        sentences.append(
             "Formulas of codes give short periods, for forces on the safe side: drifts are then on the unsafe side, "
             "and the share is that of a stiff building; state a calculated period (period_s) where there is one."
         )
@@ -200,11 +200,11 @@ def period_sentences(
             for mass, share in shares.items()
             if mass != building.period_mass
         )
-        told.append(
+        sentences.append(
             f"The rule by hand gives a share of {shares[building.period_mass]:.2f} for this period, {others}, under "
             "the same motions."
         )
-    return tuple(told)
+    return tuple(sentences)
 
 
 def _with_period_of(building: OwnBuilding, mass: str) -> OwnBuilding:
@@ -212,7 +212,7 @@ def _with_period_of(building: OwnBuilding, mass: str) -> OwnBuilding:
     counted: dict[str, FloatArray] = {
         "bare": 0.0 * building.mass,
         "code share": building.code_mass,
-        "all": building.goods,
+        "all": building.goods_mass,
     }
     assert building.stated_period is not None
     factor = (building.period(counted[mass]) / building.stated_period) ** 2
@@ -249,8 +249,8 @@ def motion_of_runs(runs: pl.DataFrame) -> int:
     """Return the number (from 0) of the motion of median drift among those under which goods slide without a collapse,
     or among all where there are none, by the first model of the table of runs.
     """
-    of = runs.filter(pl.col("model") == runs["model"][0])
-    by_motion = of.group_by("motion", maintain_order=True).agg(
+    rows = runs.filter(pl.col("model") == runs["model"][0])
+    by_motion = rows.group_by("motion", maintain_order=True).agg(
         pl.col("collapsed").any(), pl.col("peak_drift").max(), slides=(pl.col("peak_slip") > 0.0).any()
     )
     drift = np.where(by_motion["collapsed"].to_numpy(), np.inf, by_motion["peak_drift"].to_numpy())
@@ -265,9 +265,7 @@ def _median(drift: FloatArray, among: NDArray[np.int64]) -> int:
 
 
 def shown_motion(scene: Scene, scaled: list[Any], factors: FloatArray) -> Shown:
-    """Return the motion of median largest drift of those under which goods slide, else of all; motions are scaled by
-    `factors` already.
-    """
+    """Return the scaled motion of median largest drift among those under which goods slide, else among all."""
     peaks = solve([scene], named_motions(scaled, "animation", scene))
     among = np.flatnonzero(peaks.slides[0]) if peaks.slides.any() else np.arange(len(scaled))
     place = _median(peaks.largest[0], among)
@@ -289,8 +287,8 @@ def scaled_to_site(
     if period is not None:
         stated = as_number(period, "scaling_period", "assessment", InvalidOption)
     directions = [each for each in (building, building.other) if each is not None]
-    periods = [each.period(building.goods) for each in directions] if stated is None else [stated]
+    periods = [each.period(building.goods_mass) for each in directions] if stated is None else [stated]
     shorter, longer = min(periods), max(periods)
-    within = (0.2 * (shorter / longer), 1.5)
+    period_range = (0.2 * (shorter / longer), 1.5)
     spectrum = building.site_spectrum(target)
-    return scale_asce7_10(motions, spectrum, longer, period_range=within, between=False, threads=threads)
+    return scale_asce7_10(motions, spectrum, longer, period_range=period_range, between=False, threads=threads)

@@ -28,12 +28,12 @@ _SLOPES: Final = (
 )
 
 
-def _text(given: str) -> str:
-    return given.strip()
+def _text(text: str) -> str:
+    return text.strip()
 
 
-def _count(given: str) -> int:
-    number = int(given)
+def _count(text: str) -> int:
+    number = int(text)
     if not 1 <= number <= 200:
         raise ValueError
     return number
@@ -42,8 +42,8 @@ def _count(given: str) -> int:
 def _number(need: Need) -> Callable[[str], float]:
     """Return what reads a number that fits; another one is a ValueError."""
 
-    def read(given: str) -> float:
-        number = float(given)
+    def read(text: str) -> float:
+        number = float(text)
         if not need.fits(number):
             raise ValueError
         return number
@@ -54,11 +54,11 @@ def _number(need: Need) -> Callable[[str], float]:
 _positive, _share = _number(POSITIVE), _number(SHARE)
 
 
-def _friction(given: str) -> str | float:
+def _friction(text: str) -> str | float:
     known = friction_table()["pair_id"].to_list()
-    if given.strip() in known:
-        return given.strip()
-    return _positive(given)
+    if text.strip() in known:
+        return text.strip()
+    return _positive(text)
 
 
 @dataclass(frozen=True)
@@ -71,12 +71,12 @@ class Question:
     read: Callable[[str], Any]
     default: str = ""
 
-    def answer(self, given: Any) -> Any:
+    def answer(self, value: Any) -> Any:
         """Read an answer, or refuse it."""
         try:
-            return self.read(str(given))
+            return self.read(str(value))
         except ValueError:
-            raise refusal(InvalidOption, self.name, "new building", self.must, brief(given)) from None
+            raise refusal(InvalidOption, self.name, "new building", self.must, brief(value)) from None
 
 
 QUESTIONS: Final = (
@@ -107,8 +107,9 @@ def questions_for(table: StoreyTable | None, curves: PushoverCurves | None = Non
     """Return what has still to be asked where a storey table or pushover curves are given."""
     known = set()
     if table is not None:
-        of = {"height": table.heights, "dead_load": table.mass, "period": table.stiffness, "reduction": table.strength}
-        known = {"storeys", *(name for name, values in of.items() if values is not None)}
+        values = table.heights, table.mass, table.stiffness, table.strength
+        names = zip(("height", "dead_load", "period", "reduction"), values, strict=True)
+        known = {"storeys", *(name for name, value in names if value is not None)}
     if curves is not None:
         known |= {"period", "reduction", *(["storeys"] if curves.names else [])}
     return tuple(question for question in QUESTIONS if question.name not in known)

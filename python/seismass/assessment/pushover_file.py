@@ -72,8 +72,8 @@ class PushoverCurves(Card):
         if heights is None or (self.names and len(heights) != len(self.names)):
             got = "none" if heights is None else f"{len(heights)} for {len(self.names)} storeys"
             raise refusal(InvalidBuildingFile, "heights", self.source, "known, since drifts are ratios", got)
-        of = heights if self.names else [float(np.sum(heights))]
-        return tuple(frozen(height * drift) for height, drift in zip(of, self.drift, strict=True))
+        lengths = heights if self.names else [float(np.sum(heights))]
+        return tuple(frozen(height * drift) for height, drift in zip(lengths, self.drift, strict=True))
 
 
 def read_pushover(
@@ -96,7 +96,7 @@ def read_pushover(
         a ratio of the height.
     order : {"roof-first", "ground-first"}, optional
         Order of the storeys, where their names do not say it.
-    direction : {"x", "y"}
+    direction : {"x", "y"}, default "x"
         Which of the columns "Story Drift X" and "Story Drift Y" is read.
 
     Returns
@@ -133,24 +133,24 @@ def read_pushover(
     drift = sheet.numbers("drift", _RATIO[unit] if ratio else sheet.factor("drift", "length", system), owners)
     shear = sheet.numbers("shear", sheet.factor("shear", "force", system), owners)
     names = sheet.texts("storey") if "storey" in sheet.columns else [""] * len(drift)
-    order_found = list(dict.fromkeys(names))
-    refuse_summaries(order_found, path.name)
-    if "storey" in sheet.columns and is_roof_first(order_found, order, path):
-        order_found.reverse()
-    base = [name for name in order_found if is_base(name)]
-    order_found = [name for name in order_found if name not in base]
+    order_of_file = list(dict.fromkeys(names))
+    refuse_summaries(order_of_file, path.name)
+    if "storey" in sheet.columns and is_roof_first(order_of_file, order, path):
+        order_of_file.reverse()
+    base = [name for name in order_of_file if is_base(name)]
+    order_of_file = [name for name in order_of_file if name not in base]
     drifts, shears, turned = [], [], False
-    for name in order_found:
+    for name in order_of_file:
         rows = [i for i, other in enumerate(names) if other == name]
-        of = f"storey {short(name)} of {path.name}" if name else path.name
+        curve_name = f"storey {short(name)} of {path.name}" if name else path.name
         columns = []
         for kind, values in (("drift", drift), ("shear", shear)):
             signed = np.array([values[i] for i in rows])
             if np.isnan(signed).any():
-                raise refusal(InvalidBuildingFile, kind, of, "a number in every row", "nothing in one")
+                raise refusal(InvalidBuildingFile, kind, curve_name, "a number in every row", "nothing in one")
             if (signed < 0.0).any() and (signed > 0.0).any():
                 got = f"{signed.min():g} and {signed.max():g}"
-                raise refusal(InvalidBuildingFile, kind, of, "of one sign: a push in one direction", got)
+                raise refusal(InvalidBuildingFile, kind, curve_name, "of one sign: a push in one direction", got)
             turned |= bool((signed < 0.0).any())
             columns.append(frozen(np.abs(signed)))
         drifts.append(columns[0])
@@ -162,7 +162,7 @@ def read_pushover(
     remarks += ["signs are turned, so that drifts and shears are positive"] * turned
     return PushoverCurves(
         source=path.name,
-        names=tuple(order_found) if "storey" in sheet.columns else (),
+        names=tuple(order_of_file) if "storey" in sheet.columns else (),
         drift=tuple(drifts),
         shear=tuple(shears),
         ratio=ratio,

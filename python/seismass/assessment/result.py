@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 import polars as pl
 
 from seismass.assessment.answer import ANALYSIS, Answer, analysis_table
+from seismass.assessment.building import OwnBuilding
 from seismass.assessment.checks import checks_table, input_document
 from seismass.assessment.models import Shown
-from seismass.assessment.own_building import OwnBuilding
 from seismass.base.values import content_hash, same_content
 from seismass.base.views import view
 from seismass.design.scaling import ScalingResult
@@ -29,9 +29,7 @@ SCHEMA_VERSION: Final = 7
 
 
 def shown_figures(fractions: bool, storeys: pl.DataFrame, slip: pl.DataFrame) -> tuple[str, ...]:
-    """Return the names of the figures that have something to show; `fractions` says whether some effective fraction has
-    a value.
-    """
+    """Return the names of the figures with content; `fractions`: whether an effective fraction has a value."""
     shown = {
         "effective_fraction": fractions,
         "drift": storeys["mean"].drop_nulls().len() > 0,
@@ -183,7 +181,7 @@ class Assessment(Result):
         raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything but the runs as plain values in SI units; null for what is not finite."""
+        """Return everything but the runs as plain values in SI units; null for non-finite values."""
         building, code = self.building, self.building.code
         document = {
             "schema_version": SCHEMA_VERSION,

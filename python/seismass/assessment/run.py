@@ -23,6 +23,7 @@ from seismass.assessment.answer import (
     design_shares,
     fractions_by_friction,
 )
+from seismass.assessment.building import OwnBuilding
 from seismass.assessment.building_file import read_building
 from seismass.assessment.checks import collapses_of, governing_table, slip_table, storey_table
 from seismass.assessment.doubts import doubts_of
@@ -30,7 +31,7 @@ from seismass.assessment.file_site import spectra_table
 from seismass.assessment.models import (
     ADVISED,
     BARE,
-    REAL,
+    SLIDING,
     Shown,
     compared_models,
     friction_factors,
@@ -39,7 +40,6 @@ from seismass.assessment.models import (
     scaled_to_site,
     solve_models,
 )
-from seismass.assessment.own_building import OwnBuilding
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
@@ -51,7 +51,6 @@ from seismass.model.friction import bound_factors
 from seismass.motions.motion import motion_names
 from seismass.motions.records import Pair, Pairs, Suite, builtin_pairs, builtin_suite
 from seismass.motions.spectra import TargetSpectrum
-from seismass.runs.opensees_export import write_opensees
 from seismass.runs.simulate import instruction_set
 
 FIXED_MODELS: Final = 4
@@ -93,7 +92,7 @@ def assess(
     scaling_period : float, optional
         Period T (s) for which motions are scaled, from 0.2 T to 1.5 T; default that of the building file, else the
         first period of the building with the goods present attached.
-    scale : bool
+    scale : bool, default True
         False takes the motions as they are. Pairs are scaled by one factor for both components, so that the geometric
         mean of their spectra is that of one component (`scale_asce7_10`); pairs scaled otherwise, as for the maximum
         direction of ASCE 7-16, are given with False.
@@ -131,56 +130,56 @@ def assess(
     >>> result.storeys["model"].unique(maintain_order=True).to_list()
     ['real', 'real_mu_low', 'real_mu_high', 'advised', 'code', 'attached', 'bare']
     """
-    chosen = _building(building, code, mu_factors)
-    in_plane = chosen.other is not None
+    stated = _building(building, code, mu_factors)
+    in_plane = stated.other is not None
     suite = _suite((builtin_pairs() if in_plane else builtin_suite("forty")) if motions is None else motions, in_plane)
-    spectrum = chosen.site_spectrum(target) if scale or chosen.design is not None else None
-    scaling = scaled_to_site(chosen, suite, spectrum, scaling_period, threads=threads) if scale else None
+    spectrum = stated.site_spectrum(target) if scale or stated.design is not None else None
+    scaling = scaled_to_site(stated, suite, spectrum, scaling_period, threads=threads) if scale else None
     factors = np.ones(len(suite)) if scaling is None else scaling.factors
     scaled = [motion.scaled(float(factor)) for motion, factor in zip(suite, factors, strict=True)]
-    loaded = bool((chosen.goods > 0.0).any())
-    frictions = friction_factors(chosen) if loaded else {}
+    loaded = bool((stated.goods_mass > 0.0).any())
+    frictions = friction_factors(stated) if loaded else {}
     models = len(frictions) + FIXED_MODELS if loaded else 1
     fractions = len(frictions) + SHARES if loaded else 0
-    designs = 2 * len(design_shares(chosen)) if loaded and chosen.design is not None else 0
-    larger = len(SHARES_BEYOND) if loaded and goes_beyond(chosen.scene(spectrum)) else 0
+    designs = 2 * len(design_shares(stated)) if loaded and stated.design is not None else 0
+    larger = len(SHARES_BEYOND) if loaded and goes_beyond(stated.scene(spectrum)) else 0
     stages = _Stages(progress, (models + fractions + larger + designs) * len(suite))
     bootstrap = {"confidence": confidence, "resamples": resamples, "seed": seed}
     effective = fractions_by_friction(
-        chosen, spectrum, frictions, scaled, bootstrap, threads, stages.next((fractions + larger) * len(suite))
+        stated, spectrum, frictions, scaled, bootstrap, threads, stages.next((fractions + larger) * len(suite))
     )
     advised = advised_share(effective)
     design = None
     if designs and advised is not None:
         factor = frictions[deciding(effective)]
-        design = design_share(chosen, spectrum, factor, scaled, threads, stages.next(designs * len(suite)))
-    scenes = compared_models(chosen, spectrum, advised)
+        design = design_share(stated, spectrum, factor, scaled, threads, stages.next(designs * len(suite)))
+    scenes = compared_models(stated, spectrum, advised)
     names = motion_names(suite)
     components = [record for motion in scaled for record in (tuple(motion) if in_plane else (motion,))]
     horizontal = [record for motion in scaled for record in (tuple(motion)[:2] if in_plane else (motion,))]
     runs, slips = solve_models(
-        chosen, scenes, scaled, names, threads=threads, progress=stages.next(models * len(suite))
+        stated, scenes, scaled, names, threads=threads, progress=stages.next(models * len(suite))
     )
-    real = chosen.scene(spectrum)
-    storeys, slip, collapses = storey_table(chosen, real, runs), slip_table(chosen, slips), collapses_of(runs)
-    governing = governing_table(chosen, storeys)
+    sliding_scene = stated.scene(spectrum)
+    storeys, slip, collapses = storey_table(stated, sliding_scene, runs), slip_table(stated, slips), collapses_of(runs)
+    governing = governing_table(stated, storeys)
     place = motion_of_runs(runs)
-    about = {
+    facts = {
         "name": suite.name if isinstance(suite, Suite | Pairs) else "motions",
         "motions": names,
         "pairs": in_plane,
         "synthetic": sum(_is_synthetic(motion) for motion in suite),
     }
-    yields = effective[REAL].by_hand.yields if effective else None
-    period = period_sentences(chosen, spectrum, scaled, yields)
-    doubts = doubts_of(chosen, real, scaled, spectrum, storeys)
-    answer = answer_of(chosen, advised, effective, design, storeys, governing, collapses, about, scaling, doubts)
+    yields = effective[SLIDING].by_hand.yields if effective else None
+    period = period_sentences(stated, spectrum, scaled, yields)
+    doubts = doubts_of(stated, sliding_scene, scaled, spectrum, storeys)
+    answer = answer_of(stated, advised, effective, design, storeys, governing, collapses, facts, scaling, doubts)
     return Assessment(
-        building=chosen,
+        building=stated,
         target=spectrum,
         answer=answer,
         effective=effective,
-        design=None if design is None else design.found,
+        design=None if design is None else design.effective,
         storeys=storeys,
         governing=governing,
         slip=slip,
@@ -188,33 +187,33 @@ def assess(
         runs=runs,
         collapses=collapses,
         spectra=spectra_table(horizontal, spectrum, threads=threads),
-        example=Shown(real, scaled[place], place + 1, float(factors[place])),
+        example=Shown(sliding_scene, scaled[place], place + 1, float(factors[place])),
         scaling=scaling,
-        suite=about,
-        advice=advice_of(chosen, answer, storeys, slip, collapses, len(suite), effective.get(REAL), runs),
-        remarks=remarks_of(chosen, doubts, scaling, effective, about),
-        assumptions=assumptions_of(chosen, spectrum, scaling, about, period),
+        suite=facts,
+        advice=advice_of(stated, answer, storeys, slip, collapses, len(suite), effective.get(SLIDING), runs),
+        remarks=remarks_of(stated, doubts, scaling, effective, facts),
+        assumptions=assumptions_of(stated, spectrum, scaling, facts, period),
         metadata={
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
             "inputs_sha256": inputs_digest(
                 scenes,
-                chosen,
+                stated,
                 None if spectrum is None else spectrum.parameters,
                 motion_contents(components),
                 bootstrap,
             ),
             **bootstrap,
             "damping": "matrix of the building without goods, in every model",
-            "p_delta": chosen.gravity_load is not None,
+            "p_delta": stated.gravity_load is not None,
             "motions": len(suite),
         },
     )
 
 
-def _building(given: Any, code: CodeFraction | None, mu_factors: tuple[float, float] | None) -> OwnBuilding:
-    building = given if isinstance(given, OwnBuilding) else read_building(given)
+def _building(source: Any, code: CodeFraction | None, mu_factors: tuple[float, float] | None) -> OwnBuilding:
+    building = source if isinstance(source, OwnBuilding) else read_building(source)
     if code is not None:
         if not isinstance(code, CodeFraction):
             raise refusal(InvalidOption, "code", "assessment", "a CodeFraction, as code_fraction gives it", brief(code))
@@ -266,7 +265,7 @@ class _Stages:
         return lambda done, _: progress(min(first + done, total), total)
 
 
-TITLES: Final = {REAL: "goods slide", ADVISED: "analysis 1", BARE: "analysis 2"}
+TITLES: Final = {SLIDING: "goods slide", ADVISED: "analysis 1", BARE: "analysis 2"}
 """Models that are written, and what the program calls them."""
 
 
@@ -274,10 +273,12 @@ def write_models(folder: str | os.PathLike[str], result: Assessment, suite: Suit
     """Write OpenSeesPy models of an assessed building, with goods that slide and of both analyses, and analysis.csv.
     `suite` holds its motions, unscaled.
     """
+    from seismass.runs.opensees_export import write_opensees
+
     share = next((one.share_of_goods_present for one in result.answer.analyses if one.model == ADVISED), None)
     scenes = compared_models(result.building, result.target, share)
     factors = np.ones(len(suite)) if result.scaling is None else result.scaling.factors
     motions = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
-    chosen = {title: scenes[name] for name, title in TITLES.items() if name in scenes}
+    models = {title: scenes[name] for name, title in TITLES.items() if name in scenes}
     table = analysis_table(result.answer, result.building)
-    return write_opensees(folder, chosen, motions, documents={f"{ANALYSIS}.csv": without_formulas(table).write_csv()})
+    return write_opensees(folder, models, motions, documents={f"{ANALYSIS}.csv": without_formulas(table).write_csv()})

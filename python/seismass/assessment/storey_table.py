@@ -48,9 +48,7 @@ _STIFFNESS: Final = re.compile(r"([a-z]+)/([a-z]+)")
 
 
 def unit_factor(unit: str, quantity: Quantity, what: str, owner: str) -> float:
-    """Return the factor towards SI units of a unit such as "kN/m" or "kip-s2/in" for a length, force, mass or
-    stiffness.
-    """
+    """Return the factor to SI units of a unit such as "kN/m" or "kip-s2/in" of a length, force, mass or stiffness."""
     text = unit.strip().lower().replace(" ", "")
     if quantity == "length" and text in LENGTHS:
         return LENGTHS[text]
@@ -178,8 +176,8 @@ def _sheet(content: bytes, path: Path) -> list[list[str]]:
         if size > MOST_BYTES:
             raise refusal(InvalidBuildingFile, "size", path.name, f"at most {MOST_BYTES} bytes unpacked", str(size))
         book = load_workbook(io.BytesIO(content), read_only=True, data_only=True)
-        found = book.worksheets[0].iter_rows(values_only=True)
-        return [["" if cell is None else str(cell) for cell in row] for row in found]
+        rows = book.worksheets[0].iter_rows(values_only=True)
+        return [["" if cell is None else str(cell) for cell in row] for row in rows]
     except (zipfile.BadZipFile, KeyError, IndexError, ValueError, OSError) as error:
         raise refusal(InvalidBuildingFile, "content", path.name, "a workbook", short(str(error))) from error
 
@@ -209,12 +207,12 @@ def _head(
 ) -> tuple[int, dict[str, int]]:
     """Row of the head, and the column of each kind."""
     for number, row in enumerate(rows[:50]):
-        given = [_name_of(cell, direction) for cell in row]
-        found = {
-            kind: min((given.index(name) for name in known if name in given), default=-1)
+        names_in_row = [_name_of(cell, direction) for cell in row]
+        places = {
+            kind: min((names_in_row.index(name) for name in known if name in names_in_row), default=-1)
             for kind, known in names.items()
         }
-        columns = {kind: place for kind, place in found.items() if place >= 0}
+        columns = {kind: place for kind, place in places.items() if place >= 0}
         if len(columns) > 1 and all(kind in columns for kind in needed):
             return number, columns
     first = next((", ".join(cell for cell in row if cell) for row in rows if any(row)), "no rows")
@@ -289,8 +287,8 @@ def refuse_sums(names: Sequence[str], masses: Sequence[float], file: str) -> Non
     whole, base = sum(storeys.values()), sum(masses) - sum(storeys.values())
     if len(storeys) < 3:  # two equal floors are each the sum of the others
         return
-    for name, own in storeys.items():
-        is_sum = any(abs(own - total) <= _LIKE_SUM * total for total in (whole - own, whole - own + base))
+    for name, value in storeys.items():
+        is_sum = any(abs(value - total) <= _LIKE_SUM * total for total in (whole - value, whole - value + base))
         if is_sum and len(re.findall(r"\d+", name)) != 1:
             raise refusal(InvalidBuildingFile, f"row {short(name)}", file, _NEED, "the sum of the other rows' masses")
 
@@ -374,7 +372,7 @@ def read_storey_table(
         Masses are then in force times s2 over length.
     order : {"roof-first", "ground-first"}, optional
         Order of the rows, where neither elevations nor names say it.
-    direction : {"x", "y"}
+    direction : {"x", "y"}, default "x"
         Which of the columns "Stiffness X" and "Stiffness Y" is read; the same of masses, shears and drifts.
 
     Returns
@@ -471,8 +469,8 @@ def _ordered(
         length = drift * heights if ratio and heights is not None else drift
         stiffness = np.abs(shear) / np.abs(length)
         remarks.append(f"stiffnesses are shears over drifts{', which are ratios of the heights' if ratio else ''}")
-    found = {"height": heights, "mass": mass, "stiffness": stiffness, "strength": column("strength")}
-    for kind, numbers in found.items():
+    columns = {"height": heights, "mass": mass, "stiffness": stiffness, "strength": column("strength")}
+    for kind, numbers in columns.items():
         if numbers is None:
             continue
         for i, number in enumerate(numbers):
@@ -486,7 +484,7 @@ def _ordered(
         heights=heights,
         mass=mass,
         stiffness=stiffness,
-        strength=found["strength"],
+        strength=columns["strength"],
         remarks=tuple(remarks),
     )
 
@@ -494,12 +492,12 @@ def _ordered(
 def _carried(sheet: Sheet, row: int) -> str:
     """What a row that is left out has in the columns that are read, as the table has it."""
     cells = {kind: sheet.body[row][place].strip() for kind, place in sheet.columns.items()}
-    told = [
+    sentences = [
         f"{kind} {short(printable(cell))} {printable(sheet.units[kind])}".rstrip()
         for kind, cell in cells.items()
         if kind not in ("storey", "elevation") and cell.strip("0.,-")
     ]
-    return f", with {', '.join(told)}" if told else ""
+    return f", with {', '.join(sentences)}" if sentences else ""
 
 
 def is_roof_first(names: list[str], order: Order | None, path: Path) -> bool:
@@ -514,8 +512,8 @@ def is_roof_first(names: list[str], order: Order | None, path: Path) -> bool:
     if _ROOF.search(last) or _BASE.fullmatch(first):
         return False
     numbers = [re.findall(r"\d+", name) for name in names]
-    if all(len(found) == 1 for found in numbers):
-        counted = [int(found[0]) for found in numbers]
+    if all(len(digits) == 1 for digits in numbers):
+        counted = [int(digits[0]) for digits in numbers]
         if counted == sorted(counted, reverse=True):
             return True
         if counted == sorted(counted):

@@ -8,9 +8,9 @@ from typing import Any, Final
 import numpy as np
 import polars as pl
 
+from seismass.assessment.building import OwnBuilding
 from seismass.assessment.floors import CONTACT_PERIOD
-from seismass.assessment.models import NAMES, REALS
-from seismass.assessment.own_building import OwnBuilding
+from seismass.assessment.models import NAMES, SLIDING_ALL
 from seismass.base.values import FloatArray
 from seismass.effective_mass import EffectiveMass
 from seismass.model.building import Building
@@ -38,18 +38,18 @@ def rule_advice(building: OwnBuilding, effective: EffectiveMass | None) -> tuple
     if not unknown or effective is None or math.isnan(effective.value):
         return ()
     value, low, high = effective.value, effective.estimate, effective.conservative
-    found = "more than it says" if value > high + 0.005 else "less than it says" if value < low - 0.005 else "within it"
+    words = "more than it says" if value > high + 0.005 else "less than it says" if value < low - 0.005 else "within it"
     return (
         f"{NOT_APPLIED}, since it does not know {' and '.join(unknown)}: it would give {low:.2f} at best and "
-        f"{high:.2f} to be safe of the goods present, and the runs with them give {value:.2f}, {found}.",
+        f"{high:.2f} to be safe of the goods present, and the runs with them give {value:.2f}, {words}.",
     )
 
 
 def base_advice(runs: pl.DataFrame) -> list[str]:
     """Return how far a sliding base slips: at the friction of goods at which it slips most; or nothing."""
     of_base = runs.filter((pl.col("storey") == 1) & ~pl.col("collapsed")).drop_nulls("peak_base_slip")
-    found = (
-        of_base.filter(pl.col("model").is_in(REALS))
+    drifts = (
+        of_base.filter(pl.col("model").is_in(SLIDING_ALL))
         .group_by("model", maintain_order=True)
         .agg(
             mean=pl.col("peak_base_slip").mean(),
@@ -59,9 +59,9 @@ def base_advice(runs: pl.DataFrame) -> list[str]:
         )
         .sort("p84", descending=True)
     )
-    if not found.height:
+    if not drifts.height:
         return []
-    row = found.row(0, named=True)
+    row = drifts.row(0, named=True)
     return [
         f"The base slips {1e3 * row['mean']:.0f} mm in the mean of {row['motions']} motions, up to "
         f"{1e3 * row['p84']:.0f} mm under 84 % of them and {1e3 * row['most']:.0f} mm at most ({NAMES[row['model']]}): "
@@ -69,7 +69,7 @@ def base_advice(runs: pl.DataFrame) -> list[str]:
     ]
 
 
-def about_support(building: OwnBuilding) -> list[str]:
+def support_remarks(building: OwnBuilding) -> list[str]:
     """Return what is assumed of racks, walls, stops and a sliding base, sentence by sentence."""
     lines = []
     for kind in building.present:
@@ -117,7 +117,7 @@ def force_ratios(scene: Scene, motions: list[Any]) -> FloatArray:
     building = scene.building
     assert building is not None
     matrix = building.damping_matrix
-    found = []
+    ratios = []
     for motion in motions:
         response = simulate(scene, getattr(motion, "motion", motion), histories=True, events=False)
         forces = response.floor_velocity @ matrix.T
@@ -125,8 +125,8 @@ def force_ratios(scene: Scene, motions: list[Any]) -> FloatArray:
         springs = response.storey_force
         spring = np.abs(springs).max(axis=0)
         both = np.abs(springs + damping).max(axis=0)
-        found.append(np.divide(both, spring, out=np.ones(len(spring)), where=spring > 0.0))
-    mean: FloatArray = np.mean(found, axis=0)
+        ratios.append(np.divide(both, spring, out=np.ones(len(spring)), where=spring > 0.0))
+    mean: FloatArray = np.mean(ratios, axis=0)
     return mean
 
 

@@ -32,7 +32,7 @@ def motion_contents(motions: Iterable[Any]) -> list[tuple[Any, ...]]:
 
 
 def fields_of(value: Any) -> dict[str, Any] | None:
-    """Return the fields of an object of the package, but for labels and what a `Value` derives; None of others."""
+    """Return the fields of an object of the package, except labels and what a `Value` derives; None of others."""
     if isinstance(value, type):
         return None
     if dataclasses.is_dataclass(value):

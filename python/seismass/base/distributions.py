@@ -1,4 +1,4 @@
-"""Distributions of what is not known: any frozen one of scipy.stats, and two by the numbers that people state."""
+"""Distributions of unknown quantities: any frozen one of scipy.stats, and two by the numbers that people state."""
 
 from __future__ import annotations
 

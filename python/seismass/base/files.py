@@ -15,10 +15,11 @@ from contextlib import contextmanager
 from functools import cache
 from io import BufferedReader
 from pathlib import Path
-from typing import Final, Literal
+from typing import TYPE_CHECKING, Final, Literal
 from uuid import uuid4
 
-import polars as pl
+if TYPE_CHECKING:
+    import polars as pl
 
 PREFIX: Final = ".seismass-"
 """Beginning of every temporary name."""
@@ -36,7 +37,7 @@ def temporary_path(folder: Path) -> Path:
 
 
 def temporary_name() -> str:
-    """Return an unused name that tells which process it belongs to: this one."""
+    """Return an unused name that contains the number of this process."""
     process = os.getpid()
     return f"{PREFIX}{_machine()}-{_boot()}-{process}-{_started(process) or 0}-{uuid4().hex}.part"
 
@@ -188,6 +189,8 @@ def read_utf8(path: str | os.PathLike[str], most: int = MOST_BYTES) -> str:
 
 def read_table(path: str | os.PathLike[str], *, follow: bool = True) -> pl.DataFrame:
     """Return the table of a Parquet file of any name; Polars itself opens none whose name is not UTF-8."""
+    import polars as pl
+
     try:
         with open_regular(path, follow=follow) as file:
             return pl.read_parquet(file)
@@ -241,9 +244,11 @@ def polars_writing(path: Path) -> Iterator[None]:
     """Raise an error of Polars while writing, as on a full disk, as an OSError that names `path`, with the reason of
     the system where Polars passes it on.
     """
+    from polars.exceptions import PolarsError
+
     try:
         yield
-    except pl.exceptions.PolarsError as error:
+    except PolarsError as error:
         known = _OS_ERROR.search(str(error))
         code = int(known[1]) if known else errno.EIO
         reason = os.strerror(code) if known else f"{os.strerror(code)}: {error}"
@@ -254,6 +259,7 @@ def without_formulas(frame: pl.DataFrame) -> pl.DataFrame:
     """Return a frame for a CSV: a text that spreadsheets would run as a formula (not a number, begins with =, +, -, @
     or a control character) has an apostrophe before it.
     """
+    import polars as pl
 
     def guarded(name: str) -> pl.Expr:
         text = pl.col(name)
@@ -266,9 +272,7 @@ def without_formulas(frame: pl.DataFrame) -> pl.DataFrame:
 def write_table(
     frame: pl.DataFrame, kind: Literal["parquet", "csv"], path: Path, *, metadata: dict[str, str] | None = None
 ) -> None:
-    """Write a frame to a Parquet or CSV file of any name; Polars itself opens none whose name is not UTF-8. A CSV has
-    no metadata.
-    """
+    """Write a frame to Parquet or CSV, where Polars opens no name that is not UTF-8. A CSV has no metadata."""
     with path.open("wb") as file:
         if kind == "csv":
             without_formulas(frame).write_csv(file)

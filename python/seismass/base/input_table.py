@@ -84,14 +84,14 @@ SHARE: Final = Need("from 0 to 1", lambda number: 0.0 <= number <= 1.0)
 
 
 class Table:
-    """A table of the file, with its place in it for messages. Null stands for an absent key, but for `nullable`."""
+    """A table of the file, with its place in it for messages. Null stands for an absent key, except for `nullable`."""
 
     def __init__(
-        self, given: dict[str, Any], place: str, file: str, kind: type[SeismassError], nullable: Iterable[str] = ()
+        self, values: dict[str, Any], place: str, file: str, kind: type[SeismassError], nullable: Iterable[str] = ()
     ) -> None:
-        kept = set(nullable)
-        self.values = {key: value for key, value in given.items() if value is not None or key in kept}
-        self._all_keys = tuple(given)
+        allowed = set(nullable)
+        self.values = {key: value for key, value in values.items() if value is not None or key in allowed}
+        self._all_keys = tuple(values)
         self.place = place
         self.file = file
         self._kind = kind
@@ -113,7 +113,7 @@ class Table:
                 hint = f" (did you mean {self.key(close[0])}?)" if close else ""
                 self.refuse(key, f"one of the keys {', '.join(keys)}{hint}", "an unknown key")
 
-    def given(self, *keys: str) -> dict[str, Any]:
+    def subset(self, *keys: str) -> dict[str, Any]:
         """Return the values of those of the keys that are there."""
         return {key: self.values[key] for key in keys if key in self.values}
 
@@ -140,7 +140,7 @@ class Table:
 
     def left_out(self, keys: Iterable[str], where: str, got: str | None = None) -> None:
         """Refuse each of the keys; the message shows its value unless `got` is given."""
-        for key, value in self.given(*keys).items():
+        for key, value in self.subset(*keys).items():
             self.refuse(key, f"left out where {where}", got or brief(value))
 
     def refuse_as(self, key: str, error: SeismassError) -> NoReturn:
@@ -224,12 +224,12 @@ COMMANDS: Final = {
 
 def kind_of(values: dict[str, Any]) -> str:
     """Return which kind of file has these tables; empty where none or several kinds have them."""
-    found = [kind for kind, names in TABLES.items() if any(name in values for name in names)]
-    return found[0] if len(found) == 1 else ""
+    kinds = [kind for kind, names in TABLES.items() if any(name in values for name in names)]
+    return kinds[0] if len(kinds) == 1 else ""
 
 
 def refuse_other_kind(top: Table, kind: str) -> None:
     """Refuse a file whose tables are those of another kind than `kind`, and name the commands that take it."""
-    found = kind_of(top.values)
-    if found and found != kind:
-        top.refuse("kind", f"a {kind}", f"a {found}, which {COMMANDS[found]} take{'s' * (found == CAMPAIGN_FILE)}")
+    actual = kind_of(top.values)
+    if actual and actual != kind:
+        top.refuse("kind", f"a {kind}", f"a {actual}, which {COMMANDS[actual]} take{'s' * (actual == CAMPAIGN_FILE)}")

@@ -16,8 +16,8 @@ def quantile(values: FloatArray, share: float) -> FloatArray:
     """Return the quantile of each row, shape (rows, motions), linear between order statistics; infinity is the largest,
     and a row with NaN gives NaN. `numpy.quantile` gives NaN where the next order statistic is infinite.
     """
-    found = _at(np.sort(values.T, axis=0), np.full(len(values), share * (values.shape[1] - 1)))
-    return np.where(np.isnan(values).any(axis=1), np.nan, found)
+    quantiles = _at(np.sort(values.T, axis=0), np.full(len(values), share * (values.shape[1] - 1)))
+    return np.where(np.isnan(values).any(axis=1), np.nan, quantiles)
 
 
 def interval_of(values: FloatArray, confidence: float) -> tuple[FloatArray, FloatArray]:
@@ -35,5 +35,5 @@ def _at(ordered: FloatArray, place: FloatArray) -> FloatArray:
     low, high = np.floor(place).astype(np.int64), np.ceil(place).astype(np.int64)
     below, above = (np.take_along_axis(ordered, index[None], axis=0)[0] for index in (low, high))
     with np.errstate(invalid="ignore"):
-        between = below + (place - low) * (above - below)
-    return np.asarray(np.where(below == above, below, np.where(np.isinf(above), above, between)))
+        interpolated = below + (place - low) * (above - below)
+    return np.asarray(np.where(below == above, below, np.where(np.isinf(above), above, interpolated)))

@@ -107,31 +107,29 @@ def acceleration_factor(unit: Any, owner: str, kind: type[SeismassError]) -> flo
 
 
 def unit_by_name(name: str) -> str | None:
-    """Return a key of `ACCELERATION_UNITS` for any spelling of it ("cm/s2" for "Gal" or "cm/sec^2"), or None for
-    another unit.
-    """
+    """Return the key of `ACCELERATION_UNITS` of a spelling ("cm/s2" of "Gal" or "cm/sec^2"); None of another unit."""
     text = name.strip().lower()
     whole = re.fullmatch(_PER_SECOND_SQUARED, text.strip("()[]"), re.IGNORECASE)
-    found = _name_of(whole) if whole else _SPELLINGS.get(text)
-    return found if found in ACCELERATION_UNITS else None
+    key = _name_of(whole) if whole else _SPELLINGS.get(text)
+    return key if key in ACCELERATION_UNITS else None
 
 
 def unit_named(text: str) -> str | None:
     """Return the acceleration unit that a text names which is about nothing else, such as "gal (cm/s/s)"."""
-    found = {_name_of(mention) for mention in _MENTION.finditer(text)}
-    return found.pop() if len(found) == 1 and found <= set(ACCELERATION_UNITS) else None
+    units = {_name_of(mention) for mention in _MENTION.finditer(text)}
+    return units.pop() if len(units) == 1 and units <= set(ACCELERATION_UNITS) else None
 
 
 def units_elsewhere(text: str) -> list[str]:
     """Return the units that a header names without a number before them, whatever it says them of, but g."""
-    found = {_name_of(one) for one in _MENTION.finditer(text) if not _VALUE_BEFORE.search(text[: one.start()])}
-    return sorted(found & set(ACCELERATION_UNITS) - {"g"})
+    units = {_name_of(one) for one in _MENTION.finditer(text) if not _VALUE_BEFORE.search(text[: one.start()])}
+    return sorted(units & set(ACCELERATION_UNITS) - {"g"})
 
 
 def stated_unit(text: str) -> str | None:
     """Return the acceleration unit that a header states of its samples, or None: none, several or another."""
-    found = stated_units(text)
-    return found[0] if len(found) == 1 and found[0] in ACCELERATION_UNITS else None
+    units = stated_units(text)
+    return units[0] if len(units) == 1 and units[0] in ACCELERATION_UNITS else None
 
 
 def unknown_unit(text: str) -> str | None:
@@ -143,21 +141,21 @@ def stated_units(text: str) -> list[str]:
     """Return every unit that a header states of its samples, by its name in `ACCELERATION_UNITS` if it is there: behind
     words of a short list that say so, or alone in its line. Behind a number or other words it is of something else.
     """
-    found: set[str] = set()
+    units: set[str] = set()
     for line in _PLURAL.sub(r"\1", text).splitlines():
         bare = _BARE.fullmatch(_MENTION.sub("", line)) is not None
-        found |= {_name_of(one) for one in _MENTION.finditer(line) if bare or _is_of_samples(line, one)}
-        for said in _UNITS_OF.finditer(line):
-            time = re.search(r"(?i)\btime\s*$", line[: said.start()])
-            if not time and _allowed(line[: said.start(1)]) and (said[1][0] in ".0123456789" or not found):
-                found.add(_multiple(said[1]) or said[1].strip()[:30])
-    return sorted(found)
+        units |= {_name_of(one) for one in _MENTION.finditer(line) if bare or _is_of_samples(line, one)}
+        for statement in _UNITS_OF.finditer(line):
+            time = re.search(r"(?i)\btime\s*$", line[: statement.start()])
+            if not time and _allowed(line[: statement.start(1)]) and (statement[1][0] in ".0123456789" or not units):
+                units.add(_multiple(statement[1]) or statement[1].strip()[:30])
+    return sorted(units)
 
 
-def _multiple(said: str) -> str | None:
+def _multiple(text: str) -> str | None:
     """Return the unit that "0.01 m/s2" is, or None."""
-    mention = _MENTION.search(said)
-    number = re.fullmatch(r"(\d*\.?\d+)[ \t]*", said[: mention.start()]) if mention else None
+    mention = _MENTION.search(text)
+    number = re.fullmatch(r"(\d*\.?\d+)[ \t]*", text[: mention.start()]) if mention else None
     size = float(number[1]) * ACCELERATION_UNITS.get(_name_of(mention), 0.0) if mention and number else 0.0
     return next((name for name, unit in ACCELERATION_UNITS.items() if abs(unit - size) < 1e-9 * unit), None)
 
@@ -196,11 +194,11 @@ def _allowed(before: str) -> list[str]:
 
 def _name_of(mention: re.Match[str]) -> str:
     """Return the name of the unit that was found in a text."""
-    said = mention.groupdict()
-    length = (said["length"] or said["short"] or "").lower()
+    parts = mention.groupdict()
+    length = (parts["length"] or parts["short"] or "").lower()
     if length:
         return f"{_LENGTHS.get(length, length)}/s2"
-    part = (said.get("g") or "").lower()
+    part = (parts.get("g") or "").lower()
     return "cm/s2" if not part else "%g" if part[0] in "%p" else "mg" if part[0] == "m" else "g"
 
 
@@ -208,8 +206,8 @@ def contradiction(text: str, unit: str) -> str | None:
     """Return the unit that a header states where it is not `unit`, a key of `ACCELERATION_UNITS`; else None. Words
     behind "units:" that are no unit ("see below") contradict nothing.
     """
-    found = [said for said in stated_units(text) if said in ACCELERATION_UNITS or _UNIT_LIKE.search(said)]
+    units = [one for one in stated_units(text) if one in ACCELERATION_UNITS or _UNIT_LIKE.search(one)]
     same = ACCELERATION_UNITS[unit]
-    if not found or any(ACCELERATION_UNITS.get(said) == same for said in found):
+    if not units or any(ACCELERATION_UNITS.get(one) == same for one in units):
         return None
-    return " and ".join(found)
+    return " and ".join(units)

@@ -226,7 +226,7 @@ def as_number(value: Any, parameter: str, owner: str, kind: type[SeismassError])
 
 
 def is_one_of(value: Any, words: Iterable[str]) -> bool:
-    """Return whether a value is one of these words; False for what is not text, such as an array."""
+    """Return whether a value is one of these words; False for values that are not text, such as an array."""
     return isinstance(value, str) and value in words
 
 
@@ -280,15 +280,16 @@ def as_array(
     what = {1: "a list of numbers", 2: "a table of numbers, rows by columns"}[dimensions]
     requirement = f"a number or {what}" if or_number else what
     try:
-        given = np.asarray(value)
+        array = np.asarray(value)
     except (TypeError, ValueError):
         raise refusal(kind, parameter, owner, requirement, brief(value)) from None
-    if (given.dtype.kind not in "iuf" and given.size) or np.ma.is_masked(value):
+    masked = hasattr(value, "_mask") and np.ma.is_masked(value)  # numpy.ma is slow to import
+    if (array.dtype.kind not in "iuf" and array.size) or masked:
         raise refusal(kind, parameter, owner, requirement, brief(value))
-    if given.ndim != dimensions and not (or_number and given.ndim == 0):
-        got = brief(value) if given.ndim == 0 else f"an array of shape {given.shape}"
+    if array.ndim != dimensions and not (or_number and array.ndim == 0):
+        got = brief(value) if array.ndim == 0 else f"an array of shape {array.shape}"
         raise refusal(kind, parameter, owner, requirement, got)
-    return frozen(given)
+    return frozen(array)
 
 
 def frozen(values: Any) -> FloatArray:

@@ -46,8 +46,8 @@ def view(declaration: Callable[P, T]) -> Callable[P, T]:
     @wraps(declaration)
     def shown(*args: P.args, **kwargs: P.kwargs) -> T:
         value = args[0]
-        of = value._shown if isinstance(value, Views) else value
-        made: T = maker_of(name)(of, *args[1:], **kwargs)
+        presented = value._shown if isinstance(value, Views) else value
+        made: T = maker_of(name)(presented, *args[1:], **kwargs)
         return made
 
     shown.__dict__["declares_view"] = name

@@ -17,7 +17,7 @@ from seismass.commands.options import (
     check_files,
     positive_option,
     read_site,
-    refuse_given,
+    refuse_options,
 )
 from seismass.commands.scene_or_building import (
     add_scaling_options,
@@ -63,15 +63,15 @@ def run(args: argparse.Namespace) -> int:
     shown = shown_of(args, scene)
     for remark in shown.remarks:
         print(f"seismass: {remark}", file=sys.stderr)
-    chosen = {"code": args.code, "use": args.use, "fraction": args.code_share}
-    given = shown.options | {name: value for name, value in chosen.items() if value is not None}
+    model = {"code": args.code, "use": args.use, "fraction": args.code_share}
+    options = shown.options | {name: value for name, value in model.items() if value is not None}
     animation: Animation | PlaneAnimation
     if shown.scene.engine == "plane":
-        refuse_given(args, ("code", "use", "code_share"), "animate", "in two directions, where no model is shown")
+        refuse_options(args, ("code", "use", "code_share"), "animate", "in two directions, where no model is shown")
         target = args.out or target.with_suffix(".gif")  # there is no page of it
         animation = animate_plane(shown.scene, shown.motion, title=shown.title, note=shown.note)
     else:
-        animation = animate(shown.scene, shown.motion, title=shown.title, note=shown.note, **given)
+        animation = animate(shown.scene, shown.motion, title=shown.title, note=shown.note, **options)
     animation.write(target, frames_per_second=args.fps, speed=args.speed)
     show("\n".join([*shown.about_motion, *animation.sentences]))
     show(f"{target}: {target.stat().st_size / 1e3:.0f} kB")
@@ -94,7 +94,7 @@ def _of_scene(args: argparse.Namespace, path: Path) -> _Shown:
     from seismass.runs.scene_file import read_scene
 
     of_buildings = ("records", "suite", "target", "sds", "sd1", "tl", "period", "factor")
-    refuse_given(args, of_buildings, "animate", "with a scene file")
+    refuse_options(args, of_buildings, "animate", "with a scene file")
     file = read_scene(path)
     note = ", ".join(part for part in (file.note, *(record.name for record in file.records[:1])) if part)
     motion: Any = file.motion if file.other_motion is None else (file.motion, file.other_motion)
@@ -109,15 +109,15 @@ def _of_building(args: argparse.Namespace, path: Path) -> _Shown:
     building, target = read_building(path), read_site(args, "animate")
     scene = building.scene(target)
     motions = motions_of_file(args, "animate", scene, building, target)
-    found = shown_motion(scene, motions.scaled, motions.factors)
+    motion = shown_motion(scene, motions.scaled, motions.factors)
     note = (
-        f"{found.motion.name} x {found.factor:.3g}, motion {found.number} of {len(motions.suite)}, that with the "
+        f"{motion.motion.name} x {motion.factor:.3g}, motion {motion.number} of {len(motions.suite)}, that with the "
         "median drift of those under which goods slide"
     )
     share = building.code_share / building.present_share if building.present_share > 0.0 else 0.0
     options = {} if args.code is not None or args.use is not None else {"fraction": min(1.0, share)}
-    said = (f"Motion: {note}.", f"Scaling: {motions.scaling}.")
-    return _Shown(scene, found.motion, building.name, f"{note}; {motions.scaling}", scene.remarks, options, said)
+    notes = (f"Motion: {note}.", f"Scaling: {motions.scaling}.")
+    return _Shown(scene, motion.motion, building.name, f"{note}; {motions.scaling}", scene.remarks, options, notes)
 
 
 COMMAND = Command(

@@ -102,11 +102,11 @@ def _live_page(out: Path, result: Assessment) -> list[Path]:
     from seismass.base.errors import MissingPackage
     from seismass.base.files import written_whole
     from seismass.media.page import PAGE
-    from seismass.show.assessment.page_input import own_case
+    from seismass.show.assessment.page_input import live_case
     from seismass.show.assessment.tables import assessment_tables
     from seismass.show.explore import explorer_html
 
-    if own_case(assessment_tables(result)).case is None:
+    if live_case(assessment_tables(result)).case is None:
         return []
     try:
         html = explorer_html()

@@ -95,11 +95,11 @@ def _announce(campaign: Campaign, place: Path, args: argparse.Namespace) -> None
     there = CampaignFolder(place).runs_present if (place / MANIFEST).is_file() else 0
     share = max(1.0 - there / campaign.total, 0.0) / (1 if args.shard is None else args.shard[1])
     if campaign.total * share >= _MANY_RUNS:
-        found = estimated(campaign, threads=args.jobs)
-        size = f"{found.bytes * share / 1e9:.3g} GB"
-        line += f", about {duration_text(found.seconds * share)} by the threads of this machine, and {size}"
-        if found.seconds * share > _LONG and not args.long:
-            got = f"about {duration_text(found.seconds * share)} and {size} for {campaign.total * share:.3g} runs"
+        estimate = estimated(campaign, threads=args.jobs)
+        size = f"{estimate.bytes * share / 1e9:.3g} GB"
+        line += f", about {duration_text(estimate.seconds * share)} by the threads of this machine, and {size}"
+        if estimate.seconds * share > _LONG and not args.long:
+            got = f"about {duration_text(estimate.seconds * share)} and {size} for {campaign.total * share:.3g} runs"
             raise refusal(InvalidOption, "time", "campaign", "at most a day unless --long is given", got)
     if not args.json:
         print(line, flush=True)
@@ -131,8 +131,8 @@ def _failed(folder: CampaignFolder, parts: list[int]) -> tuple[int, set[int]]:
 
     from seismass.studies.campaign.manifest import part_path
 
-    def count(chosen: list[int]) -> int:
-        paths = [part_path(folder.path, part) for part in chosen]
+    def count(parts: list[int]) -> int:
+        paths = [part_path(folder.path, part) for part in parts]
         rows = pl.scan_parquet(paths, glob=False).select((pl.col("status") == "failed").sum())
         return int(rows.collect().item())
 

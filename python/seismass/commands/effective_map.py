@@ -6,7 +6,6 @@ import argparse
 
 from seismass.commands.answer_output import give_answer
 from seismass.commands.frame import Command, progress
-from seismass.commands.help_text import RUNS
 from seismass.commands.options import (
     add_answer_options,
     add_motion_options,
@@ -15,6 +14,7 @@ from seismass.commands.options import (
     read_motions,
     read_target,
 )
+from seismass.commands.parser import RUNS
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -38,7 +38,7 @@ def run(args: argparse.Namespace) -> int:
     from seismass.media.result import check_out
 
     check_out(args.out, "map")
-    given = {
+    options = {
         "mus": args.mu,
         "response_modification": args.R,
         "mass_ratios": args.alpha,
@@ -48,7 +48,7 @@ def run(args: argparse.Namespace) -> int:
         "second_slope": args.second_slope,
         "scaling_period": args.period,
     }
-    parameters = EffectiveMassParameters(**{name: value for name, value in given.items() if value is not None})
+    parameters = EffectiveMassParameters(**{name: value for name, value in options.items() if value is not None})
     target = read_target(args)
     suite = read_motions(args, "seven")
     with progress() as tell:

@@ -42,7 +42,7 @@ explore --out warehouse.html --open
     options=options,
     run=run,
     note="""
-The page needs nothing but itself: no network and no Python. docs/explorer.md explains it. It carries the kernel
+The page needs no other file: no network and no Python. docs/explorer.md explains it. It carries the kernel
 compiled to WebAssembly, which wheels of releases have; in a clone of the project, make explorer compiles it and writes
 the page.
 """,

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from seismass.commands.answer_output import give_answer
 from seismass.commands.frame import Command, progress
-from seismass.commands.help_text import RUNS
 from seismass.commands.options import (
     add_answer_options,
     add_code_share_option,
@@ -17,8 +16,9 @@ from seismass.commands.options import (
     positive_option,
     read_motions,
     read_site,
-    refuse_given,
+    refuse_options,
 )
+from seismass.commands.parser import RUNS
 from seismass.commands.scene_or_building import (
     DEFAULT_LIMIT,
     FileMotions,
@@ -32,7 +32,7 @@ from seismass.commands.scene_or_building import (
 )
 
 if TYPE_CHECKING:
-    from seismass.assessment.own_building import OwnBuilding
+    from seismass.assessment.building import OwnBuilding
     from seismass.model.scene import Scene
     from seismass.motions.spectra import TargetSpectrum
 
@@ -75,9 +75,9 @@ def run(args: argparse.Namespace) -> int:
     if args.out is not None:
         check_out(args.out, "fragility")
     if args.method != "hunt_fill":
-        refuse_given(args, ("highest", "tolerance"), "fragility", f"where --method is {args.method}")
+        refuse_options(args, ("highest", "tolerance"), "fragility", f"where --method is {args.method}")
     if args.method == "cloud":
-        refuse_given(args, ("intensity",), "fragility", "where --method is cloud")
+        refuse_options(args, ("intensity",), "fragility", "where --method is cloud")
     target = read_site(args, "fragility")
     read = read_scene_or_building(args.file, target, only_site="fragility")
     models, rule, drift_limit = models_of(*read, args.code_share)
@@ -90,8 +90,8 @@ def run(args: argparse.Namespace) -> int:
         if args.method == "cloud":
             result = cloud_analysis(models, motions.scaled, limits, **common, progress=tell)
         else:
-            given = {"highest": args.highest, "tolerance": args.tolerance}
-            hunt = {name: value for name, value in given.items() if value is not None}
+            options = {"highest": args.highest, "tolerance": args.tolerance}
+            hunt = {name: value for name, value in options.items() if value is not None}
             result = incremental_dynamic_analysis(
                 models,
                 motions.scaled,
@@ -111,16 +111,16 @@ def run(args: argparse.Namespace) -> int:
 def _motions(
     args: argparse.Namespace, scene: Scene, building: OwnBuilding | None, target: TargetSpectrum | None
 ) -> FileMotions:
-    """The motions: a measure of intensity replaces their scaling, but for the factor itself."""
+    """The motions: a measure of intensity replaces their scaling, except where it is the factor itself."""
     import numpy as np
 
     if args.measure == "scale":
-        found = motions_of_file(args, "fragility", scene, building, target)
-        return found._replace(scaling=f"{found.scaling}; then by each intensity")
-    refuse_given(args, ("period", "factor"), "fragility", f"where --measure is {args.measure}")
+        motions = motions_of_file(args, "fragility", scene, building, target)
+        return motions._replace(scaling=f"{motions.scaling}; then by each intensity")
+    refuse_options(args, ("period", "factor"), "fragility", f"where --measure is {args.measure}")
     suite = read_motions(args)
-    said = "motions as they are" if args.method == "cloud" else "each motion to each intensity"
-    return FileMotions(suite, np.ones(len(suite)), said)
+    note = "motions as they are" if args.method == "cloud" else "each motion to each intensity"
+    return FileMotions(suite, np.ones(len(suite)), note)
 
 
 def models_of(
@@ -131,7 +131,7 @@ def models_of(
     """
     from seismass.assessment.models import with_mass
     from seismass.studies.fragility import compared_models
-    from seismass.studies.fragility.run import CODE, DEFAULT_CODE_SHARE, REAL
+    from seismass.studies.fragility.run import CODE, DEFAULT_CODE_SHARE, SLIDING
 
     share = DEFAULT_CODE_SHARE if code_share is None else code_share
     rule = f"{100.0 * share:g} % of the goods attached as mass"
@@ -139,7 +139,7 @@ def models_of(
     if building is None:
         return models, rule, DEFAULT_LIMIT
     if code_share is None:
-        models[CODE] = with_mass(models[REAL], building.code_mass)
+        models[CODE] = with_mass(models[SLIDING], building.code_mass)
         code = building.code
         rule = f"{code.code}, {code.use}: {100.0 * building.code_share:.3g} % of the design live load attached as mass"
     return models, rule, f"drift_ratio={building.drift_limit:g}"

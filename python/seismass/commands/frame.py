@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from seismass.commands.help_text import ANY_COMMAND, HelpText
+from seismass.commands.parser import ANY_COMMAND, HelpText
 from seismass.media.text_table import fitted_blocks, is_row
 
 if TYPE_CHECKING:
@@ -175,10 +175,10 @@ def _time_left_column() -> Any:
     return TimeLeft()
 
 
-def seconds_left(done: int, total: int, first: int, told: float, now: float) -> float | None:
+def seconds_left(done: int, total: int, first: int, last_time: float, now: float) -> float | None:
     """Return the time left (s) at the rate so far; None before there is one. `first` runs were done when the work
     began; `told` is the time (s) of the last progress and `now` the present, from then.
     """
-    if done <= first or told <= 0.0:
+    if done <= first or last_time <= 0.0:
         return None
-    return max(told * (total - first) / (done - first) - now, 0.0)
+    return max(last_time * (total - first) / (done - first) - now, 0.0)

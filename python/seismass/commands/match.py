@@ -126,7 +126,7 @@ def run(args: argparse.Namespace) -> int:
     return 0 if matched.converged else 1
 
 
-def _check_out(out: Path | None, given: Path, suite: Suite) -> None:
+def _check_out(out: Path | None, path: Path, suite: Suite) -> None:
     """Refuse what --out cannot be for these records, before they are matched: a file for several records, or one that
     would replace a record or stand among them.
     """
@@ -139,14 +139,14 @@ def _check_out(out: Path | None, given: Path, suite: Suite) -> None:
     if out.suffix.lower() not in SUFFIXES:
         if len(suite) == 1 and out.suffix and not out.is_dir():
             raise InvalidOption(f"--out of match must be a file of .AT2 or .csv, or a folder; got {out}")
-        if given.is_dir() and out.is_dir() and out.samefile(given):
+        if path.is_dir() and out.is_dir() and out.samefile(path):
             raise InvalidOption(f"--out of match must be another folder than that of the records; got {out}")
         written = [out / name for name in (_LIST, *_file_names(suite))]
     elif len(suite) > 1:
         raise InvalidOption(f"--out of match must be a folder for {len(suite)} records; got {out}")
     else:
         check_files(out)
-    read = [given, *(record.source for record in suite if record.source is not None)]
+    read = [path, *(record.source for record in suite if record.source is not None)]
     for file in written:
         if file.exists() and any(source.exists() and file.samefile(source) for source in read):
             raise InvalidOption(f"--out of match must not replace what is read; got {out}, which would replace {file}")
@@ -173,9 +173,9 @@ def _write(matched: MatchedSuite, out: Path) -> None:
     files = _file_names(one.record for one in matched)
     for number, (one, file) in enumerate(zip(matched, files, strict=True), start=1):
         one.write(out / file)
-        said = "; ".join(one.record.history)
+        note = "; ".join(one.record.history)
         labels = {"event": one.record.event, "station": one.record.station, "component": one.record.component}
-        rows.append({"number": number, "file": file, "name": one.record.name, **labels, "note": said})
+        rows.append({"number": number, "file": file, "name": one.record.name, **labels, "note": note})
     with written_whole(out / _LIST) as temporary:
         write_table(pl.DataFrame(rows), "csv", temporary)
 

@@ -85,11 +85,11 @@ def run(args: argparse.Namespace) -> int:
         show(curves.text)
     answers: dict[str, Any] = {}
     for question in questions_for(table, curves):
-        given = getattr(args, question.name)
-        if given is None and sys.stdin.isatty():
+        value = getattr(args, question.name)
+        if value is None and sys.stdin.isatty():
             answers[question.name] = _asked(question)
-        elif given is not None or question.default:
-            answers[question.name] = question.answer(question.default if given is None else given)
+        elif value is not None or question.default:
+            answers[question.name] = question.answer(question.default if value is None else value)
     fit = None
     if curves is not None:
         shape: Literal["bilinear", "trilinear"] = "bilinear" if args.lines == 2 else "trilinear"
@@ -115,11 +115,11 @@ def _asked(question: Any) -> Any:
     while True:
         default = f" [{question.default}]" if question.default else ""
         try:
-            given = input(f"{question.words}{default} ").strip()
+            text = input(f"{question.words}{default} ").strip()
         except EOFError:
             raise KeyboardInterrupt from None
         try:
-            return question.answer(given or question.default)
+            return question.answer(text or question.default)
         except InvalidOption:
             print(f"  {question.must}, please")
 

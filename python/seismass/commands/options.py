@@ -11,9 +11,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal, cast, get_args
 
-from seismass.base.units import ACCELERATION_UNITS
-from seismass.model.springs import SHAPE_FIELDS
-from seismass.motions.scaling.suite import TARGET_HELP, target_of
+from seismass.motions.scaling import TARGET_HELP
 
 if TYPE_CHECKING:
     from seismass.model.codes import CodeFraction
@@ -58,6 +56,8 @@ def add_target_options(group: argparse._ActionsContainer, *, stand_in: bool = Tr
 
 def add_spring_options(group: argparse._ActionsContainer, names: Iterable[str] = SPRING_OPTIONS, of: str = "") -> None:
     """Add --overstrength, --second-slope and --third-slope, or those of them that are named; `of` precedes defaults."""
+    from seismass.model.springs import SHAPE_FIELDS
+
     for name in names:
         field = SHAPE_FIELDS[name]
         group.add_argument(
@@ -70,6 +70,8 @@ def add_spring_options(group: argparse._ActionsContainer, names: Iterable[str] =
 
 def add_reading_options(parser: argparse.ArgumentParser) -> None:
     """Add --dt, --unit, --format, --skip and --channel, which say of one file what it does not state."""
+    from seismass.base.units import ACCELERATION_UNITS
+
     parser.add_argument(
         "--dt", type=positive_option, metavar="S", help="time step of a record whose file does not state it, s"
     )
@@ -127,9 +129,7 @@ def read_motions(args: argparse.Namespace, default: BuiltinName = "forty") -> Su
 
 
 def read_pairs(args: argparse.Namespace) -> Pairs:
-    """Return the pairs that the options name: those of a folder, or the forty built-in ones, the only suite with second
-    components.
-    """
+    """Return the pairs of the options: those of a folder, or the forty built-in ones."""
     from seismass.base.errors import InvalidOption, RecordFormatError
     from seismass.motions.records import builtin_pairs, find_pairs
 
@@ -139,10 +139,10 @@ def read_pairs(args: argparse.Namespace) -> Pairs:
         return builtin_pairs()
     if args.suite is not None:
         raise InvalidOption(f"suite of motions must be left out where --records is given; got {args.suite}")
-    found = find_pairs(args.records)
-    if not len(found):
-        raise RecordFormatError(f"pairs of {found.name} must be at least one; got {len(found.excluded)} files of none")
-    return found
+    pairs = find_pairs(args.records)
+    if not len(pairs):
+        raise RecordFormatError(f"pairs of {pairs.name} must be at least one; got {len(pairs.excluded)} files of none")
+    return pairs
 
 
 def check_files(*paths: Path | None) -> None:
@@ -201,18 +201,19 @@ def add_opensees_option(parser: argparse.ArgumentParser, what: str) -> None:
 def read_target(args: argparse.Namespace) -> TargetSpectrum:
     """Return the target spectrum that the options describe; --target excludes the numbers of the ASCE 7 shape."""
     from seismass.base.errors import InvalidOption
+    from seismass.motions.scaling.suite import target_of
     from seismass.motions.spectra import DEFAULT_SD1_G, DEFAULT_SDS_G, DEFAULT_TL, TargetSpectrum
 
-    given = {"sds": args.sds, "sd1": args.sd1, "tl": args.tl}
+    parameters = {"sds": args.sds, "sd1": args.sd1, "tl": args.tl}
     if args.target is not None:
-        for name, value in given.items():
+        for name, value in parameters.items():
             if value is not None:
                 raise InvalidOption(
                     f"{name} of target spectrum must be left out where --target is given; got {value:g}"
                 )
         return target_of(str(args.target))
     defaults = {"sds": DEFAULT_SDS_G, "sd1": DEFAULT_SD1_G, "tl": DEFAULT_TL}
-    sds, sd1, tl = (defaults[name] if value is None else value for name, value in given.items())
+    sds, sd1, tl = (defaults[name] if value is None else value for name, value in parameters.items())
     return TargetSpectrum.asce7(sds, sd1, tl)
 
 
@@ -224,11 +225,11 @@ def read_site(args: argparse.Namespace, command: str) -> TargetSpectrum | None:
         if args.sds is args.sd1 is args.tl is None:
             return None
         if args.sds is None or args.sd1 is None:
-            given = (
+            parameters = (
                 "--sds" if args.sd1 is None and args.sds is not None else "--sd1" if args.sd1 is not None else "--tl"
             )
             raise InvalidOption(
-                f"site spectrum of {command} must be given by --sds and --sd1 together; got {given} alone"
+                f"site spectrum of {command} must be given by --sds and --sd1 together; got {parameters} alone"
             )
     return read_target(args)
 
@@ -251,7 +252,7 @@ def read_code(args: argparse.Namespace, command: str) -> CodeFraction | None:
     from seismass.model.codes import code_fraction
 
     if args.code is None:
-        refuse_given(args, ("use",), command, "where --code is not given")
+        refuse_options(args, ("use",), command, "where --code is not given")
         return None
     return code_fraction(args.code, args.use or "storage")
 
@@ -283,7 +284,7 @@ def add_out_option(
 def add_measure_options(
     group: argparse._ActionsContainer, measure: str, period: str, *, scale: bool = True, default: str | None = "sa_t1"
 ) -> None:
-    """Add --measure and --measure-period, with what is said of both; `scale`: the factor may be the measure."""
+    """Add --measure and --measure-period, with the help of both; `scale`: the factor may be the measure."""
     choices = ("scale",) * scale + ("pga", "sa_t1", "sa_avg")
     group.add_argument("--measure", choices=choices, default=default, help=measure)
     group.add_argument("--measure-period", type=positive_option, metavar="T", help=period)
@@ -314,7 +315,7 @@ def check_plot(args: argparse.Namespace, command: str) -> None:
     check_files(args.plot)
 
 
-def refuse_given(args: argparse.Namespace, names: Iterable[str], command: str, when: str) -> None:
+def refuse_options(args: argparse.Namespace, names: Iterable[str], command: str, when: str) -> None:
     """Refuse options that are not used, by the names of their values."""
     from seismass.base.errors import InvalidOption
 

@@ -72,9 +72,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _groups(args: argparse.Namespace) -> list[Record | Pair]:
-    """Return what is judged: one component, two, or every pair of a folder; report on standard error what is in no
-    pair.
-    """
+    """Return what is judged: a component, two, or every pair of a folder; report on standard error what has no pair."""
     from seismass.base.errors import InvalidMotion, InvalidOption
     from seismass.motions.records import Pair, Suite, find_pairs, read_record
 
@@ -126,24 +124,24 @@ def _one_file(path: Path, options: dict[str, Any]) -> Record | Pair:
     return Pair.from_records(*level)
 
 
-def _judged(given: Record | Pair, args: argparse.Namespace) -> list[PulseResult | OrientationScan]:
+def _judged(motion: Record | Pair, args: argparse.Namespace) -> list[PulseResult | OrientationScan]:
     from seismass.base.errors import InvalidOption
     from seismass.motions.pulses import baker2007, baker2007_orientations, shahi_baker2014
     from seismass.motions.records import Record
 
-    if isinstance(given, Record):
+    if isinstance(motion, Record):
         for name, asked in (
             ("--orientations", args.orientations is not None),
             ("--method shahi_baker2014", args.method == "shahi_baker2014"),
         ):
             if asked:
                 raise InvalidOption(f"{name} of pulse must be given two components; got one")
-        return [baker2007(given)]
+        return [baker2007(motion)]
     if args.orientations is not None:
-        return [baker2007_orientations(given, orientations=args.orientations)]
+        return [baker2007_orientations(motion, orientations=args.orientations)]
     if args.method == "baker2007":
-        return [baker2007(given.first), baker2007(given.second)]
-    return [shahi_baker2014(given)]
+        return [baker2007(motion.first), baker2007(motion.second)]
+    return [shahi_baker2014(motion)]
 
 
 def _document(result: PulseResult | OrientationScan) -> dict[str, Any]:
@@ -155,9 +153,9 @@ def _document(result: PulseResult | OrientationScan) -> dict[str, Any]:
             "method": result.method,
             "records": list(result.names),
             "is_pulse": result.is_pulse,
-            "kind": result.chosen.kind,
+            "kind": result.primary.kind,
             "period": result.period,
-            "candidate": result.chosen.number,
+            "candidate": result.primary.number,
             "candidates": result.table().to_dicts(),
             "remarks": list(result.remarks),
         }

@@ -48,7 +48,7 @@ def run(args: argparse.Namespace) -> int:
     return 0
 
 
-def _read(path: Path, given: Reading) -> Suite:
+def _read(path: Path, reading: Reading) -> Suite:
     """Return the records of a path: every channel of a file, vertical ones too, or every file of a folder or archive.
     What cannot be read is listed as left out, since the command is there to look.
     """
@@ -59,16 +59,16 @@ def _read(path: Path, given: Reading) -> Suite:
     from seismass.motions.records.suite import named_after
 
     if is_archive(path):
-        given.refuse(path, "an archive of records")
+        reading.refuse(path, "an archive of records")
         with unpacked(path) as (folder, names):
             suite = named_after(_all_of(folder, path), path, names)
         return suite
     if path.is_dir():
-        given.refuse(path, "a folder of records")
+        reading.refuse(path, "a folder of records")
         return _all_of(path, path)
-    if is_list(path) or given.channel is not None:
-        return records_named(path, given)
-    return Suite(path.stem, read_channels(path, **given.of_a_file()))
+    if is_list(path) or reading.channel is not None:
+        return records_named(path, reading)
+    return Suite(path.stem, read_channels(path, **reading.of_a_file()))
 
 
 def _all_of(folder: Path, named: Path) -> Suite:
@@ -80,19 +80,19 @@ def _all_of(folder: Path, named: Path) -> Suite:
     from seismass.motions.records.known import with_tables
     from seismass.motions.records.read import files_below
 
-    found: list[Record] = []
+    records: list[Record] = []
     excluded: list[Excluded] = []
     files = files_below(folder)
     for file in files:
         try:
-            found += read_channels(file)
+            records += read_channels(file)
         except RecordFormatError as error:
             excluded.append(Excluded(file, str(error)))
-    if not found:
+    if not records:
         raise RecordFormatError(
             f"records of folder {printable(str(named))} must be at least one; got {len(excluded)} files that are none"
         )
-    return Suite(printable(named.resolve().name), tuple(with_tables(found, files)), tuple(excluded))
+    return Suite(printable(named.resolve().name), tuple(with_tables(records, files)), tuple(excluded))
 
 
 def _rows(suite: Suite) -> list[dict[str, Any]]:
@@ -191,19 +191,19 @@ def _direction(component: str) -> str:
 def _find(folder: Path, as_json: bool) -> int:
     from seismass.motions.records import find_catalogue
 
-    found = find_catalogue(folder)
+    search = find_catalogue(folder)
     if as_json:
         document = {
-            "folder": str(found.folder),
-            "looked_at": found.looked_at,
-            "complete": list(found.complete),
-            "missing": list(found.missing),
-            "records": found.summary().to_dicts(),
-            "files": found.table().to_dicts(),
+            "folder": str(search.folder),
+            "looked_at": search.looked_at,
+            "complete": list(search.complete),
+            "missing": list(search.missing),
+            "records": search.summary().to_dicts(),
+            "files": search.table().to_dicts(),
         }
         print(json.dumps(document, indent=2))
     else:
-        show(found.text)
+        show(search.text)
     return 0
 
 

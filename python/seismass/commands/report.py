@@ -39,7 +39,7 @@ def run(args: argparse.Namespace) -> int:
 COMMAND = Command(
     description=(
         "Write the page of a study or of a building from the tables of its folder, without solving "
-        "anything. The page needs nothing but itself. Files are compared with the digests of files.json."
+        "anything. The page needs no other file. Files are compared with the digests of files.json."
     ),
     examples="""
 report study

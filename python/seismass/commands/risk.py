@@ -8,7 +8,6 @@ from typing import Any
 
 from seismass.commands.answer_output import give_answer
 from seismass.commands.frame import Command, progress
-from seismass.commands.help_text import RUNS
 from seismass.commands.options import (
     add_answer_options,
     add_code_share_option,
@@ -19,6 +18,7 @@ from seismass.commands.options import (
     read_motions,
     read_site,
 )
+from seismass.commands.parser import RUNS
 from seismass.commands.scene_or_building import (
     DEFAULT_LIMIT,
     add_file_argument,
@@ -87,8 +87,8 @@ def run(args: argparse.Namespace) -> int:
     suite = read_motions(args)
     limit = parse_limit(args.limit or drift_limit)
     doubts = doubts_of_input(scene, building, target, [(limit.quantity, limit.value)])
-    given = {"code_share": code_share, "design_rate": args.design_rate}
-    chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    options = {"code_share": code_share, "design_rate": args.design_rate}
+    stated: dict[str, Any] = {name: value for name, value in options.items() if value is not None}
     with progress() as tell:
         result = risk_targeted_share(
             scene,
@@ -104,7 +104,7 @@ def run(args: argparse.Namespace) -> int:
             seed=args.seed,
             threads=args.jobs,
             progress=tell,
-            **chosen,
+            **stated,
         )
     result, doubtful = with_doubts(result, doubts)
     head = f"{doubtful}suite                {suite.name}\nscaling              each motion to each intensity\n"

@@ -5,20 +5,17 @@ from __future__ import annotations
 import argparse
 import json
 from pathlib import Path
-from typing import Any
-
-import polars as pl
+from typing import TYPE_CHECKING, Any
 
 from seismass.base.errors import InvalidOption
 from seismass.base.files import write_table, written_whole
 from seismass.commands.frame import Command, show
 from seismass.commands.options import add_json_option, add_opensees_option, add_out_option, check_files
-from seismass.runs.opensees_export import write_opensees
-from seismass.runs.plane import PlaneResponse
-from seismass.runs.response import Response
 from seismass.runs.scene_file import KEYS, SceneFile, example_scene, read_scene
-from seismass.runs.simulate import simulate
-from seismass.show.response_text import plane_run_text, run_text
+
+if TYPE_CHECKING:
+    from seismass.runs.plane import PlaneResponse
+    from seismass.runs.response import Response
 
 _HISTORY_SUFFIXES = (".parquet", ".csv")
 _KEYS = "\n".join(f"  {table or 'file'}:  {', '.join(keys)}" for table, keys in KEYS.items())
@@ -44,10 +41,15 @@ def run(args: argparse.Namespace) -> int:
     if args.example:
         print(example_scene().read_text(encoding="utf-8"), end="")
         return 0
+    from seismass.runs.simulate import simulate
+    from seismass.show.response_text import run_text
+
     file = read_scene(args.scene)
     if file.other_motion is not None:
         return _run_plane(args, file)
     if args.opensees is not None:
+        from seismass.runs.opensees_export import write_opensees
+
         write_opensees(args.opensees, {"scene": file.scene}, [file.motion])
     response = simulate(file.scene, file.motion, histories=args.out is not None, displacements_only=True, energy=True)
     if args.out is not None:
@@ -62,6 +64,9 @@ def run(args: argparse.Namespace) -> int:
 
 def _run_plane(args: argparse.Namespace, file: SceneFile) -> int:
     """Solve a scene in two directions and print it."""
+    from seismass.runs.simulate import simulate
+    from seismass.show.response_text import plane_run_text
+
     pair = (file.motion, file.other_motion or file.motion)
     response = simulate(file.scene, pair, histories=args.out is not None, displacements_only=True, energy=True)
     if args.out is not None:
@@ -74,6 +79,10 @@ def _run_plane(args: argparse.Namespace, file: SceneFile) -> int:
 
 
 def _write_histories(response: Response | PlaneResponse, path: Path) -> None:
+    import polars as pl
+
+    from seismass.runs.response import Response
+
     columns: dict[str, Any] = {"time": response.time}
     histories = {"drift": response.drift, "slip": response.slip}
     if isinstance(response, Response):

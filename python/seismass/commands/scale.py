@@ -7,10 +7,8 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass.base.values import counted
 from seismass.commands.answer_output import write_figure
 from seismass.commands.frame import Command, show
-from seismass.commands.help_text import RUNS
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_json_option,
@@ -26,12 +24,13 @@ from seismass.commands.options import (
     read_motions,
     read_site,
     read_target,
-    refuse_given,
+    refuse_options,
     warn_left_out,
 )
+from seismass.commands.parser import RUNS
 
 if TYPE_CHECKING:
-    from seismass.assessment.own_building import OwnBuilding
+    from seismass.assessment.building import OwnBuilding
     from seismass.design.scaling import ScalingResult, Selection
     from seismass.model.building import Building
     from seismass.motions.records import Pairs, Suite
@@ -91,17 +90,17 @@ def run(args: argparse.Namespace) -> int:
     from seismass.motions.spectra.target import target_remarks
 
     _check_options(args)
-    own = _own_building(args)
-    target = _target(args, own)
+    assessed = _building_of_file(args)
+    target = _target(args, assessed)
     suite, scaled = _motions(args)
-    chosen = None
-    building = None if own is None else with_mass(own.scene(target), own.goods).building
+    selection = None
+    building = None if assessed is None else with_mass(assessed.scene(target), assessed.goods_mass).building
     period = args.period if building is None else float(building.periods[0])
     if args.select is not None:
         limits = {name: getattr(args, name) for name in ("max_per_event", "max_per_station") if getattr(args, name)}
         longest = 2.0 if args.method == "asce7-16" else 1.5
-        chosen = select_records(suite, target, args.select, period=period, period_range=(0.2, longest), **limits)
-        suite = scaled = chosen.suite
+        selection = select_records(suite, target, args.select, period=period, period_range=(0.2, longest), **limits)
+        suite = scaled = selection.suite
     scaling = _scaled(args, scaled, target, building)
     remarks = (*motion_remarks(suite), *target_remarks(target), *scaling.remarks)
     if args.out is not None:
@@ -110,9 +109,9 @@ def run(args: argparse.Namespace) -> int:
         write_figure(scaling.plot() if args.pairs else scaling.plot(records=suite, target=target), args.plot)
     if args.json:
         warn_left_out(suite)
-        print(json.dumps(_document(suite, target, scaling, chosen, remarks), indent=2))
+        print(json.dumps(_document(suite, target, scaling, selection, remarks), indent=2))
     else:
-        _print(suite, target, scaling, chosen, remarks)
+        _print(suite, target, scaling, selection, remarks)
     return 0
 
 
@@ -137,28 +136,28 @@ def _check_options(args: argparse.Namespace) -> None:
 
     used = {"asce7-16": {"building", "lowest_period"}, "mps": {"building", *_PUSHOVER}}.get(args.method, set())
     unused = [name for name in ("building", "lowest_period", *_PUSHOVER) if name not in used]
-    refuse_given(args, unused, "scale", f"with {args.method}")
+    refuse_options(args, unused, "scale", f"with {args.method}")
     if args.building is not None:
-        refuse_given(args, ("lowest_period", *_PUSHOVER[:-1]), "scale", "with --building")
+        refuse_options(args, ("lowest_period", *_PUSHOVER[:-1]), "scale", "with --building")
     if args.method == "mps" and args.building is None:
-        given = [name for name in ("reduction", "yield_coefficient") if getattr(args, name) is not None]
-        if len(given) != 1:
+        names = [name for name in ("reduction", "yield_coefficient") if getattr(args, name) is not None]
+        if len(names) != 1:
             raise InvalidOption(
                 "--reduction, --yield-coefficient or --building of scale must be given with mps, one of them; "
-                f"got {'two' if given else 'none'}"
+                f"got {'two' if names else 'none'}"
             )
     if args.select is None:
-        refuse_given(args, ("max_per_event", "max_per_station"), "scale", "without --select")
+        refuse_options(args, ("max_per_event", "max_per_station"), "scale", "without --select")
     if args.pairs:
         if args.method != "asce7-16" or args.records is None:
             got = args.method if args.records is not None else f"{args.method} without --records"
             raise InvalidOption(f"--pairs of scale must be given with --method asce7-16 and --records; got {got}")
-        refuse_given(args, ("select",), "scale", "with --pairs")
+        refuse_options(args, ("select",), "scale", "with --pairs")
     check_plot(args, "scale")
     check_files(args.out)
 
 
-def _own_building(args: argparse.Namespace) -> OwnBuilding | None:
+def _building_of_file(args: argparse.Namespace) -> OwnBuilding | None:
     if args.building is None:
         return None
     from seismass.assessment.building_file import read_building
@@ -186,9 +185,9 @@ def _scaled(args: argparse.Namespace, suite: Any, target: TargetSpectrum, buildi
     if args.method == "sa-t1":
         return scaling.scale_sa_t1(suite, target, args.period)
     if args.method == "mps":
-        given = {name: getattr(args, name) for name in _PUSHOVER if getattr(args, name) is not None}
+        options = {name: getattr(args, name) for name in _PUSHOVER if getattr(args, name) is not None}
         period = args.period if building is None else None
-        return scaling.scale_modal_pushover(suite, target, building, period=period, **given)
+        return scaling.scale_modal_pushover(suite, target, building, period=period, **options)
     space: Any = "linear" if args.method.endswith("linear") else "log"
     return scaling.scale_least_squares(suite, target, args.period, space=space)
 
@@ -210,7 +209,7 @@ def _document(
     suite: Suite,
     target: TargetSpectrum,
     scaling: ScalingResult,
-    chosen: Selection | None,
+    selection: Selection | None,
     remarks: tuple[str, ...],
 ) -> dict[str, Any]:
     rows = zip(scaling.diagnostics().to_dicts(), suite, strict=True)
@@ -227,7 +226,7 @@ def _document(
         "remarks": [*suite.remarks, *remarks],
         "motions": [{**row, "remarks": list(record.remarks)} for row, record in rows],
         "spectrum": scaling.spectrum_table().to_dict(as_series=False),
-        **({} if chosen is None else {"selection": chosen.table.to_dicts()}),
+        **({} if selection is None else {"selection": selection.table.to_dicts()}),
     }
 
 
@@ -235,18 +234,19 @@ def _print(
     suite: Suite,
     target: TargetSpectrum,
     scaling: ScalingResult,
-    chosen: Selection | None,
+    selection: Selection | None,
     remarks: tuple[str, ...],
 ) -> None:
+    from seismass.base.values import counted
     from seismass.show.motions import factor_lines, scaling_lines
 
     show(f"suite   {suite.name}: {counted(len(suite), 'motion')}")
     for line in left_out(suite):
         show(f"        {line}")
     show("\n".join([*scaling_lines(scaling, remarks), "", *factor_lines(scaling, [one.remarks for one in suite])]))
-    if chosen is not None:
+    if selection is not None:
         show("\nnot chosen")
-        for row in chosen.table.filter(chosen.table["step"].is_null()).iter_rows(named=True):
+        for row in selection.table.filter(selection.table["step"].is_null()).iter_rows(named=True):
             show(f"{row['number']:>3}  misfit {row['misfit']:<6.3f} {row['record']}: {row['reason']}")
 
 

@@ -15,11 +15,11 @@ from seismass.commands.options import (
     positive_option,
     read_motions,
     read_pairs,
-    refuse_given,
+    refuse_options,
 )
 
 if TYPE_CHECKING:
-    from seismass.assessment.own_building import OwnBuilding
+    from seismass.assessment.building import OwnBuilding
     from seismass.base.values import FloatArray
     from seismass.model.scene import Scene
     from seismass.motions.records import Pairs, Suite
@@ -94,16 +94,16 @@ def motions_of_file(
 
     suite = read_motions(args) if scene.other_direction is False else read_pairs(args)
     if target is not None:
-        refuse_given(args, ("factor",), command, "where a target is given")
+        refuse_options(args, ("factor",), command, "where a target is given")
     if args.factor is not None or (building is None and target is None):
-        refuse_given(args, ("period",), command, "where motions are not scaled to a target")
-        said = "motions as they are" if args.factor in (None, 1.0) else f"motions x {args.factor:g}"
-        return FileMotions(suite, np.full(len(suite), args.factor or 1.0), said)
+        refuse_options(args, ("period",), command, "where motions are not scaled to a target")
+        note = "motions as they are" if args.factor in (None, 1.0) else f"motions x {args.factor:g}"
+        return FileMotions(suite, np.full(len(suite), args.factor or 1.0), note)
     if building is None:
-        found = scale_asce7_10(suite, cast("TargetSpectrum", target), args.period or 1.0, between=False)
+        result = scale_asce7_10(suite, cast("TargetSpectrum", target), args.period or 1.0, between=False)
     else:
-        found = scaled_to_site(building, suite, target, args.period)
-    return FileMotions(suite, found.factors, f"ASCE 7-10 to {found.target_label}, for T = {found.period:.3g} s")
+        result = scaled_to_site(building, suite, target, args.period)
+    return FileMotions(suite, result.factors, f"ASCE 7-10 to {result.target_label}, for T = {result.period:.3g} s")
 
 
 def doubts_of_input(
@@ -119,8 +119,8 @@ def doubts_of_input(
     from seismass.assessment.doubts import building_doubts
     from seismass.model.plausibility import usage_remarks
 
-    own = () if building is None else building_doubts(building, scene, building.target if target is None else target)
-    return tuple(dict.fromkeys([*own, *usage_remarks(scene.remarks, motions, limits)]))
+    doubts = () if building is None else building_doubts(building, scene, building.target if target is None else target)
+    return tuple(dict.fromkeys([*doubts, *usage_remarks(scene.remarks, motions, limits)]))
 
 
 def with_doubts(result: Doubtable, doubts: tuple[str, ...]) -> tuple[Doubtable, str]:

@@ -61,8 +61,8 @@ def run(args: argparse.Namespace) -> int:
     sizes = _per_block("size", args.size, blocks, parse_size)
     plane = scene.other_direction is not False
     clearances = _per_block("clearance", args.clearance, blocks, partial(parse_clearance, plane=plane))
-    given = motions_of_file(args, "slip", scene, building, target)
-    motions = given.scaled
+    file_motions = motions_of_file(args, "slip", scene, building, target)
+    motions = file_motions.scaled
     with progress() as tell:
         result = slip_demand(
             scene,
@@ -79,8 +79,8 @@ def run(args: argparse.Namespace) -> int:
     limits = [("clearance", side) for side in sides if side is not None]
     components = [component for pair in motions for component in (pair.first, pair.second)] if plane else motions
     result, doubtful = with_doubts(result, doubts_of_input(scene, building, target, limits, components))
-    head = f"{doubtful}suite       {given.suite.name}\nscaling     {given.scaling}\n\n"
-    give_answer(args, result, given.suite, head=head, indent=12)
+    head = f"{doubtful}suite       {file_motions.suite.name}\nscaling     {file_motions.scaling}\n\n"
+    give_answer(args, result, file_motions.suite, head=head, indent=12)
     return 0
 
 
@@ -92,10 +92,10 @@ def parse_clearance(text: str, *, plane: bool = False) -> Clearance:
     from seismass.base.values import brief, refusal
     from seismass.studies.slip import Clearance
 
-    sides, at, reach = text.partition("@")
+    sides, sign, reach = text.partition("@")
     try:
         values = [float(side) if side.strip() else None for side in sides.split(",")]
-        radius = float(reach) if at else None
+        radius = float(reach) if sign else None
     except ValueError:
         values, radius = [], None
     if len(values) not in (1, 2, 4) or (radius is None and not any(value is not None for value in values)):
@@ -109,23 +109,23 @@ def parse_clearance(text: str, *, plane: bool = False) -> Clearance:
     return Clearance(plus, minus, plus_y, minus_y, radius)
 
 
-def _per_block(name: str, given: list[str], blocks: int, parse: Any) -> list[Any] | None:
+def _per_block(name: str, words: list[str], blocks: int, parse: Any) -> list[Any] | None:
     """Return one value per block from values for all blocks or for single ones; None where nothing is given."""
     from seismass.base.errors import InvalidOption
     from seismass.base.values import refusal
 
-    if not given:
+    if not words:
         return None
-    found: dict[int, Any] = {}
-    for text in given:
+    values: dict[int, Any] = {}
+    for text in words:
         number, equals, value = text.partition("=")
         block = int(number) if number.strip().isdecimal() and equals else 0
         if equals and not 1 <= block <= blocks:
             raise refusal(InvalidOption, f"--{name}", "slip", f"of a block from 1 to {blocks}", text)
-        if block in found:
+        if block in values:
             raise refusal(InvalidOption, f"--{name}", "slip", "given once for a block", text)
-        found[block] = parse(value if equals else text)
-    return [found.get(number, found.get(0)) for number in range(1, blocks + 1)]
+        values[block] = parse(value if equals else text)
+    return [values.get(number, values.get(0)) for number in range(1, blocks + 1)]
 
 
 COMMAND = Command(

@@ -8,17 +8,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from seismass.commands.frame import Command
-from seismass.commands.help_text import RUNS
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_reading_options,
     add_spring_options,
     numbers_option,
     reading,
-    refuse_given,
+    refuse_options,
     warn_left_out,
     warn_remarks,
 )
+from seismass.commands.parser import RUNS
 
 if TYPE_CHECKING:
     import polars as pl
@@ -67,7 +67,7 @@ def run(args: argparse.Namespace) -> int:
 
     inelastic = args.strength is not None or args.ductility is not None
     unused = ("kind",) if inelastic else tuple(SPRING_OPTIONS)
-    refuse_given(args, unused, "spectrum", f"{'with' if inelastic else 'without'} --strength or --ductility")
+    refuse_options(args, unused, "spectrum", f"{'with' if inelastic else 'without'} --strength or --ductility")
     suite = records_named(args.records, reading(args))
     warn_left_out(suite)
     warn_remarks(suite)
@@ -108,8 +108,8 @@ def _inelastic(suite: Suite, periods: Any, args: argparse.Namespace) -> pl.DataF
     levels = {"strength": args.strength, "ductility": args.ductility}
     tables = []
     for ratio in args.damping:
-        found = inelastic_spectrum(suite, periods, **levels, damping=ratio, **springs)
-        tables.append(found.table().insert_column(2, pl.Series("damping", [ratio] * found.strength.size)))
+        spectrum = inelastic_spectrum(suite, periods, **levels, damping=ratio, **springs)
+        tables.append(spectrum.table().insert_column(2, pl.Series("damping", [ratio] * spectrum.strength.size)))
     return pl.concat(tables)
 
 

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING
 from seismass._kernel import VERSION
 from seismass.commands.answer_output import print_answer, write_answer
 from seismass.commands.frame import Command, progress
-from seismass.commands.help_text import DONE, FAILED
 from seismass.commands.options import (
     CODE_HELP,
     SPRING_OPTIONS,
@@ -27,9 +26,10 @@ from seismass.commands.options import (
     read_motions,
     read_target,
 )
+from seismass.commands.parser import DONE, FAILED
 
 if TYPE_CHECKING:
-    from seismass.base.kept import KeptResults
+    from seismass.base.stored_results import StoredResults
     from seismass.motions.records import Suite
     from seismass.motions.spectra import TargetSpectrum
     from seismass.show.study.tables import StudyTables
@@ -85,7 +85,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the study, write its files and print what it says; return the exit code."""
-    from seismass.base.kept import kept_folder
+    from seismass.base.stored_results import result_store
     from seismass.media.result import check_out, folder_for
     from seismass.runs.simulate import instruction_set
     from seismass.studies.study import StudyParameters
@@ -108,8 +108,8 @@ def run(args: argparse.Namespace) -> int:
     target = read_target(args)
     suite = read_motions(args, "seven")
     inputs = f"{study_digest(suite, target, parameters)} {VERSION} {instruction_set()}"
-    with folder_for(args.out), kept_folder(args.out, "study", inputs) as kept:
-        answer = _Answer(_solved(args, suite, target, parameters, kept), args.png)
+    with folder_for(args.out), result_store(args.out, "study", inputs) as store:
+        answer = _Answer(_solved(args, suite, target, parameters, store), args.png)
         files = write_answer(args, answer)
     metadata = answer.tables.metadata
     if args.json:
@@ -124,7 +124,7 @@ def _solved(
     suite: Suite,
     target: TargetSpectrum,
     parameters: StudyParameters,
-    kept: KeptResults,
+    store: StoredResults,
 ) -> StudyTables:
     """Run the study, and what is asked for besides."""
     from seismass.show.study.tables import study_tables
@@ -135,7 +135,7 @@ def _solved(
 
     stopped = Event()
 
-    def stop(done: int, total: int) -> None:
+    def refuse_run(done: int, total: int) -> None:
         if stopped.is_set():
             raise CancelledError
 
@@ -143,16 +143,16 @@ def _solved(
     # are left to `seismass validate`: they take four times as long as all others.
     with ThreadPoolExecutor(1) as pool:
         try:
-            scenes = pool.submit(paper_scenes, suite, springs=SPRINGS[:-1], progress=stop)
+            scenes = pool.submit(paper_scenes, suite, springs=SPRINGS[:-1], progress=refuse_run)
             with progress() as tell:
                 result = run_study(
-                    suite, target, parameters, effective=args.effective, threads=args.jobs, progress=tell, kept=kept
+                    suite, target, parameters, effective=args.effective, threads=args.jobs, progress=tell, store=store
                 )
             sensitivity = None
             if args.sensitivity:
                 with progress("studies") as tell:
                     sensitivity = study_sensitivity(
-                        suite, target, parameters, as_is=result, threads=args.jobs, progress=tell, kept=kept
+                        suite, target, parameters, as_is=result, threads=args.jobs, progress=tell, store=store
                     )
             validation = validate(suite, study=result, sensitivity=sensitivity, scenes=scenes.result())
         finally:

@@ -7,9 +7,9 @@ import sys
 from pathlib import Path
 
 from seismass.commands.frame import Command, show
-from seismass.commands.help_text import RUNS
 from seismass.commands.options import add_out_option, check_files, numbers_option
-from seismass.motions.scaling.suite import TARGET_HELP
+from seismass.commands.parser import RUNS
+from seismass.motions.scaling import TARGET_HELP
 
 
 def options(parser: argparse.ArgumentParser) -> None:

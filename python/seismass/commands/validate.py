@@ -6,7 +6,6 @@ import argparse
 
 from seismass.commands.answer_output import give_answer
 from seismass.commands.frame import Command, progress
-from seismass.commands.help_text import RUNS
 from seismass.commands.options import (
     add_answer_options,
     add_records_options,
@@ -14,6 +13,7 @@ from seismass.commands.options import (
     read_motions,
     read_target,
 )
+from seismass.commands.parser import RUNS
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -50,8 +50,8 @@ def run(args: argparse.Namespace) -> int:
 COMMAND = Command(
     description=(
         "Solve the paper's section 4 with the exact kernel, with friction springs and, from kept results, "
-        "with OpenSees; its shaking table over ranges of what is not published; and the parametric study. Print each "
-        "claim of the paper with its verdict."
+        "with OpenSees; its shaking table over ranges of the unpublished parameters; and the parametric study. Print "
+        "each claim of the paper with its verdict."
     ),
     examples="""
 validate

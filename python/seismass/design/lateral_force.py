@@ -157,7 +157,7 @@ def equivalent_lateral_forces(
         V (N).
     period : float
         Period of the design (s), on which k and the force at the roof depend.
-    code_id : str
+    code_id : str, default "asce7-10"
         One of `DISTRIBUTION_CODES`, in any case.
 
     Raises
@@ -232,13 +232,13 @@ def seismic_response_coefficient(
         Period of the design T (s).
     reduction : float
         Response modification coefficient R.
-    importance : float
+    importance : float, default 1.0
         Importance factor I_e.
     s_1 : float, optional
         Mapped spectral acceleration at 1 s (g); from 0.6 g it gives a further minimum.
-    t_l : float
+    t_l : float, optional
         Long-period transition period T_L (s).
-    minimum : bool
+    minimum : bool, default True
         False leaves out 0.044 S_DS I_e, which need not be considered for drift (12.8.6.1), and 0.01.
 
     Raises
@@ -265,12 +265,12 @@ def seismic_response_coefficient(
     factor = as_positive(importance, "importance", _OWNER, InvalidOption)
     reduced = as_positive(reduction, "reduction", _OWNER, InvalidOption) / factor
     limit = second / t if t <= longest else second * longest / t**2
-    found = min(short, limit) / reduced
+    coefficient = min(short, limit) / reduced
     if minimum:
-        found = max(found, 0.044 * short * factor, 0.01)
+        coefficient = max(coefficient, 0.044 * short * factor, 0.01)
     if s_1 is not None and as_positive(s_1, "s_1", _OWNER, InvalidOption) >= 0.6:
-        found = max(found, 0.5 * s_1 / reduced)
-    return found
+        coefficient = max(coefficient, 0.5 * s_1 / reduced)
+    return coefficient
 
 
 def distribution_table() -> pl.DataFrame:

@@ -315,8 +315,8 @@ _TABLES: Final = (
     ("is1893", "7.11.1.1", FROM_MEMORY, _DESIGN_FORCE, (("other", (0.004,) * 4, ""),)),
 )
 _LIMITS: Final = tuple(
-    DriftLimit(code_id, CODE_NAMES[code_id], structure, category, ratio, of, clause, status, note)
-    for code_id, clause, status, of, rows in _TABLES
+    DriftLimit(code_id, CODE_NAMES[code_id], structure, category, ratio, quantity, clause, status, note)
+    for code_id, clause, status, quantity, rows in _TABLES
     for structure, ratios, note in rows
     for category, ratio in zip(_CATEGORIES, ratios, strict=True)
 )
@@ -331,9 +331,9 @@ def drift_limit(code_id: str, risk_category: str = "II", structure: str = "other
     ----------
     code_id : str
         One of `DRIFT_LIMIT_CODES`, in any case.
-    risk_category : {"I", "II", "III", "IV"}
+    risk_category : {"I", "II", "III", "IV"}, default "II"
         Risk category.
-    structure : str
+    structure : str, default "other"
         Kind of structure; `drift_limit_table` lists those of each code.
 
     Raises
@@ -402,7 +402,7 @@ def stability_limit(c_d: float, *, beta: float = 1.0) -> float:
     ----------
     c_d : float
         Deflection amplification factor C_d.
-    beta : float
+    beta : float, default 1.0
         Shear demand over shear capacity of the storey; 1 is conservative.
 
     Raises
@@ -439,13 +439,13 @@ def storey_checks(
         `SpectrumAnalysis.for_design` without a base shear.
     heights : array_like
         Storey heights (m); one number stands for all storeys.
-    c_d, importance : float
+    c_d, importance : float, optional
         C_d and I_e.
     limit : float
         Allowable drift ratio, as `drift_limit` has it.
     load : array_like, shape (storeys,), optional
         Vertical load at and above each storey (N); without it stability is not checked.
-    beta : float
+    beta : float, default 1.0
         Shear demand over shear capacity.
 
     Returns
@@ -475,21 +475,21 @@ def storey_checks(
     theta = None if load is None else stability_coefficient(load, elastic, v, h)
     rows = []
     for i in range(storeys):
-        own = None if theta is None else float(theta[i])
-        unstable = own is not None and own > theta_limit
-        larger = 1.0 if own is None or own <= THETA_THRESHOLD else 1.0 / (1.0 - own)
+        coefficient = None if theta is None else float(theta[i])
+        unstable = coefficient is not None and coefficient > theta_limit
+        larger = 1.0 if coefficient is None or coefficient <= THETA_THRESHOLD else 1.0 / (1.0 - coefficient)
         ratio = None if unstable else larger * float(design[i] / h[i])
         state = None
-        if own is not None:
-            state = "unstable" if unstable else "to be considered" if own > THETA_THRESHOLD else "negligible"
+        if coefficient is not None:
+            state = "unstable" if unstable else "to be considered" if coefficient > THETA_THRESHOLD else "negligible"
         rows.append(
             {
                 "storey": i + 1,
                 "elastic_drift": float(elastic[i]),
                 "design_drift": float(design[i]),
-                "theta": own,
-                "theta_limit": None if own is None else theta_limit,
-                "amplification": None if own is None or unstable else larger,
+                "theta": coefficient,
+                "theta_limit": None if coefficient is None else theta_limit,
+                "amplification": None if coefficient is None or unstable else larger,
                 "drift_ratio": ratio,
                 "limit": share,
                 "drift_ok": ratio is not None and ratio <= share,

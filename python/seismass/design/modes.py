@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final, Literal, TypeAlias, get_args
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias, get_args
 
 import numpy as np
-import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption, InvalidScene
@@ -25,6 +24,9 @@ from seismass.base.values import (
     short_repr,
 )
 from seismass.base.views import Card
+
+if TYPE_CHECKING:
+    import polars as pl
 
 Combination: TypeAlias = Literal["srss", "cqc"]
 """How modal peaks are combined: root of the sum of squares, or complete quadratic combination."""
@@ -64,7 +66,7 @@ class Modes(Card):
 
         Parameters
         ----------
-        share : float
+        share : float, default 0.9
             Share of the mass, above 0 and up to 1. ASCE/SEI 7-10, 12.9.1, and Eurocode 8, 4.3.3.3.1, ask for 0.90.
 
         Raises
@@ -88,6 +90,8 @@ class Modes(Card):
             how shapes are scaled; effective_mass (kg), effective_share, that over the mass, and cumulative_share; and
             floor_1, floor_2, ..., the shape with 1 at the roof.
         """
+        import polars as pl
+
         roof = self.shapes[-1]
         columns: dict[str, FloatArray | list[int]] = {
             "mode": list(range(1, len(self.periods) + 1)),
@@ -132,20 +136,19 @@ def vibration_modes(mass: ArrayLike, stiffness: ArrayLike, *, stiffness_matrix: 
     if len(m) != len(k):
         requirement = f"a list of {len(m)} values, one per storey"
         raise refusal(InvalidScene, "stiffness", "building", requirement, f"{len(k)} values")
-    from scipy.linalg import eigh_tridiagonal  # slow to import
-
     # M^(-1/2) K M^(-1/2) is symmetric and tridiagonal.
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
         diagonal = (k + np.append(k[1:], 0.0)) / m
-        beside = -k[1:] / (np.sqrt(m[1:]) * np.sqrt(m[:-1]))
-    if not (np.isfinite(diagonal).all() and np.isfinite(beside).all()):
+        off_diagonal = -k[1:] / (np.sqrt(m[1:]) * np.sqrt(m[:-1]))
+    if not (np.isfinite(diagonal).all() and np.isfinite(off_diagonal).all()):
         requirement = "in a ratio to the stiffnesses that a double can hold"
         raise refusal(InvalidScene, "mass", "building", requirement, brief(m.tolist()))
+    springs = np.diag(diagonal) + np.diag(off_diagonal, 1) + np.diag(off_diagonal, -1)
     if stiffness_matrix is None:
-        squares, vectors = eigh_tridiagonal(diagonal, beside)
+        squares, vectors = np.linalg.eigh(springs)
+        vectors = np.asfortranarray(vectors)  # sums over floors then have the bits of those over LAPACK's own columns
     else:
         walls = checked_matrix(stiffness_matrix, len(m))
-        springs = np.diag(diagonal) + np.diag(beside, 1) + np.diag(beside, -1)
         squares, vectors = np.linalg.eigh(springs + walls / np.sqrt(m[:, None] * m[None, :]))
         if not squares[0] > 0.0:
             requirement = "positive definite together with the storeys"
@@ -193,9 +196,9 @@ def combined_modes(
         Peak of each quantity in each mode, with the sign of the mode shape.
     periods : array_like, shape (modes,)
         Natural periods (s).
-    combination : {"srss", "cqc"}
+    combination : {"srss", "cqc"}, default "srss"
         SRSS, or CQC with equal damping in every mode.
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping for the correlation of modes in CQC.
 
     Returns
@@ -372,6 +375,8 @@ class SpectrumAnalysis(Card):
             storey, from 1; shear (N), and the parts spring_shear and wall_shear where there are walls; drift and
             displacement of the floor above (m); drift_ratio and overturning (N m), null without heights.
         """
+        import polars as pl
+
         nothing = [None] * len(self.storey_shear)
         parts = {"spring_shear": self.spring_shear, "wall_shear": self.wall_shear} if self.wall_shear.any() else {}
         return pl.DataFrame(
@@ -399,11 +404,11 @@ class SpectrumAnalysis(Card):
 
         Parameters
         ----------
-        reduction, importance : float
+        reduction, importance : float, optional
             R and I_e.
         base_shear : float, optional
             V of the equivalent lateral forces (N), by the same R and I_e; without it nothing is scaled up.
-        share : float
+        share : float, optional
             Share of V below which forces are scaled up to it: 0.85 in ASCE/SEI 7-10.
 
         Raises
@@ -434,8 +439,10 @@ class SpectrumAnalysis(Card):
 
     def mode_table(self) -> pl.DataFrame:
         """Return `Modes.table` with the ordinate (m/s2) and the modal base shear (N) of each mode."""
-        own = pl.DataFrame({"ordinate": self.ordinates, "base_shear": np.abs(self.modal_shear[:, 0])})
-        return pl.concat([self.modes.table(), own], how="horizontal")
+        import polars as pl
+
+        columns = pl.DataFrame({"ordinate": self.ordinates, "base_shear": np.abs(self.modal_shear[:, 0])})
+        return pl.concat([self.modes.table(), columns], how="horizontal")
 
 
 def response_spectrum_analysis(
@@ -456,9 +463,9 @@ def response_spectrum_analysis(
         Floor masses (kg) and storey stiffnesses (N/m), storey 1 first.
     spectrum : callable
         Takes the modal periods (s), returns the pseudo-acceleration (m/s2) at each, as a `TargetSpectrum` does.
-    combination : {"srss", "cqc"}
+    combination : {"srss", "cqc"}, default "srss"
         SRSS, or CQC with equal damping in every mode. Each quantity is combined from its own modal peaks.
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping for the correlation of modes in CQC.
     heights : array_like, optional
         Storey heights (m); one number stands for all storeys. With them overturning moments and drift ratios are known.
@@ -523,5 +530,5 @@ def response_spectrum_analysis(
 
 def moments(shear: FloatArray, heights: FloatArray) -> FloatArray:
     """Return the overturning moment (N m) at the foot of each storey, shape of `shear`: (..., storeys)."""
-    found: FloatArray = np.cumsum((shear * heights)[..., ::-1], axis=-1)[..., ::-1]
-    return found
+    moment: FloatArray = np.cumsum((shear * heights)[..., ::-1], axis=-1)[..., ::-1]
+    return moment

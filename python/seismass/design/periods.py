@@ -263,8 +263,8 @@ def code_period(
     if system not in of_code:
         raise refusal(InvalidOption, "system", f"code {code}", f"one of {', '.join(of_code)}", brief(system))
     rule = of_code[system]
-    given = {"height": height, "storeys": storeys}
-    if given[rule.variable] is None:
+    sizes = {"height": height, "storeys": storeys}
+    if sizes[rule.variable] is None:
         raise refusal(InvalidOption, rule.variable, f"system {system}", "given", "none")
     if rule.variable == "storeys":
         size = float(as_count(storeys, "storeys", f"system {system}", InvalidOption, least=1))

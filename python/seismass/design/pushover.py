@@ -60,8 +60,8 @@ class Path:
             self.events.append((len(self.base_shears) - 1, storey + 1, "capacity"))
 
     def _tangents(self, sign: int) -> FloatArray:
-        found = np.array([spring.tangent(sign) for spring in self.springs]) - self.p_delta
-        return np.where(np.abs(found) <= _FLAT * self.elastic, 0.0, found)
+        stiffness = np.array([spring.tangent(sign) for spring in self.springs]) - self.p_delta
+        return np.where(np.abs(stiffness) <= _FLAT * self.elastic, 0.0, stiffness)
 
     def _step(self, rates: FloatArray, slope: float) -> None:
         """Move by the rates of drift, with the base shear at a slope, up to the next corner."""
@@ -96,12 +96,12 @@ class Path:
 
     def event_table(self) -> pl.DataFrame:
         """Return the events, in order."""
-        at = [event[0] for event in self.events]
+        times = [event[0] for event in self.events]
         return pl.DataFrame(
             {
-                "point": pl.Series(at, dtype=pl.UInt32),
-                "base_shear": [self.base_shears[point] for point in at],
-                "roof_displacement": [float(self.drifts[point].sum()) for point in at],
+                "point": pl.Series(times, dtype=pl.UInt32),
+                "base_shear": [self.base_shears[point] for point in times],
+                "roof_displacement": [float(self.drifts[point].sum()) for point in times],
                 "storey": pl.Series([event[1] for event in self.events], dtype=pl.UInt32),
                 "kind": [event[2] for event in self.events],
             }
@@ -285,15 +285,15 @@ class Pushover(Card):
         wanted = as_array(roof_displacement, "roof_displacement", "pushover", InvalidOption)
         reached = np.maximum.accumulate(self.roof_displacement)
         first = np.searchsorted(reached, wanted)
-        found = np.full(len(wanted), np.nan)
-        for i, (at, point) in enumerate(zip(wanted, first, strict=True)):
-            if point == 0 and at == reached[0]:
-                found[i] = self.base_shear[0]
+        shear = np.full(len(wanted), np.nan)
+        for i, (displacement, point) in enumerate(zip(wanted, first, strict=True)):
+            if point == 0 and displacement == reached[0]:
+                shear[i] = self.base_shear[0]
             elif 0 < point < len(reached):
                 # The point before may lie behind the farthest one so far, but the line to this one crosses `at`.
                 ends = slice(point - 1, point + 1)
-                found[i] = np.interp(at, self.roof_displacement[ends], self.base_shear[ends])
-        return found
+                shear[i] = np.interp(displacement, self.roof_displacement[ends], self.base_shear[ends])
+        return shear
 
     def table(self) -> pl.DataFrame:
         """Return one row per point.
@@ -334,7 +334,7 @@ def pushover(
     ----------
     building : Building
         The building, with its springs of any law, P-Delta where it has that, and its stiffness matrix.
-    pattern : {"modal", "uniform", "code"} or array_like, shape (floors,)
+    pattern : {"modal", "uniform", "code"} or array_like, shape (floors,), default "modal"
         Lateral forces in proportion to m phi_1, to m, or to m h^k with k of ASCE 7 for the first period (heights are
         needed); or forces of any scale. Every storey must have a positive shear.
     drift_limit : array_like, optional

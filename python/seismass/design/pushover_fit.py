@@ -65,10 +65,10 @@ class FittedSpring:
         slopes = [1.0, self.third_slope] if len(self.corners) == 1 else [1.0, self.second_slope, self.third_slope]
         ends = [*self.corners, np.inf]
         starts = [0.0, *self.corners]
-        found = np.zeros(len(drift))
+        drifts = np.zeros(len(drift))
         for slope, start, end in zip(slopes, starts, ends, strict=True):
-            found += slope * np.clip(drift - start, 0.0, end - start)
-        return self.stiffness * found
+            drifts += slope * np.clip(drift - start, 0.0, end - start)
+        return self.stiffness * drifts
 
 
 def sample_weights(drift: FloatArray) -> FloatArray:
@@ -89,8 +89,8 @@ def fitted_spring(drift: FloatArray, shear: FloatArray, shape: SpringShape) -> F
     count = 1 if shape == "bilinear" else 2
 
     def solved(corners: FloatArray) -> tuple[FloatArray, float]:
-        found, distance = nnls(root[:, None] * _basis(drift, np.sort(corners), shape), known)
-        return found, float(distance)
+        solution, distance = nnls(root[:, None] * _basis(drift, np.sort(corners), shape), known)
+        return solution, float(distance)
 
     inner = np.unique(drift[(drift > 0.0) & (drift < drift[-1])])
     if len(inner) > _CORNERS:
@@ -106,8 +106,8 @@ def fitted_spring(drift: FloatArray, shear: FloatArray, shape: SpringShape) -> F
 
         def residual(corners: FloatArray) -> FloatArray:
             ordered = np.sort(corners)
-            found, _ = nnls(root[:, None] * _basis(drift, ordered, shape), known)
-            misfit: FloatArray = root * (_basis(drift, ordered, shape) @ found) - known
+            solution, _ = nnls(root[:, None] * _basis(drift, ordered, shape), known)
+            misfit: FloatArray = root * (_basis(drift, ordered, shape) @ solution) - known
             return misfit
 
         near = least_squares(
@@ -132,10 +132,10 @@ def _basis(drift: FloatArray, corners: FloatArray, shape: SpringShape) -> FloatA
     return np.column_stack([*short, last])
 
 
-def _spring(corners: FloatArray, found: FloatArray, shape: SpringShape) -> FittedSpring | None:
+def _spring(corners: FloatArray, solution: FloatArray, shape: SpringShape) -> FittedSpring | None:
     """The spring of corners (m) and coefficients (N/m)."""
     falls = shape == "capped"
-    slopes = [found[0] + found[1], found[1], -found[2]] if falls else list(np.cumsum(found[::-1])[::-1])
+    slopes = [solution[0] + solution[1], solution[1], -solution[2]] if falls else list(np.cumsum(solution[::-1])[::-1])
     stiffness = float(slopes[0])
     if len(corners) == 2 and slopes[0] - slopes[1] <= _STRAIGHT * stiffness:  # the first corner is none
         corners, slopes = corners[1:], [slopes[0], slopes[2]]
@@ -175,8 +175,8 @@ def roof_shear(springs: list[FittedSpring], share: FloatArray, roof: FloatArray)
     top = min(float(levels[-1]) for levels, _ in knots)
     shears = np.unique(np.concatenate([levels[levels <= top] for levels, _ in knots]))
     displacements = np.sum([np.interp(shears, levels, drifts) for levels, drifts in knots], axis=0)
-    found: FloatArray = np.interp(roof, displacements, shears)
-    return found
+    shear: FloatArray = np.interp(roof, displacements, shears)
+    return shear
 
 
 def fitted_storeys(
@@ -370,7 +370,7 @@ def fit_pushover(
     drift, shear : array_like, or lists of them
         Drifts (m) that do not go back, and shears (N), of one curve; or a list of curves, storey 1 first. The origin
         may be left out.
-    shape : {"bilinear", "trilinear", "capped"}
+    shape : {"bilinear", "trilinear", "capped"}, default "bilinear"
         Two lines, three, or three of which the last falls, for peak-oriented springs. Of the first two what comes after
         the largest shear is left out, and said.
     forces : array_like, shape (floors,), optional
@@ -416,13 +416,13 @@ def fit_pushover(
         for name, value in (("relative_stiffness", relative_stiffness), ("relative_strength", relative_strength)):
             if value is not None:
                 raise refusal(InvalidOption, name, _OWNER, "given with forces alone", "no forces")
-        curves, said = _with_p_delta(curves, p_over_h)
-        found = [fitted_spring(*curve, shape) for curve in curves]
-        springs = [_bent(spring, number, len(found)) for number, spring in enumerate(found, start=1)]
+        curves, note = _with_p_delta(curves, p_over_h)
+        fits = [fitted_spring(*curve, shape) for curve in curves]
+        springs = [_bent(spring, number, len(fits)) for number, spring in enumerate(fits, start=1)]
         fitted = tuple(frozen(spring.force(curve[0])) for spring, curve in zip(springs, curves, strict=True))
         assumptions: tuple[str, ...] = (
             "Each storey is fitted by itself: its shear over its own drift is taken as the force of its spring.",
-            said,
+            note,
         )
     else:
         if len(curves) != 1:
@@ -438,7 +438,7 @@ def fit_pushover(
         of_storeys = fitted_storeys(*curves[0], share, stiffness, strength, shape)
         springs = [_bent(None, 1, 1)] if of_storeys is None else of_storeys
         fitted = (frozen(roof_shear(springs, share, curves[0][0])),)
-        assumptions = _about_roof(share, relative_stiffness is None, relative_strength is None)
+        assumptions = _roof_remarks(share, relative_stiffness is None, relative_strength is None)
     misfits = [np.abs(fit - curve[1]) / curve[1].max() for fit, curve in zip(fitted, curves, strict=True)]
     weights = [sample_weights(curve[0]) for curve in curves]
     rms = [np.sqrt(np.average(misfit**2, weights=weight)) for misfit, weight in zip(misfits, weights, strict=True)]
@@ -461,35 +461,35 @@ def _curves(drift: Any, shear: Any, shape: SpringShape) -> tuple[list[tuple[Floa
     drifts, shears = (list(drift), list(shear)) if nested else ([drift], [shear])
     if len(drifts) != len(shears):
         raise refusal(InvalidOption, "shear", _OWNER, f"a list of {len(drifts)} curves", f"{len(shears)}")
-    curves, said = [], []
+    curves, notes = [], []
     for number, (d, v) in enumerate(zip(drifts, shears, strict=True), start=1):
-        of = f"curve {number}" if len(drifts) > 1 else "curve"
-        x = as_array(d, "drift", f"{of} of {_OWNER}", InvalidOption)
-        y = as_array(v, "shear", f"{of} of {_OWNER}", InvalidOption)
+        name = f"curve {number}" if len(drifts) > 1 else "curve"
+        x = as_array(d, "drift", f"{name} of {_OWNER}", InvalidOption)
+        y = as_array(v, "shear", f"{name} of {_OWNER}", InvalidOption)
         if len(x) != len(y):
-            raise refusal(InvalidOption, "shear", f"{of} of {_OWNER}", f"a list of {len(x)} numbers", f"{len(y)}")
+            raise refusal(InvalidOption, "shear", f"{name} of {_OWNER}", f"a list of {len(x)} numbers", f"{len(y)}")
         if not (np.isfinite(x).all() and np.isfinite(y).all()):
-            raise refusal(InvalidOption, "samples", f"{of} of {_OWNER}", "finite numbers", "one that is not")
+            raise refusal(InvalidOption, "samples", f"{name} of {_OWNER}", "finite numbers", "one that is not")
         if (np.diff(x) < 0.0).any() or (x < 0.0).any():
-            at = int(np.argmax(np.diff(x, prepend=0.0) < 0.0))
+            index = int(np.argmax(np.diff(x, prepend=0.0) < 0.0))
             need = "positive, and not below that before"
-            raise refusal(InvalidOption, "drift", f"{of} of {_OWNER}", need, f"{x[at]:g} m as sample {at + 1}")
+            raise refusal(InvalidOption, "drift", f"{name} of {_OWNER}", need, f"{x[index]:g} m as sample {index + 1}")
         x, y = x[x > 0.0], y[x > 0.0]
         if not (y > 0.0).all():
-            raise refusal(InvalidOption, "shear", f"{of} of {_OWNER}", "positive", f"{y.min():g} N")
+            raise refusal(InvalidOption, "shear", f"{name} of {_OWNER}", "positive", f"{y.min():g} N")
         if shape != "capped" and len(y):
             last = int(np.flatnonzero(y >= (1.0 - _AT_PEAK) * y.max())[-1]) + 1
             if last < len(y):
-                said.append(
-                    f"Left out of {of}: {len(y) - last} samples after the largest shear, from {1e3 * x[last]:.4g} mm "
+                notes.append(
+                    f"Left out of {name}: {len(y) - last} samples after the largest shear, from {1e3 * x[last]:.4g} mm "
                     "on; the springs keep their strength there."
                 )
             x, y = x[:last], y[:last]
         if len(x) < _FEWEST:
             need = f"at least {_FEWEST} samples beside the origin, up to the largest shear"
-            raise refusal(InvalidOption, "samples", f"{of} of {_OWNER}", need, f"{len(x)}")
+            raise refusal(InvalidOption, "samples", f"{name} of {_OWNER}", need, f"{len(x)}")
         curves.append((np.append(0.0, x), np.append(0.0, y)))
-    return curves, tuple(said)
+    return curves, tuple(notes)
 
 
 def _with_p_delta(
@@ -498,40 +498,42 @@ def _with_p_delta(
     """The forces of the springs, and how they were found."""
     if p_over_h is None:
         return curves, "The analysis of the curves is taken to be without P-Delta."
-    given = as_array(p_over_h, "p_over_h", _OWNER, InvalidOption, or_number=True)
-    slopes = np.broadcast_to(given, (len(curves),)) if given.ndim == 0 or len(given) == 1 else given
+    ratios = as_array(p_over_h, "p_over_h", _OWNER, InvalidOption, or_number=True)
+    slopes = np.broadcast_to(ratios, (len(curves),)) if ratios.ndim == 0 or len(ratios) == 1 else ratios
     if len(slopes) != len(curves) or not ((slopes >= 0.0) & np.isfinite(slopes)).all():
         need = f"one number or {len(curves)}, none of them negative"
         raise refusal(InvalidOption, "p_over_h", _OWNER, need, brief(p_over_h))
-    found = [(x, y + slope * x) for (x, y), slope in zip(curves, slopes, strict=True)]
-    return found, "The analysis of the curves had P-Delta: P/h times the drift is added to the shear."
+    corrected = [(x, y + slope * x) for (x, y), slope in zip(curves, slopes, strict=True)]
+    return corrected, "The analysis of the curves had P-Delta: P/h times the drift is added to the shear."
 
 
 def _bent(spring: FittedSpring | None, number: int, count: int) -> FittedSpring:
     if spring is None:
-        of = f"curve {number} of {_OWNER}" if count > 1 else _OWNER
-        raise refusal(InvalidOption, "samples", of, "a curve that bends, with samples on both sides", "a straight line")
+        name = f"curve {number} of {_OWNER}" if count > 1 else _OWNER
+        raise refusal(
+            InvalidOption, "samples", name, "a curve that bends, with samples on both sides", "a straight line"
+        )
     return spring
 
 
 def _shares(forces: ArrayLike) -> FloatArray:
     """Share of the base shear in each storey."""
-    given = as_array(forces, "forces", _OWNER, InvalidOption)
-    share = np.cumsum(given[::-1])[::-1]
+    array = as_array(forces, "forces", _OWNER, InvalidOption)
+    share = np.cumsum(array[::-1])[::-1]
     if not len(share) or not np.isfinite(share).all() or not (share > 0.0).all():
         raise refusal(InvalidOption, "forces", _OWNER, "such that every storey has a positive shear", brief(forces))
-    found: FloatArray = share / share[0]
-    return found
+    relative: FloatArray = share / share[0]
+    return relative
 
 
 def _relative(values: ArrayLike, what: str, storeys: int) -> FloatArray:
-    given = as_array(values, f"relative_{what}", _OWNER, InvalidOption)
-    if len(given) != storeys or not ((given > 0.0) & np.isfinite(given)).all():
+    array = as_array(values, f"relative_{what}", _OWNER, InvalidOption)
+    if len(array) != storeys or not ((array > 0.0) & np.isfinite(array)).all():
         raise refusal(InvalidOption, f"relative_{what}", _OWNER, f"{storeys} positive numbers", brief(values))
-    return given
+    return array
 
 
-def _about_roof(share: FloatArray, stiffness: bool, strength: bool) -> tuple[str, ...]:
+def _roof_remarks(share: FloatArray, stiffness: bool, strength: bool) -> tuple[str, ...]:
     """What is assumed where one curve stands for all storeys."""
     listed = ", ".join(f"{part:.3g}" for part in share)
     return (

@@ -40,14 +40,14 @@ class MasingSpring:
     """Elastic-perfectly-plastic elements in parallel with a linear one (Iwan 1966), and a stop beyond a clearance."""
 
     def __init__(
-        self, stiffness: list[float], yield_drift: list[float], linear: float, clearance: float, stop: float
+        self, stiffness: list[float], yield_drift: list[float], linear: float, clearance: float, stop_stiffness: float
     ) -> None:
         self.drift = 0.0
         self._stiffness = np.array(stiffness)
         self._yield_drift = np.array(yield_drift)
         self._stretch = np.zeros(len(stiffness))  # elastic drift of each element
         self._yielded = np.zeros(len(stiffness), dtype=np.int64)  # sign of those that yield
-        self._linear, self._clearance, self._stop = linear, clearance, stop
+        self._linear, self._clearance, self._stop = linear, clearance, stop_stiffness
 
     @property
     def force(self) -> float:
@@ -58,8 +58,8 @@ class MasingSpring:
     def tangent(self, sign: int) -> float:
         """Return the tangent (N/m) in a direction."""
         touches = self.drift >= self._clearance if sign > 0 else self.drift > self._clearance
-        found = float(self._stiffness[self._yielded != sign].sum()) + self._linear
-        return found + self._stop if touches else found
+        stiffness = float(self._stiffness[self._yielded != sign].sum()) + self._linear
+        return stiffness + self._stop if touches else stiffness
 
     def room(self, sign: int) -> float:
         """Return how far (m) the tangent holds in a direction."""

@@ -101,8 +101,8 @@ class Wall(Card):
         m = positive(mass, "mass")
         wanted = as_positive(period, "period", "wall", InvalidScene)
         unit = cls(positive_of_length(heights, "heights", len(m)), 1.0)
-        found = vibration_modes(m, np.zeros(len(m)), stiffness_matrix=unit.stiffness_matrix).periods[0]
-        return cls(unit.heights, float(found / wanted) ** 2)
+        unit_period = vibration_modes(m, np.zeros(len(m)), stiffness_matrix=unit.stiffness_matrix).periods[0]
+        return cls(unit.heights, float(unit_period / wanted) ** 2)
 
     @classmethod
     def of_alpha_h(cls, building: Building, alpha_h: float) -> Wall:
@@ -258,8 +258,8 @@ def _racking_rigidity(building: Building, heights: FloatArray) -> float:
 
 def _first_mode_share(building: Building, matrix: FloatArray) -> float:
     """Force of a matrix on the ground over the base shear in the first mode; what the building has is the frame."""
-    own = 0.0 if building.stiffness_matrix is None else building.stiffness_matrix
-    modes = vibration_modes(building.mass, building.stiffness, stiffness_matrix=own + matrix)
+    matrix_of_storeys = 0.0 if building.stiffness_matrix is None else building.stiffness_matrix
+    modes = vibration_modes(building.mass, building.stiffness, stiffness_matrix=matrix_of_storeys + matrix)
     shape = modes.shapes[:, 0]
     whole = (2.0 * np.pi / modes.periods[0]) ** 2 * float(building.mass @ shape)
     return float((matrix @ shape).sum()) / float(whole)

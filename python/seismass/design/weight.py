@@ -48,7 +48,7 @@ _SNOW: Final = {
     "nbc": (0.25, 0.0, "4.1.8.2", SECOND_HAND),
     "gb50011": (0.5, 0.0, "5.1.3", FROM_MEMORY),
 }
-# Fraction of the live load of the roof, where the code has one of its own.
+# Fraction of the live load of the roof, where the code has a separate one.
 _ROOF: Final = {
     ("ec8", "ordinary"): (0.30, "4.2.4, phi = 1.0 at the roof", SECOND_HAND),
     ("nzs1170.5", "ordinary"): (0.0, "4.2, without public access", SECOND_HAND),
@@ -120,7 +120,7 @@ def effective_seismic_weight(
     ----------
     dead, live : array_like, shape (floors,)
         Dead load and design live load of each floor (N), floor 1 first. Dead load is without what follows.
-    code_id : str
+    code_id : str, default "asce7-10"
         One of `seismass.model.codes.CODE_IDS`, in any case.
     use : {"storage", "ordinary", "archive", "shop", "garage"} or list of them, optional
         Use of all floors, or of each. By default "storage"; for codes that decide by the live load per area (BNBC 2017,
@@ -225,17 +225,17 @@ class _Rules:
 
     def table(self) -> pl.DataFrame:
         """One row per rule."""
-        rows = [(rule, *of) for rule, of in self._rows.items()]
+        rows = [(rule, *entries) for rule, entries in self._rows.items()]
         return pl.DataFrame(rows, schema=dict.fromkeys(("rule", "clause", "status"), pl.String), orient="row")
 
 
 def _fraction(code: str, use: FloorUse, is_roof: bool, rules: _Rules) -> tuple[float, str]:
     """Fraction of the live load of a floor, and an exception in words."""
     row = code_fraction(code, use)
-    own = _ROOF.get((code, use)) if is_roof else None
-    if own is not None:
-        rules.add(f"{own[0]:g} of the live load of the roof ({use})", *own[1:])
-        return own[0], "roof"
+    roof = _ROOF.get((code, use)) if is_roof else None
+    if roof is not None:
+        rules.add(f"{roof[0]:g} of the live load of the roof ({use})", *roof[1:])
+        return roof[0], "roof"
     rules.add(f"{row.fraction:g} of the live load ({use})", row.clause, row.status)
     return row.fraction, "garage" if use == "garage" and row.fraction == 0.0 else ""
 
@@ -249,14 +249,14 @@ def _uses(
         rules.add(f"the live load per area decides on the fraction, above or up to {limit / 1e3:g} kPa", clause, status)
         # Rounding must not lift a live load of exactly the limit above it.
         return ["storage" if q > limit * a * (1.0 + 1e-12) else "ordinary" for q, a in zip(live, areas, strict=True)]
-    given: list[Any] = [use or "storage"] * len(live) if use is None or isinstance(use, str) else list(use)
-    if len(given) != len(live):
+    uses: list[Any] = [use or "storage"] * len(live) if use is None or isinstance(use, str) else list(use)
+    if len(uses) != len(live):
         requirement = f"one use or a list of {len(live)}, one per floor"
-        raise refusal(InvalidOption, "use", "seismic weight", requirement, f"{len(given)} of them")
-    for one in given:
+        raise refusal(InvalidOption, "use", "seismic weight", requirement, f"{len(uses)} of them")
+    for one in uses:
         if not is_one_of(one, get_args(FloorUse)):
             raise refusal(InvalidOption, "use", "seismic weight", f"one of {', '.join(get_args(FloorUse))}", brief(one))
-    return given
+    return uses
 
 
 def _partitions(
@@ -265,21 +265,21 @@ def _partitions(
     """Weight of partitions that counts on each floor (N)."""
     if partitions is None:
         return np.zeros(floors)
-    given = as_array(partitions, "partitions", "seismic weight", InvalidOption)
-    stated = _loads(np.nan_to_num(given, nan=0.0), "partitions", floors)
+    loads = as_array(partitions, "partitions", "seismic weight", InvalidOption)
+    stated = _loads(np.nan_to_num(loads, nan=0.0), "partitions", floors)
     if not is_one_of(code, _ASCE):
         return stated
     if areas is None:
         raise refusal(InvalidOption, "area", "seismic weight", "given where partitions are", "none")
     rules.add("partitions, at least 0.48 kPa where the floor load provides for them", "12.7.2, item 2", _ASCE[code])
-    return np.where(np.isnan(given), 0.0, np.maximum(stated, PARTITION_MINIMUM * areas))
+    return np.where(np.isnan(loads), 0.0, np.maximum(stated, PARTITION_MINIMUM * areas))
 
 
 def _snow(snow: float | None, code: str, areas: FloatArray | None, floors: int, rules: _Rules) -> FloatArray:
     """Weight of snow that counts on each floor (N)."""
-    found = np.zeros(floors)
+    weight = np.zeros(floors)
     if snow is None:
-        return found
+        return weight
     load = as_number(snow, "snow", "seismic weight", InvalidOption)
     if not 0.0 <= load < np.inf:
         raise refusal(InvalidOption, "snow", "seismic weight", "a load of at least 0 (Pa)", f"{load:g}")
@@ -293,8 +293,8 @@ def _snow(snow: float | None, code: str, areas: FloatArray | None, floors: int, 
     above = f" where it is above {least / 1e3:g} kPa" if least > 0.0 else ""
     rules.add(f"{share:g} of the snow load{above}", clause, status)
     if load > least:
-        found[-1] = share * load * areas[-1]
-    return found
+        weight[-1] = share * load * areas[-1]
+    return weight
 
 
 def _loads(values: ArrayLike, name: str, floors: int | None) -> FloatArray:

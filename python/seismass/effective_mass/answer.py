@@ -50,12 +50,10 @@ Designed: TypeAlias = Building | tuple[Building, Building]
 
 @dataclass(frozen=True, slots=True)
 class Solved:
-    """Peaks of a real building (one scene, or one per share) and of its models at every share of a grid; answers need
-    few further runs.
-    """
+    """Peaks of the building with sliding goods (one scene, or one per share) and of its models at shares of a grid."""
 
     search: Search
-    real: Peaks
+    sliding: Peaks
     model: Peaks
     question: str
 
@@ -64,7 +62,7 @@ class Solved:
         search = self.search
         if statistic is not None:
             search = replace(search, options=replace(search.options, statistic=statistic))
-        return search.answer(self.real, self.model, {"question": self.question})
+        return search.answer(self.sliding, self.model, {"question": self.question})
 
 
 def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Options) -> list[Solved]:
@@ -76,28 +74,28 @@ def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Op
     how: dict[str, Any] = {"drift": options.drift, "threads": options.threads}
     for number, scene in enumerate(checked[1:], start=2):
         if attached(scene, 1.0, options.damping) != attached(first, 1.0, options.damping):
-            requirement = "the building and goods of scene 1 but for friction"
+            requirement = "the building and goods of scene 1, with another friction"
             raise refusal(InvalidScene, f"scene {number}", OWNER, requirement, "others")
     larger = SHARES_BEYOND if any(goes_beyond(scene) for scene in checked) else SHARES_BEYOND[:0]
     stages = Stages(options.progress, (len(checked) + len(shares) + len(larger)) * len(motions))
-    reals = solve(checked, motions, **how, progress=stages.next(len(checked) * len(motions)))
+    sliding_models = solve(checked, motions, **how, progress=stages.next(len(checked) * len(motions)))
     models = [attached(first, share, options.damping) for share in shares]
     model = solve(models, motions, **how, progress=stages.next(len(models) * len(motions)))
-    beyond = None
+    above_one = None
     if len(larger):
         models = [attached(first, share, options.damping) for share in larger]
-        beyond = solve(models, motions, **how, progress=stages.next(len(models) * len(motions)))
-    beside: dict[float, Peaks] = {}
+        above_one = solve(models, motions, **how, progress=stages.next(len(models) * len(motions)))
+    peaks_by_share: dict[float, Peaks] = {}
 
     def model_at(share: float) -> Peaks:
-        if share not in beside:
-            beside[share] = solve([attached(first, share, options.damping)], motions, **how)
-        return beside[share]
+        if share not in peaks_by_share:
+            peaks_by_share[share] = solve([attached(first, share, options.damping)], motions, **how)
+        return peaks_by_share[share]
 
     def of(number: int, scene: Scene) -> Solved:
-        real = reals.one(number)
-        search = Search(motions, options, lambda share: (real, model_at(share)), lambda _: scene, beyond)
-        return Solved(search, real, model, "given building")
+        sliding = sliding_models.one(number)
+        search = Search(motions, options, lambda share: (sliding, model_at(share)), lambda _: scene, above_one)
+        return Solved(search, sliding, model, "given building")
 
     return [of(number, scene) for number, scene in enumerate(checked)]
 
@@ -137,7 +135,7 @@ def solved_designs(
         requirement = "a Building of the same number of storeys for every share"
         raise refusal(InvalidScene, "design", OWNER, requirement, "different ones")
     runs = len(scenes) * len(motions)
-    real = solve(scenes, motions, **how, progress=stages.next(runs))
+    sliding = solve(scenes, motions, **how, progress=stages.next(runs))
     models = [attached(scene, share, options.damping) for scene, share in zip(scenes, shares, strict=True)]
     model = solve(models, motions, **how, progress=stages.next(runs))
 
@@ -149,7 +147,7 @@ def solved_designs(
         )
         return both
 
-    return Solved(Search(motions, options, at, designed), real, model, "design rule")
+    return Solved(Search(motions, options, at, designed), sliding, model, "design rule")
 
 
 def effective_mass(
@@ -176,13 +174,13 @@ def effective_mass(
     motions : Motion, Record, Pair or iterable of them
         The suite, scaled as it is to act; a `Suite` is one. Records of one event are resampled together. A scene in two
         directions takes pairs.
-    statistic : {"mean", "median"}
+    statistic : {"mean", "median"}, default "mean"
         What is taken of the largest drifts over the motions. With the median a collapsed run counts as infinite drift;
         with the mean one collapse of the real building leaves no value.
-    drift : {"larger", "vector", "x", "y"}
+    drift : {"larger", "vector", "x", "y"}, optional
         Of scenes in two directions, what is compared: the larger of a storey's peak drifts in x and in y; the peak
         length of its drift vector; the peak in one direction.
-    damping : {"same", "ratio"}
+    damping : {"same", "ratio"}, default "same"
         Damping of the models, see `attached_scene`.
     fractions : array_like, optional
         Shares at which models are solved before roots are refined, from 0 to 1; by default 0, 0.01, ..., 1, of
@@ -266,7 +264,7 @@ def effective_mass_of_design(
         Takes a share from 0 to 1, returns the Building designed with it; floor masses without goods.
     blocks : iterable of Block
         The goods, the same for every design.
-    racks : iterable of Rack
+    racks : iterable of Rack, optional
         Racks with goods, the same for every design; shares above 1 are not sought.
     base : SlidingBase, optional
         Base that slides under every design.

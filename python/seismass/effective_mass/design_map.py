@@ -325,10 +325,10 @@ class EffectiveMassMap(Result):
     def _ratios(self, rules: Mapping[str, Rule] | None) -> Iterator[tuple[str, FloatArray, FloatArray]]:
         """Yield each rule's name with model over real drift and the period of the cases in which goods slide."""
         slides = self.table["slides"].to_numpy()
-        real, period = self.table["real"].to_numpy()[slides], self.table["period"].to_numpy()[slides]
+        drift, period = self.table["real"].to_numpy()[slides], self.table["period"].to_numpy()[slides]
         for name, rule in (RULES if rules is None else rules).items():
             shares = np.asarray(rule(self.table), dtype=np.float64)
-            yield name, self.model_drift(shares)[slides] / real, period
+            yield name, self.model_drift(shares)[slides] / drift, period
 
     def by_eta(self) -> pl.DataFrame:
         """Return the scatter of the fraction in bins of eta, over all cases in which goods slide.
@@ -400,40 +400,40 @@ def effective_mass_map(
     Definition as for `effective_mass`, with crossings by linear interpolation between shares, 0.01 apart by default, in
     place of refined roots. Runs of models do not depend on friction and are shared.
     """
-    chosen = EffectiveMassParameters() if parameters is None else parameters
+    options = EffectiveMassParameters() if parameters is None else parameters
     if not isinstance(suite, Suite):
         raise refusal(InvalidMotion, "suite", "effective mass map", "a Suite of records", brief(suite))
     scaling = scale_asce7_10(
-        suite, target, chosen.scaling_period, damping=chosen.damping, between=False, threads=threads
+        suite, target, options.scaling_period, damping=options.damping, between=False, threads=threads
     )
 
     def design_spectrum(periods: FloatArray) -> FloatArray:
-        return mean_spectrum(suite, scaling.factors, periods, chosen.damping, threads=threads)
+        return mean_spectrum(suite, scaling.factors, periods, options.damping, threads=threads)
 
     corner = corner_period(design_spectrum)
-    buildings = [list(_loaded(chosen, number, design_spectrum)) for number in range(1, len(chosen.buildings) + 1)]
+    buildings = [list(_loaded(options, number, design_spectrum)) for number in range(1, len(options.buildings) + 1)]
     scaled = [record.scaled(factor) for record, factor in zip(suite, scaling.factors, strict=True)]
-    per_building = len(chosen.mass_ratios) * len(chosen.response_modification)
-    fractions = np.linspace(0.0, 1.0, chosen.shares)
-    per_load = len(fractions) + len(chosen.mus)
-    total = len(chosen.intensities) * len(buildings) * per_building * per_load * len(suite)
+    per_building = len(options.mass_ratios) * len(options.response_modification)
+    fractions = np.linspace(0.0, 1.0, options.shares)
+    per_load = len(fractions) + len(options.mus)
+    total = len(options.intensities) * len(buildings) * per_building * per_load * len(suite)
     stages = Stages(progress, total)
     rows: list[dict[str, Any]] = []
     curves: list[FloatArray] = []
     curve_of: list[int] = []
-    for intensity in chosen.intensities:
+    for intensity in options.intensities:
         motions = named_motions([record.scaled(intensity) for record in scaled], "effective mass map")
         for loads in buildings:
-            models = [attached(load.scenes[0], share, chosen.model_damping) for load in loads for share in fractions]
+            models = [attached(load.scenes[0], share, options.model_damping) for load in loads for share in fractions]
             model = solve(models, motions, threads=threads, progress=stages.next(len(models) * len(motions)))
             scenes = [scene for load in loads for scene in load.scenes]
-            real = solve(scenes, motions, threads=threads, progress=stages.next(len(scenes) * len(motions)))
+            all_sliding = solve(scenes, motions, threads=threads, progress=stages.next(len(scenes) * len(motions)))
             for number, load in enumerate(loads):
-                own = model.part(number * len(fractions), len(fractions))
-                sliding = real.part(number * len(chosen.mus), len(chosen.mus))
-                rows += _cases(load, {"intensity": intensity}, own, sliding, motions, corner, chosen)
-                curve_of += [len(curves)] * len(chosen.mus)
-                curves.append(over_records(own.largest, "mean"))
+                model_part = model.part(number * len(fractions), len(fractions))
+                sliding = all_sliding.part(number * len(options.mus), len(options.mus))
+                rows += _cases(load, {"intensity": intensity}, model_part, sliding, motions, corner, options)
+                curve_of += [len(curves)] * len(options.mus)
+                curves.append(over_records(model_part.largest, "mean"))
     return EffectiveMassMap(
         table=pl.DataFrame(rows, schema_overrides={"building": pl.UInt32, "storeys": pl.UInt32}),
         curve_of=np.array(curve_of, dtype=np.int64),
@@ -444,7 +444,7 @@ def effective_mass_map(
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
-            "parameters": asdict(chosen),
+            "parameters": asdict(options),
             "target": {"label": target.label, **target.parameters},
             "suite": {"name": suite.name, "motions": list(scaling.names), "factors": scaling.factors.tolist()},
             "corner_period": corner,
@@ -459,40 +459,40 @@ def effective_mass_map(
 
 
 def _loaded(
-    chosen: EffectiveMassParameters, number: int, spectrum: Callable[[FloatArray], FloatArray]
+    options: EffectiveMassParameters, number: int, spectrum: Callable[[FloatArray], FloatArray]
 ) -> Iterator[_Loaded]:
     """Yield building `number`, counted from 1, with every load and strength."""
-    storeys, period, roof = chosen.buildings[number - 1]
+    storeys, period, roof = options.buildings[number - 1]
     bare = Building.uniform(
         storeys,
         period,
         mass=1.0,
-        overstrength=chosen.overstrength,
-        second_slope=chosen.second_slope,
-        third_slope=chosen.third_slope,
-        damping=chosen.damping,
+        overstrength=options.overstrength,
+        second_slope=options.second_slope,
+        third_slope=options.third_slope,
+        damping=options.damping,
     )
-    for alpha in chosen.mass_ratios:
+    for alpha in options.mass_ratios:
         ratios = np.full(storeys, alpha)
         if roof == "bare":
             ratios[-1] = 0.0
         analysis = response_spectrum_analysis(
-            bare.mass + chosen.design_fraction * ratios,
+            bare.mass + options.design_fraction * ratios,
             bare.stiffness,
             spectrum,
-            combination=chosen.combination,
-            damping=chosen.damping,
+            combination=options.combination,
+            damping=options.damping,
         )
         full = response_spectrum_analysis(
-            bare.mass + ratios, bare.stiffness, spectrum, combination=chosen.combination, damping=chosen.damping
+            bare.mass + ratios, bare.stiffness, spectrum, combination=options.combination, damping=options.damping
         )
         heights = height_ratio(ratios, bare.mass)
-        for reduction in chosen.response_modification:
-            elastic = reduction == 1.0 and not chosen.yield_at_r1
+        for reduction in options.response_modification:
+            elastic = reduction == 1.0 and not options.yield_at_r1
             strength = np.full(storeys, np.inf) if elastic else analysis.storey_shear / reduction
             building = bare.replace(yield_shear=strength)
             labels = {"building": number, "storeys": storeys, "period": period, "roof": roof}
-            scenes = [Scene(building, blocks_on_floors(ratios, mu)) for mu in chosen.mus]
+            scenes = [Scene(building, blocks_on_floors(ratios, mu)) for mu in options.mus]
             yield _Loaded(
                 {**labels, "R": reduction, "alpha": alpha},
                 scenes,
@@ -506,19 +506,19 @@ def _cases(
     load: _Loaded,
     more: dict[str, Any],
     model: Peaks,
-    real: Peaks,
+    sliding: Peaks,
     motions: NamedMotions,
     corner: float,
-    chosen: EffectiveMassParameters,
+    options: EffectiveMassParameters,
 ) -> list[dict[str, Any]]:
     """One row per friction coefficient."""
-    shares, mus = np.linspace(0.0, 1.0, chosen.shares), np.array(chosen.mus)
-    model_drift, real_drift = over_records(model.largest, "mean"), over_records(real.largest, "mean")
+    shares, mus = np.linspace(0.0, 1.0, options.shares), np.array(options.mus)
+    model_drift, sliding_drift = over_records(model.largest, "mean"), over_records(sliding.largest, "mean")
     curves = np.broadcast_to(model_drift, (len(mus), len(shares)))
-    slides: NDArray[np.bool_] = np.asarray(real.slides.any(axis=1))
-    values = np.where(slides, interpolated(shares, curves, np.repeat(real_drift[:, None], len(shares), axis=1)), 1.0)
+    slides: NDArray[np.bool_] = np.asarray(sliding.slides.any(axis=1))
+    values = np.where(slides, interpolated(shares, curves, np.repeat(sliding_drift[:, None], len(shares), axis=1)), 1.0)
     values[mus == 0.0] = 0.0
-    low, high = _intervals(model, real, slides, motions, chosen)
+    low, high = _intervals(model, sliding, slides, motions, options)
     weight, building = full_weight(load.scenes[0]), building_of(load.scenes[0])
     coefficient = float(model.base_shear[-1].mean()) / weight
     by_hand = base_shear_by_hand(
@@ -526,17 +526,19 @@ def _cases(
         load.elastic * more["intensity"],
         load.attached_period,
         corner,
-        chosen.second_slope,
-        chosen.overstrength,
+        options.second_slope,
+        options.overstrength,
     )
     yields = bool((model.drift[-1].mean(axis=0) > yield_drift(building)).any())
-    storeys_model, storeys_real = (over_records(np.moveaxis(peaks.drift, 1, -1), "mean") for peaks in (model, real))
+    storeys_model, storeys_sliding = (
+        over_records(np.moveaxis(peaks.drift, 1, -1), "mean") for peaks in (model, sliding)
+    )
     rows = []
-    for case, mu in enumerate(chosen.mus):
-        below = is_below(model_drift, np.full_like(model_drift, real_drift[case]))
+    for case, mu in enumerate(options.mus):
+        below = is_below(model_drift, np.full_like(model_drift, sliding_drift[case]))
         kind: Kind = "stuck" if not slides[case] else "zero" if mu == 0.0 else kind_of(below)
-        at_value = np.array([np.interp(values[case], shares, own) for own in storeys_model.T])
-        own_real = storeys_real[case]
+        at_value = np.array([np.interp(values[case], shares, drifts) for drifts in storeys_model.T])
+        sliding_drifts = storeys_sliding[case]
         rows.append(
             {
                 **load.labels,
@@ -553,38 +555,38 @@ def _cases(
                 "kind": kind,
                 "low": None if low is None else float(low[case]),
                 "high": None if high is None else float(high[case]),
-                "real": float(real_drift[case]),
-                "ratio_at_0": float(real_drift[case] / model_drift[0]),
-                "ratio_at_0_25": float(real_drift[case] / np.interp(0.25, shares, model_drift)),
-                "ratio_at_1": float(real_drift[case] / model_drift[-1]),
-                "worst_storey_ratio": float((own_real / at_value).max()),
-                "worst_storey_ratio_at_1": float((own_real / storeys_model[-1]).max()),
-                "worst_storey_envelope_ratio": float((own_real / np.maximum(at_value, storeys_model[0])).max()),
+                "real": float(sliding_drift[case]),
+                "ratio_at_0": float(sliding_drift[case] / model_drift[0]),
+                "ratio_at_0_25": float(sliding_drift[case] / np.interp(0.25, shares, model_drift)),
+                "ratio_at_1": float(sliding_drift[case] / model_drift[-1]),
+                "worst_storey_ratio": float((sliding_drifts / at_value).max()),
+                "worst_storey_ratio_at_1": float((sliding_drifts / storeys_model[-1]).max()),
+                "worst_storey_envelope_ratio": float((sliding_drifts / np.maximum(at_value, storeys_model[0])).max()),
             }
         )
     return rows
 
 
 def _intervals(
-    model: Peaks, real: Peaks, slides: NDArray[np.bool_], motions: NamedMotions, chosen: EffectiveMassParameters
+    model: Peaks, sliding: Peaks, slides: NDArray[np.bool_], motions: NamedMotions, options: EffectiveMassParameters
 ) -> tuple[FloatArray | None, FloatArray | None]:
     """Bootstrap interval of each friction coefficient; the resampled models are shared."""
     if motions.clusters < 2:
         return None, None
-    both = np.concatenate([model.largest, real.largest])
+    both = np.concatenate([model.largest, sliding.largest])
     drawn, _ = resampled(
         both,
         both[:1],
         statistic="mean",
         cluster_of=motions.cluster_of,
-        resamples=chosen.resamples,
-        seed=chosen.seed,
+        resamples=options.resamples,
+        seed=options.seed,
     )
-    shares, fractions = model.scenes, np.linspace(0.0, 1.0, chosen.shares)
-    tail = 50.0 * (1.0 - chosen.confidence)
-    ends = np.ones((2, real.scenes))
+    shares, fractions = model.scenes, np.linspace(0.0, 1.0, options.shares)
+    tail = 50.0 * (1.0 - options.confidence)
+    ends = np.ones((2, sliding.scenes))
     for case in np.flatnonzero(slides):
         against = np.broadcast_to(drawn[:, shares + case, None], (len(drawn), shares))
         ends[:, case] = np.percentile(interpolated(fractions, drawn[:, :shares], against), [tail, 100.0 - tail])
-    ends[:, np.array(chosen.mus) == 0.0] = 0.0
+    ends[:, np.array(options.mus) == 0.0] = 0.0
     return ends[0], ends[1]

@@ -22,6 +22,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from typing import Any, Final, TypeAlias
 
@@ -35,6 +36,7 @@ from seismass.effective_mass.models import building_of, frame_mass, friction, fu
 from seismass.effective_mass.runs import LARGER, DriftMeasure, NamedMotions, Peaks
 from seismass.model.building import Building
 from seismass.model.scene import Scene
+from seismass.motions.motion import Motion
 from seismass.motions.spectra import corner_period, mean_spectrum
 
 ELASTIC_GROWTH: Final = 0.5
@@ -68,15 +70,15 @@ def exponent(period: ArrayLike, corner_period: ArrayLike, yields: ArrayLike) -> 
     `yields` says whether the building yields with all goods attached.
     """
     ratio = np.minimum(_numbers(period) / _numbers(corner_period), LONGEST_RATIO)
-    found: FloatArray = np.where(yields, YIELDING_FACTOR * (1.0 + ratio), 1.0 + ELASTIC_GROWTH * ratio)
-    return found
+    powers: FloatArray = np.where(yields, YIELDING_FACTOR * (1.0 + ratio), 1.0 + ELASTIC_GROWTH * ratio)
+    return powers
 
 
-def height_ratio(goods: ArrayLike, mass: ArrayLike, heights: ArrayLike | None = None) -> float:
+def height_ratio(load_mass: ArrayLike, mass: ArrayLike, heights: ArrayLike | None = None) -> float:
     """Return h_g/h_m, the mean height by mass of the goods over that of building and goods together; 1 without goods.
     Masses in kg, lowest floor first; storey heights are equal where left out.
     """
-    loads, floors = _numbers(goods), _numbers(mass)
+    loads, floors = _numbers(load_mass), _numbers(mass)
     if not loads.any():
         return 1.0
     level = np.cumsum(np.ones(len(floors)) if heights is None else _numbers(heights))
@@ -87,8 +89,8 @@ def best_estimate(eta: ArrayLike, power: ArrayLike, heights: ArrayLike = 1.0) ->
     """Return the best estimate min(1, eta_h^p) of the effective fraction; eta is mu_k over the base shear coefficient
     with all goods attached, `power` from `exponent`, `heights` from `height_ratio`.
     """
-    found: FloatArray = np.minimum(1.0, (_numbers(eta) / np.sqrt(_numbers(heights))) ** _numbers(power))
-    return found
+    fraction: FloatArray = np.minimum(1.0, (_numbers(eta) / np.sqrt(_numbers(heights))) ** _numbers(power))
+    return fraction
 
 
 def conservative_estimate(eta: ArrayLike, heights: ArrayLike = 1.0) -> FloatArray:
@@ -111,8 +113,8 @@ def base_shear_by_hand(
     beyond_yield = np.maximum(elastic / strength - 1.0, 0.0)
     ductility = beyond_yield * (1.0 + SHORT_PERIOD_DUCTILITY * _numbers(corner_period) / _numbers(period))
     yielding = strength * np.minimum(_numbers(overstrength), 1.0 + _numbers(second_slope) * ductility)
-    found: FloatArray = np.minimum(DYNAMIC_SHEAR * elastic, yielding)
-    return found
+    shear: FloatArray = np.minimum(DYNAMIC_SHEAR * elastic, yielding)
+    return shear
 
 
 REDUCED_FRICTION: Final = 0.8
@@ -185,7 +187,7 @@ def by_hand(scene: Scene, motions: NamedMotions, full: Peaks, drift: DriftMeasur
 
 def rule_by_hand(scene: Scene, motions: NamedMotions, yields: bool) -> ByHand:
     """Return what the rule says of the building of a scene that yields, or does not, with all goods attached."""
-    building, goods = building_of(scene), goods_mass(scene)
+    building, load_mass = building_of(scene), goods_mass(scene)
     mass, walls = building.mass + frame_mass(scene), building.stiffness_matrix
 
     components = motions.components
@@ -193,10 +195,10 @@ def rule_by_hand(scene: Scene, motions: NamedMotions, yields: bool) -> ByHand:
     def spectrum(periods: FloatArray) -> FloatArray:
         return mean_spectrum(components, np.ones(len(components)), periods)
 
-    elastic = response_spectrum_analysis(mass + goods, building.stiffness, spectrum, stiffness_matrix=walls)
+    elastic = response_spectrum_analysis(mass + load_mass, building.stiffness, spectrum, stiffness_matrix=walls)
     weight = full_weight(scene)
-    corner, period = corner_period(spectrum), float(building.periods[0])
-    heights = height_ratio(goods, mass, building.heights)
+    corner, period = _corner_period(tuple(components)), float(building.periods[0])
+    heights = height_ratio(load_mass, mass, building.heights)
     # Elastic walls set no limit to the base shear.
     strength = building.yield_shear[0] if walls is None else np.inf
     power = float(exponent(period, corner, yields))
@@ -215,12 +217,18 @@ def rule_by_hand(scene: Scene, motions: NamedMotions, yields: bool) -> ByHand:
     return ByHand(period, corner, yields, heights, power, coefficient, eta, estimate)
 
 
+@lru_cache(maxsize=1)
+def _corner_period(motions: tuple[Motion, ...]) -> float:
+    """T_c of the mean spectrum of a suite, of which an assessment asks several times."""
+    return corner_period(lambda periods: mean_spectrum(motions, np.ones(len(motions)), periods))
+
+
 def yield_drift(building: Building) -> FloatArray:
     """Return the drift of each storey at V_y, in the measure of `Peaks.drift`: a ratio where heights are known."""
     with np.errstate(divide="ignore"):  # beside walls a storey may be without a spring
         drift = building.yield_shear / building.stiffness
-    found: FloatArray = drift if building.heights is None else drift / building.heights
-    return found
+    ratio: FloatArray = drift if building.heights is None else drift / building.heights
+    return ratio
 
 
 Rule: TypeAlias = Callable[[pl.DataFrame], FloatArray]

@@ -109,11 +109,11 @@ class LiveLoadUncertainty(Result):
         """The answer in a few lines."""
         low_high = "" if self.interval is None else f" (90 % interval {self.interval[0]:.2f} to {self.interval[1]:.2f})"
         levels = ", ".join(f"{100 * row[0]:g} % {row[1]:.2f}" for row in self.quantiles.iter_rows())
-        said = f"{self.share:.3f}{low_high}: equal expected drift"
+        value = f"{self.share:.3f}{low_high}: equal expected drift"
         if not math.isfinite(self.share):
-            said = "no value: the building collapses in some sample, and its expected drift has no value"
+            value = "no value: the building collapses in some sample, and its expected drift has no value"
         lines = [
-            f"share of the design live load   {said}",
+            f"share of the design live load   {value}",
             f"enough in 84 % of samples       {self.share_84:.3f}",
             f"quantiles                       {levels}",
             f"above 0.25 (ASCE 7 storage)     in {100.0 * self.exceedance(0.25):.0f} % of samples",
@@ -131,7 +131,7 @@ class LiveLoadUncertainty(Result):
         return {"quantiles": self.quantiles, "tornado": self.tornado, "samples": self.samples, "curve": self.curve}
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything but the samples and the curve as plain values; null for what is not finite."""
+        """Return everything but the samples and the curve as plain values; null for non-finite values."""
         names = ("share", "interval", "share_84", "unit", "remarks", "metadata")
         document = {"schema_version": SCHEMA_VERSION, **{name: getattr(self, name) for name in names}}
         document |= {"quantiles": self.quantiles.to_dicts(), "tornado": self.tornado.to_dicts()}
@@ -225,27 +225,29 @@ def live_load_uncertainty(
     models = [attached(checked, share, convention) for share in shares]
     model = solve(models, named, threads=threads, progress=stages.next(len(models) * len(named)))
     scenes = [_with_goods(checked, friction, share) for friction, share in zip(frictions, present, strict=True)]
-    real = solve(scenes, named, threads=threads, progress=stages.next(len(scenes) * len(named)))
-    model_drift, real_drift = over_records(model.largest, "mean"), over_records(real.largest, "mean")
-    found = interpolated(
-        shares, np.broadcast_to(model_drift, (len(both), len(shares))), np.repeat(real_drift[:, None], len(shares), 1)
+    sliding = solve(scenes, named, threads=threads, progress=stages.next(len(scenes) * len(named)))
+    model_drift, sliding_drift = over_records(model.largest, "mean"), over_records(sliding.largest, "mean")
+    shares_of_runs = interpolated(
+        shares,
+        np.broadcast_to(model_drift, (len(both), len(shares))),
+        np.repeat(sliding_drift[:, None], len(shares), 1),
     )
-    sampled = real.part(0, count)
+    sampled = sliding.part(0, count)
     share, interval = _equal_expected(shares, model, sampled, named, start)
-    values = found[:count]
+    values = shares_of_runs[:count]
     heights = None if checked.building is None else checked.building.heights
     return LiveLoadUncertainty(
         share=share,
         interval=interval,
         share_84=float(np.quantile(values, 0.84)),
         quantiles=pl.DataFrame({"probability": LEVELS, "share": np.quantile(values, LEVELS)}),
-        tornado=_tornado(frictions[count:], present[count:], found[count:]),
+        tornado=_tornado(frictions[count:], present[count:], shares_of_runs[count:]),
         samples=pl.DataFrame(
             {
                 "sample": np.arange(1, count + 1, dtype=np.uint32),
                 "mu": frictions[:count],
                 "occupancy": present[:count],
-                "real_drift": real_drift[:count],
+                "real_drift": sliding_drift[:count],
                 "slides": sampled.slides.mean(axis=1),
                 "share": values,
             }
@@ -297,8 +299,8 @@ def _with_goods(scene: Scene, friction: float, present: float) -> Scene:
     for block, mass in zip(scene.blocks, scene.block_mass, strict=True):
         if block.floor > 0 and present > 0.0:
             # The ratio first, at most 1 as rounded: a factor that is rounded may lift mu_k above the friction.
-            over = [(path, mu_s / block.mu_s, mu_k / block.mu_s) for path, mu_s, mu_k in block.wear if block.mu_s > 0.0]
-            wear = [(path, friction * static, friction * kinetic) for path, static, kinetic in over] or block.wear
+            worn = [(path, mu_s / block.mu_s, mu_k / block.mu_s) for path, mu_s, mu_k in block.wear if block.mu_s > 0.0]
+            wear = [(path, friction * static, friction * kinetic) for path, static, kinetic in worn] or block.wear
             kinetic = friction * (block.mu_k / block.mu_s) if block.mu_s > 0.0 else friction
             amount = {"mass": None, "mass_ratio": block.mass_ratio * present} if block.mass_ratio else {}
             changes = {"mass": mass * present} | amount
@@ -307,10 +309,10 @@ def _with_goods(scene: Scene, friction: float, present: float) -> Scene:
 
 
 def _equal_expected(
-    shares: FloatArray, model: Peaks, real: Peaks, motions: NamedMotions, seed: int
+    shares: FloatArray, model: Peaks, sliding: Peaks, motions: NamedMotions, seed: int
 ) -> tuple[float, tuple[float, float] | None]:
     """Share whose model has the expected drift over samples and motions, and its bootstrap interval."""
-    by_record = real.largest.mean(axis=0)[None, :]
+    by_record = sliding.largest.mean(axis=0)[None, :]
     drift = over_records(model.largest, "mean")[None, :]
     expected = np.full_like(drift, over_records(by_record, "mean")[0])
     if not np.isfinite(expected).all():
@@ -325,17 +327,17 @@ def _equal_expected(
     return share, (float(low), float(high))
 
 
-def _tornado(frictions: FloatArray, present: FloatArray, found: FloatArray) -> pl.DataFrame:
+def _tornado(frictions: FloatArray, present: FloatArray, effective: FloatArray) -> pl.DataFrame:
     rows = []
     for variable, values, first in (("friction mu", frictions, 1), ("occupancy", present, 3)):
-        low, high = float(found[first]), float(found[first + 1])
+        low, high = float(effective[first]), float(effective[first + 1])
         rows.append(
             {
                 "variable": variable,
                 "low": float(values[first]),
                 "high": float(values[first + 1]),
                 "share_low": low,
-                "share_median": float(found[0]),
+                "share_median": float(effective[0]),
                 "share_high": high,
                 "span": abs(high - low),
             }
@@ -344,16 +346,16 @@ def _tornado(frictions: FloatArray, present: FloatArray, found: FloatArray) -> p
 
 
 def _remarks(
-    scene: Scene, motions: NamedMotions, real: Peaks, values: FloatArray, model_drift: FloatArray
+    scene: Scene, motions: NamedMotions, sliding: Peaks, values: FloatArray, model_drift: FloatArray
 ) -> tuple[str, ...]:
     remarks = usage_remarks(scene.remarks, motions.motions)
     remarks += ["mu and occupancy are independent, and the same on every floor"]
     if scene.geometric_stiffness.any():
         remarks.append("P-Delta of the models has the weight of the whole design live load")
-    collapsed = int(real.collapsed.any(axis=1).sum())
+    collapsed = int(sliding.collapsed.any(axis=1).sum())
     if collapsed:
         remarks.append(f"the building with sliding goods collapses under some motion in {collapsed} samples")
-    highest = float((over_records(real.largest, "mean") > model_drift[-1] * (1.0 + 1e-12)).mean())
+    highest = float((over_records(sliding.largest, "mean") > model_drift[-1] * (1.0 + 1e-12)).mean())
     if highest > 0.0:
         remarks.append(f"in {100.0 * highest:.0f} % of samples it drifts more than with the whole design load attached")
     return tuple(remarks)

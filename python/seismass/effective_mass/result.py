@@ -78,7 +78,7 @@ class EffectiveMass(Result):
     unit : {"m", "ratio"}
         Unit of drifts.
     excess : float
-        real / model - 1: by how much the real building drifts more than the model at `value`; zero but for rounding
+        real / model - 1: by how much the real building drifts more than the model at `value`; zero except for rounding
         where the value is a root.
     eta : float
         mu_k over `base_shear_coefficient`, mu_k averaged over the goods by mass.
@@ -194,7 +194,7 @@ class EffectiveMass(Result):
         raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything but the curve as plain values; null for what is not finite."""
+        """Return everything but the curve as plain values; null for non-finite values."""
         names = ["value", "kind", "roots", "interval", "confidence", "statistic", "real", "model", "unit", "excess"]
         names += ["suite_interval"]
         names += ["eta", "base_shear_coefficient", "estimate", "conservative", "collapses", "remarks"]
@@ -238,7 +238,7 @@ STOREY_REMARK: Final = 1.05
 
 
 def curve_table(
-    shares: FloatArray, model: Peaks, real: Peaks, band: FloatArray | None, statistic: Statistic
+    shares: FloatArray, model: Peaks, sliding: Peaks, band: FloatArray | None, statistic: Statistic
 ) -> pl.DataFrame:
     """Return drifts by share and storey, storey 0 being the largest of each run; see `EffectiveMass.curve`."""
 
@@ -247,10 +247,10 @@ def curve_table(
         return over_records(np.moveaxis(every, 1, -1), statistic)
 
     model_drift = by_storey(model)
-    real_drift = np.broadcast_to(by_storey(real), model_drift.shape)
+    sliding_drift = np.broadcast_to(by_storey(sliding), model_drift.shape)
     columns = model_drift.shape[1]
     with np.errstate(invalid="ignore"):
-        ratio = real_drift / model_drift
+        ratio = sliding_drift / model_drift
     ends = np.full((2, *ratio.shape), np.nan)
     if band is not None:
         ends[:, :, 0] = band
@@ -259,7 +259,7 @@ def curve_table(
             "fraction": np.repeat(shares, columns),
             "storey": np.tile(np.arange(columns, dtype=np.uint32), len(shares)),
             "model_drift": model_drift.ravel(),
-            "real_drift": real_drift.ravel(),
+            "real_drift": sliding_drift.ravel(),
             "ratio": ratio.ravel(),
             "ratio_low": pl.Series(ends[0].ravel(), nan_to_null=True),
             "ratio_high": pl.Series(ends[1].ravel(), nan_to_null=True),
@@ -267,26 +267,26 @@ def curve_table(
     )
 
 
-def storey_table(real: Peaks, model: Peaks, grid: Peaks, statistic: Statistic) -> pl.DataFrame:
+def storey_table(sliding: Peaks, model: Peaks, grid: Peaks, statistic: Statistic) -> pl.DataFrame:
     """Return drifts by storey at the answer, beside those of the first and last model of the grid."""
 
     def by_storey(peaks: Peaks, index: int) -> FloatArray:
         return over_records(peaks.drift[index].T, statistic)
 
-    real_drift, model_drift = by_storey(real, 0), by_storey(model, 0)
+    sliding_drift, model_drift = by_storey(sliding, 0), by_storey(model, 0)
     bare, full = by_storey(grid, 0), by_storey(grid, -1)
     with np.errstate(invalid="ignore"):
         return pl.DataFrame(
             {
-                "storey": np.arange(1, len(real_drift) + 1, dtype=np.uint32),
-                "real": real_drift,
+                "storey": np.arange(1, len(sliding_drift) + 1, dtype=np.uint32),
+                "real": sliding_drift,
                 "model": model_drift,
                 "model_at_0": bare,
                 "model_at_1": full,
-                "ratio": real_drift / model_drift,
-                "ratio_at_0": real_drift / bare,
-                "ratio_at_1": real_drift / full,
-                "envelope_ratio": real_drift / np.maximum(model_drift, bare),
+                "ratio": sliding_drift / model_drift,
+                "ratio_at_0": sliding_drift / bare,
+                "ratio_at_1": sliding_drift / full,
+                "envelope_ratio": sliding_drift / np.maximum(model_drift, bare),
             }
         )
 
@@ -324,16 +324,16 @@ def remarks_of(
     return tuple(remarks)
 
 
-def record_table(motions: NamedMotions, shares: FloatArray, real: Peaks, model: Peaks) -> pl.DataFrame:
+def record_table(motions: NamedMotions, shares: FloatArray, sliding: Peaks, model: Peaks) -> pl.DataFrame:
     """Return one row per motion: its own kind and roots, by interpolation; see `EffectiveMass.records`."""
     rows = []
-    real_largest, model_largest = real.largest, model.largest
+    sliding_largest, model_largest = sliding.largest, model.largest
     for index, (name, event) in enumerate(zip(motions.names, motions.events, strict=True)):
-        slips, collapsed = bool(real.slides[-1, index]), bool(real.collapsed[-1, index])
-        own = np.broadcast_to(real_largest[:, index], shares.shape)
+        slips, collapsed = bool(sliding.slides[-1, index]), bool(sliding.collapsed[-1, index])
+        drift = np.broadcast_to(sliding_largest[:, index], shares.shape)
         curve = model_largest[:, index]
-        kind: Kind = "collapsed" if collapsed else kind_of(is_below(curve, own)) if slips else "stuck"
-        roots = interpolated_roots(shares, curve, own) if slips and not collapsed else []
+        kind: Kind = "collapsed" if collapsed else kind_of(is_below(curve, drift)) if slips else "stuck"
+        roots = interpolated_roots(shares, curve, drift) if slips and not collapsed else []
         rows.append(
             {
                 "motion": index + 1,
@@ -341,7 +341,7 @@ def record_table(motions: NamedMotions, shares: FloatArray, real: Peaks, model: 
                 "event": event or None,
                 "slips": slips,
                 "collapsed": collapsed,
-                "real_drift": float(real_largest[-1, index]),
+                "real_drift": float(sliding_largest[-1, index]),
                 "kind": kind,
                 "first_root": roots[0] if roots else None,
                 "last_root": roots[-1] if roots else None,

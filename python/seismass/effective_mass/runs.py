@@ -48,7 +48,7 @@ def solve_plane(
     is that of the direction `measure`; of "larger" and "vector" the mean of both.
     """
     (vector, _), (x, of_x), (y, of_y) = _kernel.simulate_many_plane(
-        [scene._plane for scene in scenes if scene._plane is not None],
+        [scene._plane_scene for scene in scenes if scene._plane_scene is not None],
         [motion._kernel for motion in pairs[0]],
         [motion.acceleration for motion in pairs[1]],
         runs,
@@ -114,12 +114,12 @@ class NamedMotions:
 
 def named_motions(motions: Any, owner: str, scene: Scene | None = None) -> NamedMotions:
     """Return motions given as one, or as a list of Motions or Records; of Pairs for a scene in two directions."""
-    given = [motions] if isinstance(motions, Motion | HasMotion | Pair) else motions
+    several = [motions] if isinstance(motions, Motion | HasMotion | Pair) else motions
     in_plane = scene is not None and scene.engine == "plane"
     kinds = "Pairs, or tuples of two motions" if in_plane else "Motions or Records"
-    if not isinstance(given, Iterable):
+    if not isinstance(several, Iterable):
         raise refusal(InvalidMotion, "motions", owner, f"a list of {kinds}", brief(motions))
-    listed = list(given)
+    listed = list(several)
     if not listed:
         raise refusal(InvalidMotion, "motions", owner, f"at least one of {kinds}" if in_plane else _LEAST, "none")
     others = None
@@ -201,12 +201,12 @@ def solve(
         raise SimulationError(f"run under motion {run % count + 1} ({name}) must reach its end; got: {reason}")
     shape = (len(scenes), count)
     collapsed = (batch.status == _STATUS.index("collapsed")).reshape(shape)
-    found = peak_drift.reshape(*shape, storeys)
+    ratio = peak_drift.reshape(*shape, storeys)
     heights = None if scenes[0].building is None else scenes[0].building.heights
     if heights is not None:
-        found = found / heights
+        ratio = ratio / heights
     return Peaks(
-        drift=np.where(collapsed[:, :, None], np.inf, found),
+        drift=np.where(collapsed[:, :, None], np.inf, ratio),
         base_shear=base_shear.reshape(shape),
         slides=_slides(scenes, batch, count),
         collapsed=collapsed,
@@ -224,12 +224,12 @@ def _directions_apart(
     axes = {"x": (0,), "y": (1,)}.get(drift, (0, 1))
     total = len(scenes) * len(motions)
 
-    def told(first: int) -> Progress | None:
+    def progress_from(first: int) -> Progress | None:
         return None if progress is None else lambda done, _: progress((first + done) // len(axes), total)
 
-    of = in_directions(scenes)
+    pairs = in_directions(scenes)
     parts = [
-        solve(of[axis], motions.direction(axis), threads=threads, progress=told(number * total))
+        solve(pairs[axis], motions.direction(axis), threads=threads, progress=progress_from(number * total))
         for number, axis in enumerate(axes)
     ]
     if len(parts) == 1:
@@ -252,7 +252,7 @@ def _batch(
 ) -> tuple[_kernel.Batch, FloatArray]:
     """What the engine of the scenes gives back, and the peak base shear of each run (N)."""
     shakings = [motion._kernel for motion in motions.motions]
-    general = [scene._general for scene in scenes if scene._general is not None]
+    general = [scene._general_scene for scene in scenes if scene._general_scene is not None]
     if general:
         batch, racks = _kernel.simulate_many_general(general, shakings, runs, threads=threads, progress=progress)
         return batch, racks.peak_base_shear
@@ -273,8 +273,8 @@ def _slides(scenes: Sequence[Scene], batch: _kernel.Batch, count: int) -> NDArra
         on_floor = np.array(scene.goods_floor, dtype=np.int64) > 0
         blocks = len(on_floor)
         if blocks:
-            own = slid[first : first + count * blocks].reshape(count, blocks)
-            slides[number] = own[:, on_floor].any(axis=1)
+            flags = slid[first : first + count * blocks].reshape(count, blocks)
+            slides[number] = flags[:, on_floor].any(axis=1)
         first += count * blocks
     return slides
 

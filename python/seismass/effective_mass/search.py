@@ -118,44 +118,44 @@ class Search:
 
     motions: NamedMotions
     options: Options
-    at: Callable[[float], tuple[Peaks, Peaks]]
+    peaks_at: Callable[[float], tuple[Peaks, Peaks]]
     scene_at: Callable[[float], Scene]
-    beyond: Peaks | None = None
+    above_one: Peaks | None = None
 
-    def answer(self, real: Peaks, model: Peaks, about: dict[str, Any]) -> EffectiveMass:
+    def answer(self, sliding: Peaks, model: Peaks, details: dict[str, Any]) -> EffectiveMass:
         """Return the effective fraction; `real` has one scene, or one per share."""
         options, shares = self.options, self.options.fractions
-        kind = self._kind(real, model)
-        brackets = [] if kind in ("collapsed", "stuck") else crossings(shares, *self._statistics(model, real))
-        larger = self._larger_bracket(real, model) if kind == "one" else None
+        kind = self._kind(sliding, model)
+        brackets = [] if kind in ("collapsed", "stuck") else crossings(shares, *self._statistics(model, sliding))
+        larger = self._larger_bracket(sliding, model) if kind == "one" else None
         if larger is not None:
             kind = "beyond"
             brackets.append(larger)
-        difference = _Difference(self, real, model)
+        difference = _Difference(self, sliding, model)
         roots = [refined_root(difference, bracket) for bracket in brackets]
         value = {"collapsed": float("nan"), "zero": 0.0}.get(kind, 1.0)
         if kind in ("root", "multiple", "beyond"):
             value = roots[-1]
         place = 1.0 if np.isnan(value) else value
-        real_there, model_there = self._peaks_at(place, real, model)
+        sliding_at_value, model_at_value = self._peaks_at(place, sliding, model)
         scene = self.scene_at(place)
-        full = self._fully_attached(scene, real, model)
+        full = self._fully_attached(scene, sliding, model)
         coefficient = float(full.base_shear.mean()) / full_weight(scene)
         eta, shared = friction(scene) / coefficient, friction_factor(scene)
         rule = by_hand(scene, self.motions, full, options.drift)
-        real_drift, model_drift = (
-            float(over_records(peaks.largest[0], options.statistic)) for peaks in (real_there, model_there)
+        sliding_drift, model_drift = (
+            float(over_records(peaks.largest[0], options.statistic)) for peaks in (sliding_at_value, model_at_value)
         )
         with np.errstate(invalid="ignore"):
-            excess = float(np.float64(real_drift) / model_drift - 1.0)
-        storeys = storey_table(real_there, model_there, model, options.statistic)
+            excess = float(np.float64(sliding_drift) / model_drift - 1.0)
+        storeys = storey_table(sliding_at_value, model_at_value, model, options.statistic)
         collapses = {
-            "real": int(real_there.collapsed.sum()),
-            "model": int(model_there.collapsed.sum()),
+            "real": int(sliding_at_value.collapsed.sum()),
+            "model": int(model_at_value.collapsed.sum()),
             "model_at_0": int(model.collapsed[0].sum()),
             "model_at_1": int(model.collapsed[-1].sum()),
         }
-        interval, band = self._scatter(kind, real, model)
+        interval, band = self._scatter(kind, sliding, model)
         return EffectiveMass(
             value=value,
             kind=kind,
@@ -163,7 +163,7 @@ class Search:
             interval=interval,
             confidence=options.confidence,
             statistic=options.statistic,
-            real=real_drift,
+            real=sliding_drift,
             model=model_drift,
             unit="m" if building_of(scene).heights is None else "ratio",
             excess=excess,
@@ -172,75 +172,77 @@ class Search:
             estimate=float(best_estimate(shared * eta, rule.exponent, rule.height_ratio)),
             conservative=float(conservative_estimate(shared * eta, rule.height_ratio)),
             by_hand=rule,
-            curve=curve_table(*self._with_larger(model), real, band, options.statistic),
+            curve=curve_table(*self._with_larger(model), sliding, band, options.statistic),
             storeys=storeys,
-            records=record_table(self.motions, shares, real, model),
+            records=record_table(self.motions, shares, sliding, model),
             collapses=collapses,
             remarks=(
                 *usage_remarks(scene.remarks, self.motions.components),
                 *remarks_of(kind, roots, value, excess, interval, storeys, collapses, len(self.motions)),
                 *remarks_of_structure(scene),
             ),
-            metadata=self._metadata(scene, about, difference.evaluations),
+            metadata=self._metadata(scene, details, difference.evaluations),
         )
 
-    def _statistics(self, model: Peaks, real: Peaks) -> tuple[FloatArray, FloatArray]:
+    def _statistics(self, model: Peaks, sliding: Peaks) -> tuple[FloatArray, FloatArray]:
         """Statistic of the largest drift of the model and of the real building at every share."""
-        model_drift, real_drift = (over_records(peaks.largest, self.options.statistic) for peaks in (model, real))
-        return model_drift, np.broadcast_to(real_drift, model_drift.shape)
+        model_drift, sliding_drift = (over_records(peaks.largest, self.options.statistic) for peaks in (model, sliding))
+        return model_drift, np.broadcast_to(sliding_drift, model_drift.shape)
 
     def _with_larger(self, model: Peaks) -> tuple[FloatArray, Peaks]:
         """All shares at which models were solved, and their peaks."""
-        if self.beyond is None:
+        if self.above_one is None:
             return self.options.fractions, model
-        return np.concatenate([self.options.fractions, SHARES_BEYOND]), joined(model, self.beyond)
+        return np.concatenate([self.options.fractions, SHARES_BEYOND]), joined(model, self.above_one)
 
-    def _larger_bracket(self, real: Peaks, model: Peaks) -> tuple[float, float] | None:
+    def _larger_bracket(self, sliding: Peaks, model: Peaks) -> tuple[float, float] | None:
         """Shares from 1 on between which the model first reaches the real drift."""
-        if self.beyond is None:
+        if self.above_one is None:
             return None
-        drift, real_drift = self._statistics(joined(model.one(-1), self.beyond), real)
-        return first_bracket(FROM_ONE, drift, float(real_drift[0]))
+        drift, sliding_drift = self._statistics(joined(model.one(-1), self.above_one), sliding)
+        return first_bracket(FROM_ONE, drift, float(sliding_drift[0]))
 
-    def _kind(self, real: Peaks, model: Peaks) -> Kind:
-        model_drift, real_drift = self._statistics(model, real)
-        if not np.isfinite(real_drift).all():
+    def _kind(self, sliding: Peaks, model: Peaks) -> Kind:
+        model_drift, sliding_drift = self._statistics(model, sliding)
+        if not np.isfinite(sliding_drift).all():
             return "collapsed"
         # Goods that do not slide on a rack that sways are not attached to the floor.
-        if not real.slides[-1].any() and not self._on_racks():
+        if not sliding.slides[-1].any() and not self._on_racks():
             return "stuck"
         if without_friction(self.scene_at(1.0)):  # the real building is the bare one, whatever the curve does
             return "zero"
-        return kind_of(is_below(model_drift, real_drift))
+        return kind_of(is_below(model_drift, sliding_drift))
 
     def _on_racks(self) -> bool:
         return any(rack.floor > 0 for rack in self.scene_at(1.0).racks)
 
-    def _peaks_at(self, share: float, real: Peaks, model: Peaks) -> tuple[Peaks, Peaks]:
+    def _peaks_at(self, share: float, sliding: Peaks, model: Peaks) -> tuple[Peaks, Peaks]:
         """Peaks of the real building and of the model at a share, from the grid where it is one of its shares."""
         on_grid = np.flatnonzero(self.options.fractions == share)
         if not len(on_grid):
-            return self.at(share)
+            return self.peaks_at(share)
         index = int(on_grid[0])
-        return real.one(index if real.scenes > 1 else 0), model.one(index)
+        return sliding.one(index if sliding.scenes > 1 else 0), model.one(index)
 
-    def _fully_attached(self, scene: Scene, real: Peaks, model: Peaks) -> Peaks:
+    def _fully_attached(self, scene: Scene, sliding: Peaks, model: Peaks) -> Peaks:
         """Peaks of the building of `scene` with all goods attached."""
-        if real.scenes > 1:  # the strength depends on the share
+        if sliding.scenes > 1:  # the strength depends on the share
             options = self.options
             full = attached(scene, 1.0, options.damping)
             return solve([full], self.motions, drift=options.drift, threads=options.threads)
         return model.one(-1)
 
-    def _scatter(self, kind: Kind, real: Peaks, model: Peaks) -> tuple[tuple[float, float] | None, FloatArray | None]:
+    def _scatter(
+        self, kind: Kind, sliding: Peaks, model: Peaks
+    ) -> tuple[tuple[float, float] | None, FloatArray | None]:
         """Bootstrap interval of the fraction, and of real over model drift at every share, shape (2, shares)."""
         options = self.options
         if kind == "collapsed" or self.motions.clusters < 2:
             return None, None
         shares, every = self._with_larger(model)
-        model_drift, real_drift = resampled(
+        model_drift, sliding_drift = resampled(
             every.largest,
-            real.largest,
+            sliding.largest,
             statistic=options.statistic,
             cluster_of=self.motions.cluster_of,
             resamples=options.resamples,
@@ -248,27 +250,27 @@ class Search:
         )
         tail = 50.0 * (1.0 - options.confidence)
         count = len(options.fractions)
-        values = interpolated(options.fractions, model_drift[:, :count], real_drift[:, :count])
-        if self.beyond is not None:
-            values = extended(values, FROM_ONE, model_drift[:, count - 1 :], real_drift[:, 0])
+        values = interpolated(options.fractions, model_drift[:, :count], sliding_drift[:, :count])
+        if self.above_one is not None:
+            values = extended(values, FROM_ONE, model_drift[:, count - 1 :], sliding_drift[:, 0])
         # Without a finite real drift no share is enough: the resample counts as the largest.
-        values[np.isinf(real_drift).any(axis=1)] = shares[-1]
+        values[np.isinf(sliding_drift).any(axis=1)] = shares[-1]
         if kind == "stuck":
             values = np.ones(1)
         elif without_friction(self.scene_at(1.0)):
             values = np.zeros(1)
         low, high = np.percentile(values, [tail, 100.0 - tail])
         with np.errstate(invalid="ignore"):
-            ratios = real_drift / model_drift
+            ratios = sliding_drift / model_drift
         if not np.isfinite(ratios).all():  # collapsed runs leave no ratio to draw
             return (float(low), float(high)), None
         band = np.percentile(ratios, [tail, 100.0 - tail], axis=0)
         return (float(low), float(high)), band
 
-    def _metadata(self, scene: Scene, about: dict[str, Any], evaluations: int) -> dict[str, Any]:
+    def _metadata(self, scene: Scene, details: dict[str, Any], evaluations: int) -> dict[str, Any]:
         options, building = self.options, building_of(scene)
-        chosen = {
-            **about,
+        settings = {
+            **details,
             "statistic": options.statistic,
             **({} if self.motions.others is None else {"drift": options.drift}),
             "damping": options.damping,
@@ -281,14 +283,14 @@ class Search:
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
-            "inputs_sha256": inputs_digest(scene, motion_contents(self.motions.components), chosen),
-            **chosen,
+            "inputs_sha256": inputs_digest(scene, motion_contents(self.motions.components), settings),
+            **settings,
             **{name: values.tolist() for name, values in building.springs_in_use().items() if name in SHAPE_FIELDS},
             "p_delta": bool(scene.geometric_stiffness.any()),
             "motions": len(self.motions),
             "clusters": self.motions.clusters,
             "shares_beside_the_grid": evaluations,
-            **({} if self.beyond is None else {"largest_share": LARGEST_SHARE}),
+            **({} if self.above_one is None else {"largest_share": LARGEST_SHARE}),
         }
 
 
@@ -303,12 +305,12 @@ def without_friction(scene: Scene) -> bool:
 class _Difference:
     """(model - real) / real at a share, solved exactly; shares of the grid are known already."""
 
-    def __init__(self, search: Search, real: Peaks, model: Peaks) -> None:
+    def __init__(self, search: Search, sliding: Peaks, model: Peaks) -> None:
         self._search = search
         self._known: dict[float, float] = {}
-        model_drift, real_drift = search._statistics(model, real)
-        if np.isfinite(real_drift).all() and (real_drift > 0.0).all():
-            differences = (model_drift - real_drift) / real_drift
+        model_drift, sliding_drift = search._statistics(model, sliding)
+        if np.isfinite(sliding_drift).all() and (sliding_drift > 0.0).all():
+            differences = (model_drift - sliding_drift) / sliding_drift
             self._known = dict(zip(search.options.fractions.tolist(), differences.tolist(), strict=True))
         self._on_grid = len(self._known)
 
@@ -319,7 +321,7 @@ class _Difference:
 
     def __call__(self, share: float) -> float:
         if share not in self._known:
-            statistic = self._search.options.statistic
-            real, model = (float(over_records(peaks.largest[0], statistic)) for peaks in self._search.at(share))
-            self._known[share] = (model - real) / real
+            statistic, both = self._search.options.statistic, self._search.peaks_at(share)
+            sliding, model = (float(over_records(peaks.largest[0], statistic)) for peaks in both)
+            self._known[share] = (model - sliding) / sliding
         return self._known[share]

@@ -61,8 +61,8 @@ def table_html(
     from which the script makes buttons, as Chromium does not repeat heads with buttons on printed pages.
     """
     headers, formats = headers or {}, formats or {}
-    for owner, given in (("headers", headers), ("formats", formats)):
-        for name in given:
+    for owner, names in (("headers", headers), ("formats", formats)):
+        for name in names:
             if name not in frame.columns:
                 raise refusal(InvalidOption, owner, "table", f"of its columns ({', '.join(frame.columns)})", name)
     numeric = [dtype.is_numeric() or dtype == pl.Boolean for dtype in frame.dtypes]
@@ -296,15 +296,15 @@ class LiveCase:
         return {**{key: [value] for key, value in alone.items()}, "c": [self.counted], **lists}
 
     @property
-    def beyond(self) -> tuple[str, ...]:
+    def out_of_range(self) -> tuple[str, ...]:
         """Letters of the numbers that the page does not take."""
-        found = self.numbers.items()
-        return tuple(key for key, values in found if not all(LIMITS[key][0] <= one <= LIMITS[key][1] for one in values))
+        items = self.numbers.items()
+        return tuple(key for key, values in items if not all(LIMITS[key][0] <= one <= LIMITS[key][1] for one in values))
 
     @property
     def address(self) -> str:
         """What follows the # of the address."""
-        by = "hand" if self.strength else "elastic"
-        parts = ["v=1", f"by={by}", f"m={RECORD}", "d=code", f"n={len(self.mass_ratio)}", "x=1"]
+        design = "hand" if self.strength else "elastic"
+        parts = ["v=1", f"by={design}", f"m={RECORD}", "d=code", f"n={len(self.mass_ratio)}", "x=1"]
         parts += [f"{key}={','.join(f'{value:.10g}' for value in values)}" for key, values in self.numbers.items()]
         return "&".join(parts)

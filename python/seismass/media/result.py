@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
 
 import numpy as np
-import polars as pl
 
 from seismass.base.errors import InvalidOption, SeismassError
 from seismass.base.files import open_regular, read_file, write_table, written_whole
@@ -24,6 +23,7 @@ from seismass.base.views import view
 from seismass.media.roles import CODE, SLIDE
 
 if TYPE_CHECKING:
+    import polars as pl
     from matplotlib.figure import Figure
 
 
@@ -57,11 +57,13 @@ def folder_for(out: Path) -> Iterator[None]:
 @contextmanager
 def as_written(folder: Path) -> Iterator[None]:
     """Refuse a folder whose documents and tables do not fit together, whatever error they cause."""
+    from polars.exceptions import PolarsError
+
     try:
         yield
     except SeismassError:
         raise
-    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, pl.exceptions.PolarsError) as error:
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, PolarsError) as error:
         got = f"{type(error).__name__}: {error}"
         requirement = "with documents and tables as seismass wrote them"
         raise refusal(InvalidOption, f"folder {folder}", "report", requirement, short(got)) from None
@@ -82,8 +84,8 @@ def write_folder(
     """
     writers: dict[str, Callable[[Path], object]] = {}
     for name, table in tables.items():
-        about = None if metadata is None else metadata.get(name)
-        writers[f"{name}.parquet"] = partial(write_table, table, "parquet", metadata=about)
+        details = None if metadata is None else metadata.get(name)
+        writers[f"{name}.parquet"] = partial(write_table, table, "parquet", metadata=details)
         writers[f"{name}.csv"] = partial(write_table, table, "csv")
     for name, text in documents.items():
         writers[name] = partial(Path.write_text, data=text, encoding="utf-8")
@@ -120,17 +122,17 @@ def edited_files(folder: Path, read: Sequence[str], *, force: bool = False) -> t
         return ()  # what the reader says of a folder of another kind says more
     listed = _whole_list(folder)
     if listed is None:
-        found = [(FILES, "other content" if (folder / FILES).exists() else "none")]
+        changes = [(FILES, "other content" if (folder / FILES).exists() else "none")]
     else:
-        found = [(name, "none") for name in read if name in listed and not (folder / name).exists()]
+        changes = [(name, "none") for name in read if name in listed and not (folder / name).exists()]
         there = [name for name in read if (folder / name).exists()]
-        found += [(name, "a file that files.json does not list") for name in there if name not in listed]
+        changes += [(name, "a file that files.json does not list") for name in there if name not in listed]
         changed = (name for name in there if name in listed and not _is_file_with(folder / name, listed[name]))
-        found += [(name, "other content") for name in changed]
-    if found and not force:
+        changes += [(name, "other content") for name in changed]
+    if changes and not force:
         need = "as it was written, by the digests of files.json, or --force be given"
-        raise refusal(InvalidOption, found[0][0], f"folder {folder}", need, found[0][1])
-    return tuple(f"{name} ({how})" for name, how in found)
+        raise refusal(InvalidOption, changes[0][0], f"folder {folder}", need, changes[0][1])
+    return tuple(f"{name} ({how})" for name, how in changes)
 
 
 def _whole_list(folder: Path) -> dict[str, str] | None:
@@ -150,8 +152,8 @@ def _list_sha256(listed: Mapping[str, str]) -> str:
 def _listed(out: Path) -> dict[str, str]:
     """Digests by name of the files that an earlier call has written; none where that is not known."""
     try:
-        found = json.loads(read_file(out / FILES, follow=False))["sha256"]
-        return {name: sha256 for name, sha256 in found.items() if isinstance(sha256, str) and Path(name).name == name}
+        digests = json.loads(read_file(out / FILES, follow=False))["sha256"]
+        return {name: sha256 for name, sha256 in digests.items() if isinstance(sha256, str) and Path(name).name == name}
     except (OSError, ValueError, RecursionError, LookupError, TypeError, AttributeError):
         return {}
 
@@ -201,7 +203,7 @@ class Result:
         return {name: self.plot(name) for name in self.figure_names}
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the answer as plain values, null for what is not finite; long tables are left to `tables`."""
+        """Return the answer as plain values, null for non-finite values; long tables are left to `tables`."""
         raise NotImplementedError
 
     def to_json(self) -> str:
@@ -223,12 +225,12 @@ class Result:
         OSError
             A file cannot be written; then none is changed.
         """
-        about = self._table_metadata()
+        details = self._table_metadata()
         tables = self.tables
         return write_folder(
             as_path(folder, self.document.replace("_", " "), InvalidOption),
             tables=tables,
-            metadata=dict.fromkeys(tables, about) if about else None,
+            metadata=dict.fromkeys(tables, details) if details else None,
             documents={f"{self.document}.json": self.to_json() + "\n"},
             figures=self.figures() if figures else None,
         )
@@ -270,7 +272,7 @@ _CELL: Final = "padding:0.1em 0.8em 0.1em 0;background:none;border:none;white-sp
 
 
 def card(
-    title: str, about: str, *content: str, facts: Sequence[tuple[str, str]] = (), notes: Iterable[str] = ()
+    title: str, subtitle: str, *content: str, facts: Sequence[tuple[str, str]] = (), notes: Iterable[str] = ()
 ) -> str:
     """Return a card: title and a few words, content that is HTML already, names with their values, notes."""
     cells = " ".join(
@@ -280,7 +282,7 @@ def card(
     listed = "".join(f"<li>{escape(note)}</li>" for note in notes)
     return (
         '<div style="max-width:640px;color:inherit;font-size:90%">'
-        f"<div><b>{escape(title)}</b>{': ' if about else ''}{escape(about)}</div>"
+        f"<div><b>{escape(title)}</b>{': ' if subtitle else ''}{escape(subtitle)}</div>"
         + "".join(content)
         + (f"<div>{cells}</div>" if cells else "")
         + (f'<ul style="margin:0.3em 0">{listed}</ul>' if listed else "")
@@ -288,9 +290,9 @@ def card(
     )
 
 
-def pre(said: str, *, most: int = 24, more: str = "print(result.text)") -> str:
+def pre(content: str, *, most: int = 24, more: str = "print(result.text)") -> str:
     """Return the first lines of a text as they stand; where there are more, a line says how they are seen."""
-    lines = said.splitlines()
+    lines = content.splitlines()
     rest = f"\n... and {len(lines) - most} more lines: {more}" if len(lines) > most + 2 else ""
     shown = "\n".join(lines[:most] if rest else lines) + rest
     return f'<pre style="margin:0.3em 0;overflow-x:auto;font-size:inherit">{escape(shown)}</pre>'
@@ -322,10 +324,10 @@ def rows(head: Sequence[str], body: Sequence[Sequence[str]], *, markup: Sequence
 def svg(width: float, height: float, label: str, *content: str, stretch: bool = True) -> str:
     """Return a drawing that a label says in words; it takes the width that it is given, up to its own."""
     size = f'width="100%" style="max-width:{width:g}px;display:block"' if stretch else f'width="{width:g}"'
-    said = escape(label)
+    label_html = escape(label)
     return (
-        f'<svg viewBox="0 0 {width:g} {height:g}" {size} role="img" aria-label="{said}">'
-        f"<title>{said}</title>{''.join(content)}</svg>"
+        f'<svg viewBox="0 0 {width:g} {height:g}" {size} role="img" aria-label="{label_html}">'
+        f"<title>{label_html}</title>{''.join(content)}</svg>"
     )
 
 
@@ -337,17 +339,17 @@ def stroke(x1: float, y1: float, x2: float, y2: float, *, width: float = 1.0, op
     )
 
 
-def text(x: float, y: float, said: str, *, anchor: str = "start", size: float = 11.0) -> str:
+def text(x: float, y: float, words: str, *, anchor: str = "start", size: float = 11.0) -> str:
     """Return a text in the colour of the text around the drawing."""
     return (
         f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" font-size="{size:g}" fill="currentColor">'
-        f"{escape(said)}</text>"
+        f"{escape(words)}</text>"
     )
 
 
 def curve(x: FloatArray, y: FloatArray, *, colour: str = COLOUR, width: float = 1.2) -> str:
     """Return a line through points."""
-    points = " ".join(f"{at:.1f},{height:.1f}" for at, height in zip(x, y, strict=True))
+    points = " ".join(f"{place:.1f},{height:.1f}" for place, height in zip(x, y, strict=True))
     return f'<polyline points="{points}" stroke="{colour}" stroke-width="{width:g}" fill="none"/>'
 
 

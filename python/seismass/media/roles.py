@@ -104,7 +104,7 @@ _WORD: Final = re.compile(rf"\b({'|'.join(_LETTERS)})(?=\b|_)")
 
 def lettered(text: str) -> str:
     """Return a text of the package in which symbols that a terminal spells out are Greek letters."""
-    return _WORD.sub(lambda found: _LETTERS[found[1]], text)
+    return _WORD.sub(lambda match: _LETTERS[match[1]], text)
 
 
 def model_name(model: str) -> str:

@@ -124,28 +124,28 @@ class Panels:
 
     axes: list[Axes]
     shared: bool
-    own: bool
+    is_new: bool
 
     @property
     def left(self) -> list[Axes]:
         """Those that need a label of their own: the leftmost of each row of an own figure; of others all."""
-        if not self.own:
+        if not self.is_new:
             return list(dict.fromkeys(self.axes))
         return [axes for axes in self.axes if axes.get_subplotspec().is_first_col()]  # type: ignore[union-attr]
 
     @property
     def figure(self) -> Figure:
         """The whole figure."""
-        found = self.axes[0].figure.figure  # of a subfigure the whole one
-        assert isinstance(found, Figure)
-        return found
+        whole = self.axes[0].figure.figure  # of a subfigure the whole one
+        assert isinstance(whole, Figure)
+        return whole
 
     def legend(self, handles: Sequence[Any], columns: int = 4, labels: Sequence[str] | None = None) -> None:
         """Say what markers and lines are: above a figure of its own, inside axes that were given."""
         if not handles:
             return
         named: dict[str, Any] = {} if labels is None else {"labels": labels}
-        if self.own:
+        if self.is_new:
             self.figure.legend(handles=handles, **named, loc="outside upper center", ncols=columns, frameon=False)
         else:
             self.axes[0].legend(handles=handles, **named, fontsize=8.0, framealpha=0.8)
@@ -160,8 +160,8 @@ def panels(
     if ax is None:
         figure = Figure(figsize=(width, 1.0 + height * count), layout="constrained")
         grid = figure.subplots(count, 1, sharex=True, sharey=True, squeeze=False)[:, 0]
-        return Panels(list(grid[::-1]), shared=count == 1, own=True)
-    return given(ax, count, owner)
+        return Panels(list(grid[::-1]), shared=count == 1, is_new=True)
+    return axes_of_caller(ax, count, owner)
 
 
 def columns(
@@ -177,29 +177,29 @@ def columns(
         grid = list(figure.subplots(rows, across, squeeze=False).flat)
         for unused in grid[count:]:
             unused.remove()
-        return Panels(grid[:count], shared=count == 1, own=True)
-    found = given(ax, count, owner)
-    if found.shared and count > 1:
+        return Panels(grid[:count], shared=count == 1, is_new=True)
+    place = axes_of_caller(ax, count, owner)
+    if place.shared and count > 1:
         raise refusal(InvalidOption, "ax", owner, f"a list of {count} Axes", "one Axes")
-    return found
+    return place
 
 
-def given(ax: Any, count: int, owner: str) -> Panels:
+def axes_of_caller(ax: Any, count: int, owner: str) -> Panels:
     """Return axes that a caller gave: one for all things, or one for each."""
     if isinstance(ax, Axes):
-        return Panels([ax] * count, shared=True, own=False)
+        return Panels([ax] * count, shared=True, is_new=False)
     listed = list(ax) if isinstance(ax, Sequence | np.ndarray) else []
     if len(listed) != count or not all(isinstance(one, Axes) for one in listed):
         raise refusal(InvalidOption, "ax", owner, f"one Axes, or a list of {counted(count, 'Axes', 'Axes')}", brief(ax))
-    return Panels(listed, shared=count == 1, own=False)
+    return Panels(listed, shared=count == 1, is_new=False)
 
 
 def single(ax: Axes | None, owner: str, *, size: tuple[float, float] = (6.4, 4.2)) -> Panels:
-    """Return one Axes: that which is given, or that of a new figure."""
+    """Return one Axes: the one that is given, or that of a new figure."""
     if ax is None:
         figure = Figure(figsize=size, layout="constrained")
-        return Panels([figure.add_subplot()], shared=True, own=True)
-    return given(ax, 1, owner)
+        return Panels([figure.add_subplot()], shared=True, is_new=True)
+    return axes_of_caller(ax, 1, owner)
 
 
 def grid_lines(axes: Axes) -> None:

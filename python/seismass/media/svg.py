@@ -105,7 +105,7 @@ def inline_svg(figure: Figure | str, title: str, description: str = "", *, name:
     ----------
     figure : Figure or str
         A figure, or the text that `figure_svg` gives.
-    title, description : str
+    title, description : str, optional
         What it shows, in a few words and in sentences, for those who do not see it.
     name : str, optional
         What all ids of the element begin with. By default it is made of the content: two elements on one page then
@@ -138,18 +138,16 @@ def inline_svg(figure: Figure | str, title: str, description: str = "", *, name:
         "aria-labelledby": labelled,
         "style": f"max-width:{width / 0.75:g}px;height:auto",
     }
-    for place, (tag, said) in enumerate((("title", title), ("desc", description))):
-        if said:
+    for place, (tag, words) in enumerate((("title", title), ("desc", description))):
+        if words:
             child = ET.Element(tag, {"id": f"{name}-{tag}"})
-            child.text = said
+            child.text = words
             root.insert(place, child)
     return ET.tostring(root, encoding="unicode")
 
 
 def short_svg(figure: Figure | str) -> str:
-    """Return a figure, or the text of `figure_svg`, as an `<svg>` element of its size without a title, shortened as in
-    `inline_svg`.
-    """
+    """Return a figure, or the text of `figure_svg`, as `<svg>` without a title, shortened as in `inline_svg`."""
     text = figure if isinstance(figure, str) else figure_svg(figure)
     return ET.tostring(_element(text, "f"), encoding="unicode")
 
@@ -199,7 +197,7 @@ def _shortened(element: ET.Element, numbers: dict[str, str]) -> None:
         elif key == _LINK:
             attributes["href"] = f"#{numbers[value[1:]]}" if value.startswith("#") else "".join(value.split())
         elif key == "style":
-            coloured = _COLOUR.sub(lambda found: _VARIABLES.get(found[0], found[0]), value)
+            coloured = _COLOUR.sub(lambda match: _VARIABLES.get(match[0], match[0]), value)
             attributes["style"] = _placed(_FONT.sub("", coloured), numbers).replace(": ", ":").replace("; ", ";")
         elif key == "clip-path":
             attributes[key] = _placed(value, numbers)
@@ -217,11 +215,11 @@ def _shortened(element: ET.Element, numbers: dict[str, str]) -> None:
 
 
 def _placed(value: str, numbers: dict[str, str]) -> str:
-    return _URL.sub(lambda found: f"url(#{numbers[found[1]]})", value)
+    return _URL.sub(lambda match: f"url(#{numbers[match[1]]})", value)
 
 
 def _rounded(value: str, digits: int = 2) -> str:
-    return _NUMBER.sub(lambda found: f"{float(found[0]):.{digits}f}".rstrip("0").rstrip("."), value)
+    return _NUMBER.sub(lambda match: f"{float(match[0]):.{digits}f}".rstrip("0").rstrip("."), value)
 
 
 LEAST_SCALE: Final = 0.8
@@ -271,13 +269,13 @@ class _Drawing:
         """Return the drawing in its frame, which scrolls where it is too narrow."""
         body = _with_own_ids(self._content[: self._content.rindex("</svg>")], f"{self._content}{caption}{alt}")
         least = f"{0.0 if 'on-narrow' in kind else LEAST_SCALE * self._value:g}{self._unit}"
-        kept = re.sub(r"\b(id|style|role|version)\s*=\s*(\"[^\"]*\"|'[^']*')", "", _LENGTH.sub("", self._attributes))
+        attrs = re.sub(r"\b(id|style|role|version)\s*=\s*(\"[^\"]*\"|'[^']*')", "", _LENGTH.sub("", self._attributes))
         return Markup(
             '<div class="scroll{kind}" tabindex="0" role="group" aria-label="figure"><svg{attributes} class="{looks}" '
             'role="img" style="{style}"><title>{alt}</title>{body}</svg></div>'
         ).format(
             kind=kind,
-            attributes=Markup(" ".join(["", *kept.split()])),
+            attributes=Markup(" ".join(["", *attrs.split()])),
             looks="adapts" if "currentColor" in self._svg else "inverts",
             style=f"max-width:{self.width};min-width:{least}" if self._unit else "",
             alt=alt,

@@ -44,9 +44,7 @@ def text_table(rows: Sequence[Sequence[str]], *, left: int = 1, indent: int = 2)
 def number_text(
     value: float | None, form: str = ".2f", *, scale: float = 1.0, missing: str = "-", infinite: str | None = None
 ) -> str:
-    """Return a number times `scale` as text; `missing` stands for None, and `infinite`, if given, for a number that is
-    not finite.
-    """
+    """Return a number times `scale` as text; `missing` for None, `infinite`, where given, for infinity and NaN."""
     if value is None:
         return missing
     if infinite is not None and not math.isfinite(value):
@@ -167,8 +165,8 @@ def _indent(line: str) -> int:
 
 def _start(line: str) -> int:
     """Where the words of a line begin, after its label."""
-    found = _LABEL.match(line)
-    return found.end() if found else 0
+    match = _LABEL.match(line)
+    return match.end() if match else 0
 
 
 def _fitted(block: list[str], width: int) -> Iterator[str]:
@@ -236,19 +234,19 @@ def _columns(rows: list[str]) -> list[list[str]]:
     """Cells of each column, all of one width with the spaces after them: cut where no row has a letter."""
     length = max(map(len, rows))
     padded = [row.ljust(length) for row in rows]
-    empty = [all(row[at] == " " for row in padded) for at in range(length)]
-    start = next(at for at in range(length) if not empty[at])
+    empty = [all(row[column] == " " for row in padded) for column in range(length)]
+    start = next(column for column in range(length) if not empty[column])
     cuts = [0]
-    at = start
-    while at < length:
-        if empty[at]:
-            end = at
+    column = start
+    while column < length:
+        if empty[column]:
+            end = column
             while end < length and empty[end]:
                 end += 1
             # Numbers stand at the right of their columns: the spaces before them belong to them.
-            if end - at >= 2 and end < length:
-                cuts.append(at)
-            at = end
+            if end - column >= 2 and end < length:
+                cuts.append(column)
+            column = end
         else:
-            at += 1
+            column += 1
     return [[row[first:last] for row in padded] for first, last in pairwise([*cuts, length])]

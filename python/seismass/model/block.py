@@ -254,7 +254,7 @@ def blocks_on_floors(mass_ratio: ArrayLike, mu: ArrayLike, *, mu_k: ArrayLike | 
     Raises
     ------
     InvalidScene
-        The lists differ in length, or hold what is not a number.
+        The lists differ in length, or hold a value that is not a number.
 
     Examples
     --------
@@ -407,7 +407,7 @@ class SlidingBase(Value, Card):
 
     def __repr__(self) -> str:
         equal = self.mu_s == self.mu_k
-        given = [f"mu={self.mu_s:g}"] if equal else [f"mu_s={self.mu_s:g}", f"mu_k={self.mu_k:g}"]
+        parts = [f"mu={self.mu_s:g}"] if equal else [f"mu_s={self.mu_s:g}", f"mu_k={self.mu_k:g}"]
         others = (("radius", self.radius), ("mass", self.mass), ("mass_ratio", self.mass_ratio))
-        given += [f"{name}={value:g}" for name, value in others if value is not None]
-        return f"SlidingBase({', '.join(given)})"
+        parts += [f"{name}={value:g}" for name, value in others if value is not None]
+        return f"SlidingBase({', '.join(parts)})"

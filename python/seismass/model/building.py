@@ -34,7 +34,7 @@ from seismass.model.springs import (
     read_backbones,
     read_hysteresis,
     takes_springs,
-    without_own,
+    without_implied,
 )
 
 DEFAULT_DAMPING: Final = 0.05
@@ -49,7 +49,7 @@ class Rayleigh:
     ----------
     ratio : float
         Ratio of critical damping in both modes, from 0 to 1: 0.05 for 5 %.
-    modes : tuple of int
+    modes : tuple of int, optional
         The two modes, counted from 1.
 
     Raises
@@ -222,8 +222,8 @@ class Building(Value):
         mass_is_stated: bool = True,
         **springs: Unpack[SpringArguments],
     ) -> None:
-        given: dict[str, Any] = dict(springs)
-        checked_names(given, SPRING_FIELDS, "Building")
+        parameters: dict[str, Any] = dict(springs)
+        checked_names(parameters, SPRING_FIELDS, "Building")
         if gravity_load is not None and geometric_stiffness is not None:
             raise refusal(
                 InvalidScene, "geometric_stiffness", "building", "left out where gravity_load is given", "both"
@@ -233,7 +233,7 @@ class Building(Value):
         arguments = {
             "mass": mass,
             "stiffness": np.nan if stiffness is None else stiffness,
-            **{name: given[name] for name in SPRING_FIELDS if name in given},
+            **{name: parameters[name] for name in SPRING_FIELDS if name in parameters},
             "heights": heights,
             "gravity_load": gravity_load,
             "geometric_stiffness": geometric_stiffness,
@@ -247,9 +247,9 @@ class Building(Value):
         filled = {name: default_values(name, storeys) for name in SPRING_FIELDS if name not in arrays}
         if backbones is not None:
             for name in ("stiffness", "yield_shear"):
-                own = arrays.get(name, np.array(np.inf))
-                if own is not None and own.shape in ((), (storeys,)):
-                    filled[name] = of_first_segment(own, name, backbones)
+                value_of_springs = arrays.get(name, np.array(np.inf))
+                if value_of_springs is not None and value_of_springs.shape in ((), (storeys,)):
+                    filled[name] = of_first_segment(value_of_springs, name, backbones)
         self._set(
             **({name: _filled(array, storeys) for name, array in arrays.items()} | filled),
             backbone=backbones,
@@ -388,8 +388,8 @@ class Building(Value):
             changes = {"mass_is_stated": True} | changes
         backbones = read_backbones(changes.get("backbone"), self.storeys)
         if backbones is not None:
-            own = {name: without_own(getattr(self, name), backbones) for name in ("stiffness", "yield_shear")}
-            changes = own | changes
+            values = {name: without_implied(getattr(self, name), backbones) for name in ("stiffness", "yield_shear")}
+            changes = values | changes
         if over_weight is None:
             return super().replace(**changes)
         changed = super().replace(**changes, yield_shear=np.inf)
@@ -515,12 +515,12 @@ def _filled(array: FloatArray | None, storeys: int) -> FloatArray | None:
 def kernel_springs(building: Building) -> tuple[tuple[dict[str, FloatArray]], dict[str, Any]]:
     """What the kernel takes of springs: numbers that are not the defaults, and laws where they are not Masing's."""
     stated = {name: values for name, values in building.springs.items() if not is_default(values, name)}
-    found: dict[str, Any] = {}
+    laws: dict[str, Any] = {}
     if building.backbone is not None:
-        found["backbones"] = [None if points is None else np.array(points) for points in building.backbone]
+        laws["backbones"] = [None if points is None else np.array(points) for points in building.backbone]
     if any(name != "masing" for name in building.hysteresis):
-        found["hysteresis"] = list(building.hysteresis)
-    return (stated,), found
+        laws["hysteresis"] = list(building.hysteresis)
+    return (stated,), laws
 
 
 def of_storeys_alone(building: Building, owner: str) -> None:

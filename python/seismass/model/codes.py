@@ -6,12 +6,13 @@ A row of which any part was not read in the code itself says so: check it in the
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, replace
-from typing import Final, Literal, TypeAlias, get_args
-
-import polars as pl
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias, get_args
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import brief, is_one_of, known_id, refusal
+
+if TYPE_CHECKING:
+    import polars as pl
 
 __all__ = [
     "AS_STATED",
@@ -333,7 +334,7 @@ def code_fraction(code_id: str, use: Use = "storage") -> CodeFraction:
     ----------
     code_id : str
         One of `CODE_IDS`, in any case: "asce7-10", "ec8", "nzs1170.5", "nbc", ...
-    use : {"storage", "ordinary", "archive", "shop", "garage"}
+    use : {"storage", "ordinary", "archive", "shop", "garage"}, default "storage"
         Storage and warehouses, offices and dwellings, archives and libraries, shops, or car parks. A code without a row
         of its own for archives has them in storage, for shops in ordinary floors.
 
@@ -353,10 +354,10 @@ def code_fraction(code_id: str, use: Use = "storage") -> CodeFraction:
     wanted = known_id(code_id, CODE_IDS, "code")
     if not is_one_of(use, get_args(Use)):
         raise refusal(InvalidOption, "use", "code", f"one of {', '.join(get_args(Use))}", brief(use))
-    found = {row.use: row for row in _ROWS if row.code_id == wanted}
-    if use not in found and _CLASS_OF.get(use) not in found:
-        raise refusal(InvalidOption, "use", f"code {wanted}", " or ".join(found), use)
-    return found[use] if use in found else replace(found[_CLASS_OF[use]], use=use)
+    rows = {row.use: row for row in _ROWS if row.code_id == wanted}
+    if use not in rows and _CLASS_OF.get(use) not in rows:
+        raise refusal(InvalidOption, "use", f"code {wanted}", " or ".join(rows), use)
+    return rows[use] if use in rows else replace(rows[_CLASS_OF[use]], use=use)
 
 
 def code_table() -> pl.DataFrame:
@@ -368,6 +369,8 @@ def code_table() -> pl.DataFrame:
         Columns `code_id`, `code`, `use`, `fraction`, `low`, `high`, `clause`, `note`, `status`, `checked`, as
         `CodeFraction` has them.
     """
+    import polars as pl
+
     return pl.DataFrame([asdict(row) | {"checked": row.checked} for row in _ROWS])
 
 

@@ -68,7 +68,7 @@ class FrictionPair:
 
         Parameters
         ----------
-        factors : tuple of float
+        factors : tuple of float, optional
             Of the lower and the upper bound, the first from 0 to 1, the second at least 1.
 
         Raises
@@ -234,7 +234,7 @@ def friction_table(factors: tuple[float, float] = BOUND_FACTORS) -> pl.DataFrame
 
     Parameters
     ----------
-    factors : tuple of float
+    factors : tuple of float, optional
         Of the lower and the upper bound; by default those of EN 16681, second-hand.
 
     Returns
@@ -261,12 +261,12 @@ def friction_table(factors: tuple[float, float] = BOUND_FACTORS) -> pl.DataFrame
     )
 
 
-def bound_factors(given: Any, owner: str) -> tuple[float, float]:
+def bound_factors(factors: Any, owner: str) -> tuple[float, float]:
     """Return factors of the lower and the upper bound of friction, judged."""
     requirement = "two factors, the first above 0 and at most 1, the second at least 1 and finite"
-    if not isinstance(given, tuple | list) or len(given) != 2:
-        raise refusal(InvalidOption, "mu_factors", owner, requirement, brief(given))
-    low, high = (as_number(value, "mu_factors", owner, InvalidOption) for value in given)
+    if not isinstance(factors, tuple | list) or len(factors) != 2:
+        raise refusal(InvalidOption, "mu_factors", owner, requirement, brief(factors))
+    low, high = (as_number(value, "mu_factors", owner, InvalidOption) for value in factors)
     if not 0.0 < low <= 1.0 <= high < float("inf"):
-        raise refusal(InvalidOption, "mu_factors", owner, requirement, brief(given))
+        raise refusal(InvalidOption, "mu_factors", owner, requirement, brief(factors))
     return low, high

@@ -111,7 +111,7 @@ def _row(
     loads: tuple[float, float, float, float],
     renewed: str,
     design: tuple[float, int],
-    of: str,
+    kind: str,
 ) -> SurveyedLoad:
     mean, floor, point, area = loads
     return SurveyedLoad(
@@ -125,7 +125,7 @@ def _row(
         design[0],
         _JCSS,
         VERIFIED,
-        f"ASCE 7, minimum uniformly distributed live loads: {of}, {design[1]} psf",
+        f"ASCE 7, minimum uniformly distributed live loads: {kind}, {design[1]} psf",
         FROM_MEMORY,
     )
 
@@ -188,7 +188,7 @@ def on_surveyed_goods(fraction: float, use: Use = "storage") -> float:
     ----------
     fraction : float
         Fraction of the design live load.
-    use : {"storage", "ordinary", "archive", "shop"}
+    use : {"storage", "ordinary", "archive", "shop"}, default "storage"
         Use of the floor, whose goods are those of `SURVEYED`.
 
     Raises

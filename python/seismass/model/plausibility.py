@@ -57,12 +57,12 @@ def limit_remarks(limits: Iterable[tuple[str, float]]) -> tuple[str, ...]:
     """Return what is unlikely about limits, pairs of a quantity of `LimitState` and its value; quantities that are not
     in `LIMITS` are left out.
     """
-    found = []
+    remarks = []
     for quantity, value in limits:
         most, unit, asked = LIMITS.get(quantity, (np.inf, "", ""))
         if value > most:
-            found.append(f"the limit of {quantity} is {value:.4g}{unit}, above {most:g}: {asked}")
-    return tuple(dict.fromkeys(found))
+            remarks.append(f"the limit of {quantity} is {value:.4g}{unit}, above {most:g}: {asked}")
+    return tuple(dict.fromkeys(remarks))
 
 
 def usage_remarks(scene_remarks: Iterable[str], motions: Any, limits: Iterable[tuple[str, float]] = ()) -> list[str]:
@@ -79,13 +79,13 @@ def model_remarks(building: Building | None, blocks: Sequence[Block]) -> tuple[s
     """Return what is unlikely about a building and its blocks, a sentence per kind of remark, which names the first
     storey or block concerned and counts the others.
     """
-    found = [] if building is None else list(_building_remarks(building))
-    found += _numbered(
+    remarks = [] if building is None else list(_building_remarks(building))
+    remarks += _numbered(
         [block.mu_s for block in blocks],
         np.array([block.mu_s for block in blocks]) > MAX_FRICTION,
         "mu_s of block {number} is {value:.4g}, above 1.5{others}: friction coefficients are ratios, not per cent",
     )
-    return tuple(found)
+    return tuple(remarks)
 
 
 def _building_remarks(building: Building) -> Iterator[str]:
@@ -136,20 +136,18 @@ def motion_remarks(motions: Any) -> tuple[str, ...]:
     counted from 1 and named where it has a name.
     """
     listed: Iterable[Any] = [motions] if hasattr(motions, "acceleration") else motions
-    found = []
+    remarks = []
     for number, motion in enumerate(listed, start=1):
         pga = float(np.abs(motion.acceleration).max()) / STANDARD_GRAVITY
         if pga > MAX_PGA:
             name = getattr(motion, "name", "")
             called = f"motion {number}, {name}," if name else f"motion {number}"
-            found.append(f"{called} has a PGA of {pga:.4g} g, above {MAX_PGA:g} g: are its accelerations in m/s2?")
-    return tuple(found)
+            remarks.append(f"{called} has a PGA of {pga:.4g} g, above {MAX_PGA:g} g: are its accelerations in m/s2?")
+    return tuple(remarks)
 
 
 def mean_motion_remarks(motions: Any) -> tuple[str, ...]:
-    """Return what is unlikely about the mean PGA of a suite as it is used, scale factors included: at most one
-    sentence.
-    """
+    """Return what is unlikely about the mean PGA of a suite, scale factors included: at most one sentence."""
     listed: Iterable[Any] = [motions] if hasattr(motions, "acceleration") else motions
     peaks = [float(np.abs(motion.acceleration).max()) / STANDARD_GRAVITY for motion in listed]
     mean = float(np.mean(peaks)) if peaks else 0.0

@@ -107,8 +107,8 @@ class RackBlock(Value):
     def __repr__(self) -> str:
         if self.fixed:
             mass = self.block.mass
-            given = f"mass={mass:g}" if mass is not None else f"mass_ratio={self.block.mass_ratio:g}"
-            return f"RackBlock(level={self.level}, {given}, fixed=True)"
+            size = f"mass={mass:g}" if mass is not None else f"mass_ratio={self.block.mass_ratio:g}"
+            return f"RackBlock(level={self.level}, {size}, fixed=True)"
         return repr(self.block).replace("Block(floor=", "RackBlock(level=", 1)
 
 
@@ -141,7 +141,7 @@ class Rack(Value, Card):
         Ratio in every mode of the rack alone, fixed at its base, with frame and goods attached.
     geometric_stiffness : array_like, optional
         P/h of each level (N/m).
-    blocks : iterable of RackBlock
+    blocks : iterable of RackBlock, optional
         Goods on its levels.
     other_direction : dict, optional
         Arguments of springs and damping that differ in y, in scenes in two directions.
@@ -209,8 +209,8 @@ class Rack(Value, Card):
         other_direction: Mapping[str, Any] | None = None,
         **shape: Unpack[SpringShape],
     ) -> None:
-        given: dict[str, Any] = dict(shape)
-        checked_names(given, SHAPE_FIELDS, "Rack")
+        parameters: dict[str, Any] = dict(shape)
+        checked_names(parameters, SHAPE_FIELDS, "Rack")
         _check_choice(("level_mass", level_mass), ("level_mass_ratio", level_mass_ratio), is_needed=True)
         _check_choice(("period", period), ("stiffness", stiffness), is_needed=True)
         _check_choice(("yield_shear", yield_shear), ("yield_shear_over_weight", yield_shear_over_weight))
@@ -242,7 +242,7 @@ class Rack(Value, Card):
             yield_shear=per_level("yield_shear", yield_shear),
             yield_shear_over_weight=per_level("yield_shear_over_weight", yield_shear_over_weight),
             hysteresis=hysteresis,
-            shape={name: per_level(name, value) for name, value in given.items()},
+            shape={name: per_level(name, value) for name, value in parameters.items()},
             damping=as_number(damping, "damping", "rack", InvalidScene),
             geometric_stiffness=per_level("geometric_stiffness", geometric_stiffness),
             blocks=goods,
@@ -255,10 +255,10 @@ class Rack(Value, Card):
     def in_y(self) -> Rack:
         """Return what the rack is in y."""
         changes: dict[str, Any] = {"blocks": [block.in_y() for block in self.blocks], "other_direction": None}
-        given = self.other_direction or {}
+        overrides = self.other_direction or {}
         for one, other in (("period", "stiffness"), ("yield_shear", "yield_shear_over_weight")):
-            changes |= {one: None} if other in given else {other: None} if one in given else {}
-        return self.replace(**changes, **given)
+            changes |= {one: None} if other in overrides else {other: None} if one in overrides else {}
+        return self.replace(**changes, **overrides)
 
     def alone(self, floor_mass: float = np.nan) -> Building:
         """Return the rack alone, fixed at its base, with its goods attached, as a building whose floors are its levels.
@@ -359,20 +359,20 @@ class Rack(Value, Card):
 
 def _check_choice(one: tuple[str, Any], other: tuple[str, Any], *, is_needed: bool = False) -> None:
     """Refuse both of two arguments that say the same, and neither where one is needed."""
-    given = [name for name, value in (one, other) if value is not None]
-    if len(given) == 2 or (is_needed and not given):
+    stated = [name for name, value in (one, other) if value is not None]
+    if len(stated) == 2 or (is_needed and not stated):
         requirement = f"given either as {one[0]} or as {other[0]}"
-        raise refusal(InvalidScene, one[0], "rack", requirement, "both" if given else "neither")
+        raise refusal(InvalidScene, one[0], "rack", requirement, "both" if stated else "neither")
 
 
-def _of_other_direction(given: Mapping[str, Any]) -> dict[str, Any]:
+def _of_other_direction(changes: Mapping[str, Any]) -> dict[str, Any]:
     known = ("period", "stiffness", "yield_shear", "yield_shear_over_weight", "hysteresis", "damping", *SHAPE_FIELDS)
-    if not isinstance(given, Mapping):
-        raise refusal(InvalidScene, "other_direction", "rack", "a dict of what differs in y", brief(given))
-    for key in given:
+    if not isinstance(changes, Mapping):
+        raise refusal(InvalidScene, "other_direction", "rack", "a dict of what differs in y", brief(changes))
+    for key in changes:
         if key not in known:
             raise refusal(InvalidScene, f"other_direction.{key}", "rack", f"one of {', '.join(known)}", "another")
-    return dict(given)
+    return dict(changes)
 
 
 def _mass(block: RackBlock, floor_mass: float) -> float:
@@ -412,5 +412,5 @@ RACK_DIRECTIONS: Final = (
 def rack_direction(name: str) -> RackDirection:
     """Return a direction of racks by its name."""
     names = tuple(each.name for each in RACK_DIRECTIONS)
-    chosen = known_id(name, names, "direction of racks")
-    return RACK_DIRECTIONS[names.index(chosen)]
+    direction = known_id(name, names, "direction of racks")
+    return RACK_DIRECTIONS[names.index(direction)]

@@ -29,9 +29,9 @@ class Scene(Value):
     ----------
     building : Building or None
         None: there are blocks on the ground only.
-    blocks : iterable of Block
+    blocks : iterable of Block, optional
         Any number, in any order; several may share a floor. They are counted from 1 as listed.
-    racks : iterable of Rack
+    racks : iterable of Rack, optional
         Racks on floors or on the ground. Their goods that may slide are counted on from the blocks, rack by rack.
     other_direction : Building or True, optional
         There are two horizontal directions: the building in y, of the same masses; True: the same building, or the
@@ -45,7 +45,7 @@ class Scene(Value):
         Floor velocities relative to the ground at the start (m/s). In two directions both have a pair [x, y] for each.
     collapse_drift : array_like, optional
         Drift (m) at which a storey counts as collapsed and the run ends, beside the limit that P-Delta sets.
-    name, note : str
+    name, note : str, optional
         Labels; they do not take part in comparison.
 
     Attributes
@@ -68,9 +68,9 @@ class Scene(Value):
     """
 
     __slots__ = (
-        "_chain",
-        "_general",
-        "_plane",
+        "_chain_scene",
+        "_general_scene",
+        "_plane_scene",
         "base",
         "blocks",
         "building",
@@ -82,9 +82,9 @@ class Scene(Value):
         "other_direction",
         "racks",
     )
-    _chain: _ChainScene | None
-    _general: _GeneralScene | None
-    _plane: _PlaneScene | None
+    _chain_scene: _ChainScene | None
+    _general_scene: _GeneralScene | None
+    _plane_scene: _PlaneScene | None
     building: Building | None
     blocks: tuple[Block, ...]
     racks: tuple[Rack, ...]
@@ -155,17 +155,17 @@ class Scene(Value):
             "initial_velocity": self.initial_velocity,
             "collapse_drift": self.collapse_drift,
         }
-        self._set(_chain=None, _general=None, _plane=None)
+        self._set(_chain_scene=None, _general_scene=None, _plane_scene=None)
         if other is not False:
-            self._set(_plane=_kernel.PlaneScene(*(one._of_general() for one in self._directions())))
+            self._set(_plane_scene=_kernel.PlaneScene(*(one._of_general() for one in self._directions())))
             return
         self._refuse_plane_alone()
         kernel: Any = None if building is None else building._kernel
         goods = [(block.floor, mass, *block.contact) for block, mass in zip(placed, masses, strict=True)]
         if self.engine == "chain":
-            self._set(_chain=_kernel.Scene(kernel, goods, **state))
+            self._set(_chain_scene=_kernel.Scene(kernel, goods, **state))
             return
-        self._set(_general=self._of_general())
+        self._set(_general_scene=self._of_general())
 
     def _of_general(self) -> _GeneralScene:
         """What the general engine takes of a scene in one direction."""
@@ -229,16 +229,16 @@ class Scene(Value):
         """
         if self.other_direction is not False:
             return "plane"
-        return "general" if self._beyond_chain() is not None else "chain"
+        return "general" if self._feature_outside_chain() is not None else "chain"
 
     @property
-    def _engines(self) -> tuple[str, ...]:
+    def _engine_names(self) -> tuple[str, ...]:
         """Which engines solve its directions each by itself: the same one in one direction."""
         if self.other_direction is False:
             return (self.engine,)
         return tuple(each.engine for each in self._directions())
 
-    def _beyond_chain(self) -> tuple[str, str, str] | None:
+    def _feature_outside_chain(self) -> tuple[str, str, str] | None:
         """What the chain engine does not take: its parameter, whose it is, and what it is; None where it takes all."""
         if self.other_direction is not False:
             return "other_direction", "scene", "two directions"
@@ -251,7 +251,7 @@ class Scene(Value):
         stopped = [number for number, block in enumerate(self.blocks, start=1) if block.stops is not None]
         return ("stops", f"block {stopped[0]}", "stops") if stopped else None
 
-    def of_chain(self, owner: str) -> Scene:
+    def require_chain(self, owner: str) -> Scene:
         """Return the scene itself, for what takes scenes of the chain engine alone.
 
         Parameters
@@ -264,10 +264,10 @@ class Scene(Value):
         InvalidScene
             It has racks, stops, a stiffness matrix or a sliding base.
         """
-        beyond = self._beyond_chain()
-        if beyond is not None:
-            parameter, of, value = beyond
-            raise refusal(InvalidScene, parameter, of, f"left out in {owner}; simulate takes it", value)
+        feature = self._feature_outside_chain()
+        if feature is not None:
+            parameter, owner_of_it, value = feature
+            raise refusal(InvalidScene, parameter, owner_of_it, f"left out in {owner}; simulate takes it", value)
         return self
 
     def on_ground(self, owner: str) -> Scene:
@@ -289,7 +289,7 @@ class Scene(Value):
 
     @property
     def _kernel(self) -> _ChainScene:
-        scene: Any = self.of_chain("this function")._chain
+        scene: Any = self.require_chain("this function")._chain_scene
         chain: _ChainScene = scene
         return chain
 
@@ -328,7 +328,7 @@ class Scene(Value):
         """P/h of each storey (N/m), the weight of the blocks included, shape (storeys,); zero without P-Delta."""
         if self.other_direction is not False:
             return self._directions()[0].geometric_stiffness
-        kernel: Any = self._chain if self._chain is not None else self._general
+        kernel: Any = self._chain_scene if self._chain_scene is not None else self._general_scene
         values: FloatArray = kernel.geometric_stiffness
         return values
 

@@ -231,9 +231,9 @@ def is_default(values: Any, name: str) -> TypeGuard[FloatArray]:
     return values is default_values(name, len(values))
 
 
-def checked_names(given: dict[str, Any], known: dict[str, SpringField], owner: str) -> None:
+def checked_names(parameters: dict[str, Any], known: dict[str, SpringField], owner: str) -> None:
     """Refuse an unknown keyword argument, as Python does."""
-    for name in given:
+    for name in parameters:
         if name not in known:
             raise TypeError(f"{owner}() got an unexpected keyword argument {name!r}")
 
@@ -303,14 +303,14 @@ def read_backbones(value: Any, storeys: int) -> tuple[Backbone | None, ...] | No
     """Return the backbone of each storey, or None where no storey has one."""
     if value is None:
         return None
-    given = list(value) if is_per_storey(value) else [value] * storeys
-    if len(given) != storeys:
+    listed = list(value) if is_per_storey(value) else [value] * storeys
+    if len(listed) != storeys:
         requirement = f"one list of points or a list of {storeys} of them, one per storey"
-        raise refusal(InvalidScene, "backbone", "building", requirement, f"{len(given)} of them")
-    found = tuple(
-        None if points is None else _points(points, f"storey {number}") for number, points in enumerate(given, start=1)
+        raise refusal(InvalidScene, "backbone", "building", requirement, f"{len(listed)} of them")
+    backbones = tuple(
+        None if points is None else _points(points, f"storey {number}") for number, points in enumerate(listed, start=1)
     )
-    return None if all(points is None for points in found) else found
+    return None if all(points is None for points in backbones) else backbones
 
 
 def _points(value: Any, owner: str) -> Backbone:
@@ -332,30 +332,32 @@ def _dimensions(value: Any) -> int:
 
 def read_hysteresis(value: Any, storeys: int) -> tuple[Hysteresis, ...]:
     """Return the hysteresis of each storey."""
-    given: list[Any] = [value] * storeys if isinstance(value, str) or not isinstance(value, Sequence) else list(value)
-    if len(given) != storeys:
+    listed: list[Any] = [value] * storeys if isinstance(value, str) or not isinstance(value, Sequence) else list(value)
+    if len(listed) != storeys:
         requirement = f"one name or a list of {storeys}, one per storey"
-        raise refusal(InvalidScene, "hysteresis", "building", requirement, f"{len(given)} of them")
-    for item in given:
+        raise refusal(InvalidScene, "hysteresis", "building", requirement, f"{len(listed)} of them")
+    for item in listed:
         if not is_one_of(item, HYSTERESES):
             raise refusal(InvalidScene, "hysteresis", "building", " or ".join(HYSTERESES), brief(item))
-    checked: tuple[Hysteresis, ...] = tuple(given)
+    checked: tuple[Hysteresis, ...] = tuple(listed)
     return checked
 
 
-def of_first_segment(given: FloatArray, name: str, backbones: tuple[Backbone | None, ...]) -> FloatArray:
+def of_first_segment(array: FloatArray, name: str, backbones: tuple[Backbone | None, ...]) -> FloatArray:
     """Return stiffnesses or yield shears, taken from the backbones where they are not given (NaN, or one number for the
     storeys without a backbone); both must agree where both are given.
     """
-    values = np.array(np.broadcast_to(given, len(backbones)))
+    values = np.array(np.broadcast_to(array, len(backbones)))
     for i, points in enumerate(backbones):
         if points is None:
             continue
         drift, force = points[0]
         with np.errstate(divide="ignore", invalid="ignore"):
-            own = float(np.float64(force) / drift) if name == "stiffness" else (force if len(points) > 1 else np.inf)
-        if given.ndim == 0 or np.isnan(values[i]) or np.isclose(values[i], own, rtol=_SAME, atol=0.0):
-            values[i] = own
+            implied = (
+                float(np.float64(force) / drift) if name == "stiffness" else (force if len(points) > 1 else np.inf)
+            )
+        if array.ndim == 0 or np.isnan(values[i]) or np.isclose(values[i], implied, rtol=_SAME, atol=0.0):
+            values[i] = implied
     return frozen(values)
 
 
@@ -381,15 +383,15 @@ def parts(
     hysteresis: tuple[Hysteresis, ...],
 ) -> set[Part]:
     """Return what the springs of a building have of what may be absent."""
-    found: set[Part] = {name for name in hysteresis if name != "masing"}
+    kinds: set[Part] = {name for name in hysteresis if name != "masing"}
     listed = backbones or [None] * len(hysteresis)
     if any(points is None and name in TRILINEAR for points, name in zip(listed, hysteresis, strict=True)):
-        found.add("trilinear")
+        kinds.add("trilinear")
     if "clearance" in springs and (springs["clearance"] < np.inf).any():
-        found.add("stop")
-    return found
+        kinds.add("stop")
+    return kinds
 
 
-def without_own(values: FloatArray, backbones: tuple[Backbone | None, ...]) -> FloatArray:
+def without_implied(values: FloatArray, backbones: tuple[Backbone | None, ...]) -> FloatArray:
     """Return stiffnesses or yield shears with NaN, not given, where a storey has a backbone."""
     return np.where([points is not None for points in backbones], np.nan, values)

@@ -34,45 +34,45 @@ _SINH: Final = tuple(1.0 / math.factorial(2 * half + 1) for half in range(9, 0, 
 _ATANH: Final = tuple(1.0 / (2 * half + 1) for half in range(11, 0, -1))
 _LEAST, _MOST = -745.0, 709.7
 BLOCK: Final = 64
-"""Terms of a series between which the exponential is evaluated anew."""
+"""Terms of a series between which the exponential is evaluated again."""
 
 
 def exp(x: ArrayLike) -> FloatArray:
     """Return e to the power x, of the same shape; 0 below -745. An x above 709.7 or a NaN is an error."""
-    given = np.asarray(x, dtype=np.float64)
-    if not (given <= _MOST).all():
-        raise ValueError(f"x of exp must be up to {_MOST}; got {np.max(given):g}")
-    at = np.maximum(given, _LEAST)
-    number = np.rint(at / _LN2[0])
-    rest = (at - number * _LN2[0]) - number * _LN2[1]
+    values = np.asarray(x, dtype=np.float64)
+    if not (values <= _MOST).all():
+        raise ValueError(f"x of exp must be up to {_MOST}; got {np.max(values):g}")
+    clipped = np.maximum(values, _LEAST)
+    number = np.rint(clipped / _LN2[0])
+    rest = (clipped - number * _LN2[0]) - number * _LN2[1]
     value = np.ldexp(1.0 + (rest + rest * rest * _polynomial(_EXP, rest)), number.astype(np.int64))
-    return np.asarray(np.where(given < _LEAST, 0.0, value))
+    return np.asarray(np.where(values < _LEAST, 0.0, value))
 
 
 def log(x: ArrayLike) -> FloatArray:
     """Return the natural logarithm of positive finite numbers, of the same shape."""
-    given = np.asarray(x, dtype=np.float64)
-    if not ((given > 0.0) & np.isfinite(given)).all():
-        wrong = given[~((given > 0.0) & np.isfinite(given))].flat[0]
+    values = np.asarray(x, dtype=np.float64)
+    if not ((values > 0.0) & np.isfinite(values)).all():
+        wrong = values[~((values > 0.0) & np.isfinite(values))].flat[0]
         raise ValueError(f"x of log must be positive and finite; got {wrong:g}")
-    share, number = np.frexp(given)
+    share, number = np.frexp(values)
     low = share < math.sqrt(0.5)
     share, number = np.where(low, 2.0 * share, share), np.where(low, number - 1, number).astype(np.float64)
     # With f = share - 1 and s = f/(2 + f): log(share) = 2 atanh(s) = f - s (f - 2 s^2 (atanh(s)/s - 1)/s^2).
-    over = share - 1.0
-    s = over / (2.0 + over)
+    excess = share - 1.0
+    s = excess / (2.0 + excess)
     square = s * s
-    small = s * (over - 2.0 * square * _polynomial(_ATANH, square))
-    return np.asarray(number * _LN2[0] + (over - (small - number * _LN2[1])))
+    small = s * (excess - 2.0 * square * _polynomial(_ATANH, square))
+    return np.asarray(number * _LN2[0] + (excess - (small - number * _LN2[1])))
 
 
 def power(x: ArrayLike, exponent: float) -> FloatArray:
     """Return numbers of at least 0 to a power, of the same shape; the error grows with the logarithm of the result."""
-    given = np.asarray(x, dtype=np.float64)
+    values = np.asarray(x, dtype=np.float64)
     if exponent > 0.0:
-        positive = np.where(given == 0.0, 1.0, given)
-        return np.asarray(np.where(given == 0.0, 0.0, exp(exponent * log(positive))))
-    return exp(exponent * log(given))
+        positive = np.where(values == 0.0, 1.0, values)
+        return np.asarray(np.where(values == 0.0, 0.0, exp(exponent * log(positive))))
+    return exp(exponent * log(values))
 
 
 def cos_sin(x: ArrayLike) -> tuple[FloatArray, FloatArray]:
@@ -93,12 +93,12 @@ def cos(x: ArrayLike) -> FloatArray:
 
 def sinh(x: ArrayLike) -> FloatArray:
     """Return the hyperbolic sine, of the same shape."""
-    given = np.asarray(x, dtype=np.float64)
-    near = np.clip(given, -1.0, 1.0)
+    values = np.asarray(x, dtype=np.float64)
+    near = np.clip(values, -1.0, 1.0)
     square = near * near
-    up = exp(np.abs(given))
-    far = np.copysign(0.5 * (up - 1.0 / up), given)
-    return np.asarray(np.where(np.abs(given) <= 1.0, near + near * (square * _polynomial(_SINH, square)), far))
+    up = exp(np.abs(values))
+    far = np.copysign(0.5 * (up - 1.0 / up), values)
+    return np.asarray(np.where(np.abs(values) <= 1.0, near + near * (square * _polynomial(_SINH, square)), far))
 
 
 def complex_exp(x: ComplexArray) -> ComplexArray:
@@ -140,30 +140,30 @@ def series_imaginary(far: ComplexArray, near: ComplexArray) -> FloatArray:
 
 def times(left: ComplexArray, right: ComplexArray) -> ComplexArray:
     """Return the product of complex numbers, of the shape that both broadcast to."""
-    real = left.real * right.real - left.imag * right.imag
-    return joined(real, left.real * right.imag + left.imag * right.real)
+    real_part = left.real * right.real - left.imag * right.imag
+    return joined(real_part, left.real * right.imag + left.imag * right.real)
 
 
 def scaled(numbers: ComplexArray, factor: ArrayLike) -> ComplexArray:
     """Return complex numbers times real ones, of the shape that both broadcast to."""
-    by = np.asarray(factor, dtype=np.float64)
-    return joined(numbers.real * by, numbers.imag * by)
+    factors = np.asarray(factor, dtype=np.float64)
+    return joined(numbers.real * factors, numbers.imag * factors)
 
 
-def joined(real: ArrayLike, imaginary: ArrayLike) -> ComplexArray:
+def joined(real_part: ArrayLike, imaginary: ArrayLike) -> ComplexArray:
     """Return complex numbers of the shape that their parts broadcast to."""
-    result = np.empty(np.broadcast(real, imaginary).shape, dtype=np.complex128)
-    result.real, result.imag = real, imaginary
+    result = np.empty(np.broadcast(real_part, imaginary).shape, dtype=np.complex128)
+    result.real, result.imag = real_part, imaginary
     return result
 
 
-def geomspace(start: float, stop: float, count: int) -> FloatArray:
+def geomspace(start: float, end: float, count: int) -> FloatArray:
     """Return `count` numbers in geometric spacing from `start` to `stop`, both positive, as `numpy.geomspace`."""
     if count == 1:
         return np.array([start], dtype=np.float64)
-    first, last = log(start), log(stop)
+    first, last = log(start), log(end)
     values = exp(first + (last - first) * (np.arange(count) / (count - 1)))
-    values[0], values[-1] = start, stop
+    values[0], values[-1] = start, end
     return values
 
 
@@ -175,9 +175,9 @@ def rounded(x: ArrayLike, bits: int) -> FloatArray:
 
 def _reduced(x: ArrayLike) -> tuple[NDArray[np.int64], FloatArray, FloatArray]:
     """Multiples of pi/2, and the rest with its square before it."""
-    given = np.asarray(x, dtype=np.float64)
-    number = np.rint(given / (_HALF_PI[0] + _HALF_PI[1]))
-    rest = ((given - number * _HALF_PI[0]) - number * _HALF_PI[1]) - number * _HALF_PI[2]
+    values = np.asarray(x, dtype=np.float64)
+    number = np.rint(values / (_HALF_PI[0] + _HALF_PI[1]))
+    rest = ((values - number * _HALF_PI[0]) - number * _HALF_PI[1]) - number * _HALF_PI[2]
     return number.astype(np.int64), rest * rest, rest
 
 

@@ -33,7 +33,7 @@ class Motion(Value, Card):
         Time step (s).
     vertical : array_like, shape (samples,), optional
         Vertical ground acceleration (in `unit`), up positive.
-    unit : {"m/s2", "g", "cm/s2", "gal"}
+    unit : {"m/s2", "g", "cm/s2", "gal"}, default "m/s2"
         Unit of the accelerations that are given.
 
     Raises
@@ -60,14 +60,14 @@ class Motion(Value, Card):
     ) -> None:
         factor = acceleration_factor(unit, "motion", InvalidMotion)
 
-        def given(values: ArrayLike, name: str) -> FloatArray:
+        def checked(values: ArrayLike, name: str) -> FloatArray:
             samples = as_array(values, name, "motion", InvalidMotion)
             return samples if factor == 1.0 else frozen(samples * factor)
 
         self._set(
-            acceleration=given(acceleration, "acceleration"),
+            acceleration=checked(acceleration, "acceleration"),
             dt=as_number(dt, "dt", "motion", InvalidMotion),
-            vertical=None if vertical is None else given(vertical, "vertical acceleration"),
+            vertical=None if vertical is None else checked(vertical, "vertical acceleration"),
         )
         self._set(_kernel=_kernel.Motion(self.acceleration, self.dt, self.vertical))
 
@@ -162,10 +162,10 @@ MotionLike: TypeAlias = Motion | HasMotion
 
 def as_motion(motion: Any, parameter: str, owner: str) -> Motion:
     """Return a motion, or that of a record."""
-    found = motion if isinstance(motion, Motion) else getattr(motion, "motion", None)
-    if not isinstance(found, Motion):
+    converted = motion if isinstance(motion, Motion) else getattr(motion, "motion", None)
+    if not isinstance(converted, Motion):
         raise refusal(InvalidMotion, parameter, owner, "a Motion or a Record", brief(motion))
-    return found
+    return converted
 
 
 def motion_names(motions: Iterable[Any]) -> list[str]:

@@ -16,8 +16,8 @@ from seismass import _kernel
 from seismass.base.digest import inputs_digest
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.files import polars_writing, written_whole
-from seismass.base.forks import require_polars
-from seismass.base.kept import kept_folder
+from seismass.base.fork_check import require_polars
+from seismass.base.stored_results import result_store
 from seismass.base.values import (
     as_count,
     as_flag,
@@ -46,7 +46,7 @@ MAX_ROWS: Final = 2**32 - 1
 MAX_THREADS: Final = _kernel.MAX_THREADS
 """Most threads of a batch, as the kernel has it: more than any machine has cores for."""
 
-MotionsLike: TypeAlias = MotionLike | Pair | Iterable[MotionLike | MotionPair]
+MotionsLike: TypeAlias = "MotionLike | Pair | Iterable[MotionLike | MotionPair]"
 """Motions of a batch: one or many; pairs, or tuples of two motions, are those of scenes in two directions."""
 Progress: TypeAlias = Callable[[int, int], object]
 """Called with (runs done, runs in all)."""
@@ -224,7 +224,7 @@ def write_many(
     """Solve many scenes under many motions and write the rows of `simulate_many` to a Parquet file as they come.
 
     The file appears whole or not at all; chunks are kept in a hidden folder beside it until then. The same call after
-    an interruption takes those that are there; other inputs, another version or another size of chunks start anew. The
+    an interruption takes those that are there; other inputs, another version or another size of chunks start again. The
     metadata of the file name the version of seismass and the instruction set.
 
     Parameters
@@ -256,12 +256,12 @@ def write_many(
     solved_by = (_kernel.VERSION, instruction_set(), size, options["peaks_only"], stretch)
     with (
         written_whole(target) as temporary,
-        kept_folder(target.parent, target.name, inputs_digest(batch, solved_by)) as kept,
+        result_store(target.parent, target.name, inputs_digest(batch, solved_by)) as store,
     ):
         parts = []
         for done in range(0, max(len(stretch), 1), size):
             solve = partial(batch.solve, stretch[done : done + size], options, _since(done, len(stretch), report))
-            parts.append(kept.file(str(done // size), solve))
+            parts.append(store.file(str(done // size), solve))
         # Small row groups, as each is held while it is copied.
         with polars_writing(target):
             pl.scan_parquet(parts, glob=False).sink_parquet(
@@ -326,12 +326,12 @@ def _one_table(stretch: range) -> range:
 
 def checked_motions(motions: Any) -> tuple[list[Any], list[Motion], list[str]]:
     """Return motions in one direction as they were given, as the kernel takes them, and their names."""
-    given = _given(motions)
-    listed = [as_motion(motion, f"motion {number}", "batch") for number, motion in enumerate(given, start=1)]
-    return given, listed, motion_names(given)
+    items = _listed_motions(motions)
+    listed = [as_motion(motion, f"motion {number}", "batch") for number, motion in enumerate(items, start=1)]
+    return items, listed, motion_names(items)
 
 
-def _given(motions: Any) -> list[Any]:
+def _listed_motions(motions: Any) -> list[Any]:
     if isinstance(motions, Motion | HasMotion | Pair):
         return [motions]
     if not isinstance(motions, Iterable):
@@ -339,13 +339,13 @@ def _given(motions: Any) -> list[Any]:
     return list(motions)
 
 
-def _in_any_plane(given: list[Any]) -> list[Motion | PlaneMotion]:
+def _in_any_plane(motions: list[Any]) -> list[Motion | PlaneMotion]:
     """Motions as they are solved: pairs as their two motions."""
     return [
         motions_in_plane(motion, f"motion {number}", "batch")
         if is_motion_pair(motion)
         else as_motion(motion, f"motion {number}", "batch")
-        for number, motion in enumerate(given, start=1)
+        for number, motion in enumerate(motions, start=1)
     ]
 
 
@@ -355,13 +355,13 @@ def _batch(scenes: Any, motions: Any, pairs: ArrayLike | None) -> _Batch:
         if pairs is not None:
             requirement = "left out with a Grid, which has a column of motions"
             raise refusal(InvalidOption, "pairs", "batch", requirement, brief(pairs))
-        _, chosen, names = checked_motions(motions)
-        batch: _Batch = _GridBatch(scenes, chosen, names)
-        scenes._check_motions(len(chosen))
+        _, checked, names = checked_motions(motions)
+        batch: _Batch = _GridBatch(scenes, checked, names)
+        scenes._check_motions(len(checked))
     else:
-        listed, given = _listed_scenes(scenes), _given(motions)
-        wanted = None if pairs is None else _pairs(pairs, len(listed), len(given))
-        batch = _SceneBatch(SceneRuns.of(listed, _in_any_plane(given), motion_names(given)), wanted)
+        listed, listed_motions = _listed_scenes(scenes), _listed_motions(motions)
+        wanted = None if pairs is None else _pairs(pairs, len(listed), len(listed_motions))
+        batch = _SceneBatch(SceneRuns.of(listed, _in_any_plane(listed_motions), motion_names(listed_motions)), wanted)
         batch.check()
     if batch.total > MAX_RUNS:
         raise refusal(InvalidOption, "runs", "batch", f"at most {MAX_RUNS}", str(batch.total))
@@ -372,26 +372,26 @@ def _batch(scenes: Any, motions: Any, pairs: ArrayLike | None) -> _Batch:
 class _SceneBatch:
     """Runs of scenes that exist as objects: those of `pairs`, or every scene under every motion."""
 
-    of: SceneRuns
+    scene_runs: SceneRuns
     pairs: IndexArray | None
 
     @property
     def total(self) -> int:
-        return len(self.of.scenes) * len(self.of.motions) if self.pairs is None else len(self.pairs)
+        return len(self.scene_runs.scenes) * len(self.scene_runs.motions) if self.pairs is None else len(self.pairs)
 
     def check(self) -> None:
         """Refuse motions that do not suit their scenes; every scene is solved under every motion, or those of pairs."""
-        if self.of.plane or any(isinstance(motion, tuple) for motion in self.of.motions):
-            self.of.check(self._rows(range(self.total)))
+        if self.scene_runs.plane or any(isinstance(motion, tuple) for motion in self.scene_runs.motions):
+            self.scene_runs.check(self._rows(range(self.total)))
 
     def _rows(self, runs: range) -> IndexArray:
         """Scene and motion of each run."""
         if self.pairs is not None:
             return self.pairs[runs.start : runs.stop]
-        return np.stack(np.divmod(np.arange(runs.start, runs.stop), max(len(self.of.motions), 1)), axis=1)
+        return np.stack(np.divmod(np.arange(runs.start, runs.stop), max(len(self.scene_runs.motions), 1)), axis=1)
 
     def solve(self, runs: range, options: _Options, progress: Progress | None) -> pl.DataFrame:
-        return self.of.table(self._rows(runs), **options, progress=progress)
+        return self.scene_runs.table(self._rows(runs), **options, progress=progress)
 
 
 @dataclass(frozen=True, slots=True)

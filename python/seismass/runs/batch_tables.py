@@ -138,11 +138,11 @@ def heights_of_runs(known: list[FloatArray | None], which: IndexArray, storeys: 
         return flat
     starts = np.cumsum([0, *(0 if heights is None else len(heights) for heights in known)])
     unknown = np.array([heights is None for heights in known])
-    within = np.arange(len(flat)) - np.repeat(np.cumsum(storeys) - storeys, storeys)
+    position = np.arange(len(flat)) - np.repeat(np.cumsum(storeys) - storeys, storeys)
     owner = np.repeat(which, storeys)
     has = ~unknown[owner]
     joined = np.concatenate([heights for heights in known if heights is not None])
-    flat[has] = joined[(starts[owner] + within.astype(np.int64))[has]]
+    flat[has] = joined[(starts[owner] + position.astype(np.int64))[has]]
     return flat
 
 
@@ -219,7 +219,7 @@ class SceneRuns:
     @classmethod
     def of(cls, scenes: Sequence[Scene], motions: Sequence[Motion | PlaneMotion], names: Sequence[str]) -> SceneRuns:
         """Return the runs of these scenes under these motions."""
-        racks = any("general" in scene._engines for scene in scenes)
+        racks = any("general" in scene._engine_names for scene in scenes)
         plane = any(scene.engine == "plane" for scene in scenes)
         return cls(tuple(scenes), tuple(motions), tuple(names), racks, plane)
 
@@ -240,14 +240,12 @@ class SceneRuns:
     def table(
         self, rows: IndexArray, *, peaks_only: bool, threads: int | None, progress: Progress | None
     ) -> pl.DataFrame:
-        """Solve runs, rows of scene and motion (runs, 2), and return their table; other arguments as in
-        `simulate_many`.
-        """
+        """Return the table of runs, rows of scene and motion (runs, 2); other arguments as in `simulate_many`."""
         engine = np.array([scene.engine for scene in self.scenes], dtype=object)[rows[:, 0]]
         solve: dict[str, Callable[..., pl.DataFrame]] = {
-            "chain": self._chain,
-            "general": self._general,
-            "plane": self._plane,
+            "chain": self._solve_chain,
+            "general": self._solve_general,
+            "plane": self._solve_plane,
         }
         parts, numbers, done = [], [], 0
         for name, solver in solve.items():
@@ -261,55 +259,55 @@ class SceneRuns:
                 done += len(of_engine)
         return parts[0] if len(parts) == 1 else pl.concat(parts)[np.argsort(np.concatenate(numbers))]
 
-    def _chain(self, rows: IndexArray, options: dict[str, Any]) -> pl.DataFrame:
-        chosen, runs = self._chosen(rows)
-        batch = _kernel.simulate_many([each._kernel for each in chosen], self._motions(), runs, **options)
-        table = self._named(batch, rows, chosen, runs[:, 0])
+    def _solve_chain(self, rows: IndexArray, options: dict[str, Any]) -> pl.DataFrame:
+        scenes, runs = self._scenes_of(rows)
+        batch = _kernel.simulate_many([each._kernel for each in scenes], self._motions(), runs, **options)
+        table = self._named(batch, rows, scenes, runs[:, 0])
         table = rack_columns(table, batch, None) if self.racks else table
         return without_directions(table) if self.plane else table
 
-    def _general(self, rows: IndexArray, options: dict[str, Any]) -> pl.DataFrame:
-        chosen, runs = self._chosen(rows)
-        general = [each._general for each in chosen if each._general is not None]
+    def _solve_general(self, rows: IndexArray, options: dict[str, Any]) -> pl.DataFrame:
+        scenes, runs = self._scenes_of(rows)
+        general = [each._general_scene for each in scenes if each._general_scene is not None]
         batch, racks = _kernel.simulate_many_general(general, self._motions(), runs, **options)
-        table = rack_columns(self._named(batch, rows, chosen, runs[:, 0]), batch, racks)
+        table = rack_columns(self._named(batch, rows, scenes, runs[:, 0]), batch, racks)
         return without_directions(table) if self.plane else table
 
-    def _plane(self, rows: IndexArray, options: dict[str, Any]) -> pl.DataFrame:
-        chosen, runs = self._chosen(rows)
+    def _solve_plane(self, rows: IndexArray, options: dict[str, Any]) -> pl.DataFrame:
+        scenes, runs = self._scenes_of(rows)
         used, motion = np.unique(rows[:, 1], return_inverse=True)
         pairs: list[Any] = [self.motions[number] for number in used]
         batches = _kernel.simulate_many_plane(
-            [each._plane for each in chosen if each._plane is not None],
+            [each._plane_scene for each in scenes if each._plane_scene is not None],
             [x._kernel for x, _ in pairs],
             [y.acceleration for _, y in pairs],
             np.stack([runs[:, 0], motion], axis=1),
             **options,
         )
-        vector, *directions = (self._of_vector(batch, rows, chosen, runs[:, 0]) for batch in batches)
+        vector, *directions = (self._of_vector(batch, rows, scenes, runs[:, 0]) for batch in batches)
         return with_directions(vector, directions)
 
     def _of_vector(
         self,
         solved: tuple[_kernel.Batch, _kernel.RackColumns],
         rows: IndexArray,
-        chosen: list[Scene],
+        scenes: list[Scene],
         scene: IndexArray,
     ) -> pl.DataFrame:
         """The table of the vectors, or of one direction; the base shear has the share of matrices."""
         batch, racks = solved
-        table = rack_columns(self._named(batch, rows, chosen, scene), batch, racks)
+        table = rack_columns(self._named(batch, rows, scenes, scene), batch, racks)
         return table if self.racks else table.drop(*OF_RACKS, *OF_BASES)
 
-    def _named(self, batch: _kernel.Batch, rows: IndexArray, chosen: list[Scene], scene: IndexArray) -> pl.DataFrame:
-        heights = heights_of_runs([heights_of(each) for each in chosen], scene, batch.storeys)
+    def _named(self, batch: _kernel.Batch, rows: IndexArray, scenes: list[Scene], scene: IndexArray) -> pl.DataFrame:
+        heights = heights_of_runs([heights_of(each) for each in scenes], scene, batch.storeys)
         return batch_table(batch, rows[:, 0], rows[:, 1], list(self.names), heights)
 
     def _motions(self) -> list[_kernel.Motion]:
         """The motions in one direction; of two the first, which no run has."""
         return [(each[0] if isinstance(each, tuple) else each)._kernel for each in self.motions]
 
-    def _chosen(self, rows: IndexArray) -> tuple[list[Scene], IndexArray]:
+    def _scenes_of(self, rows: IndexArray) -> tuple[list[Scene], IndexArray]:
         """Scenes that runs use, and rows of the index among them and of the motion."""
         used, scene = np.unique(rows[:, 0], return_inverse=True)
         return [self.scenes[number] for number in used], np.stack([scene, rows[:, 1]], axis=1)

@@ -10,7 +10,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.forks import require_polars
+from seismass.base.fork_check import require_polars
 from seismass.base.values import brief, refusal
 from seismass.model.scene import Scene
 from seismass.runs.grid.columns import TABLE_COLUMNS, table_of
@@ -153,17 +153,17 @@ def _of_scenes(scenes: Any, table: pl.DataFrame) -> tuple[pl.DataFrame, pl.DataF
         if not isinstance(scene, Scene):
             raise refusal(InvalidScene, f"scene {number}", "long_table", "a Scene", brief(scene))
     used = _used(table, len(listed))
-    chosen = [listed[number - 1] for number in used.tolist()]
-    periods = [None if scene.building is None else float(scene.building.periods[0]) for scene in chosen]
+    scenes_used = [listed[number - 1] for number in used.tolist()]
+    periods = [None if scene.building is None else float(scene.building.periods[0]) for scene in scenes_used]
     described = pl.DataFrame(
         {
             "scene": used.astype(np.uint64),
-            "storeys": pl.Series([scene.storeys for scene in chosen], dtype=pl.UInt32),
+            "storeys": pl.Series([scene.storeys for scene in scenes_used], dtype=pl.UInt32),
             "period": pl.Series(periods, dtype=pl.Float64),
         }
     )
-    counts = [len(scene.goods_floor) for scene in chosen]
-    floors = [floor for scene in chosen for floor in scene.goods_floor]
+    counts = [len(scene.goods_floor) for scene in scenes_used]
+    floors = [floor for scene in scenes_used for floor in scene.goods_floor]
     return described, _block_table(np.repeat(used, counts), np.array(floors, dtype=np.int64))
 
 

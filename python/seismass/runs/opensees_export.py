@@ -14,7 +14,7 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption, InvalidScene, SeismassError
-from seismass.base.forks import require_polars
+from seismass.base.fork_check import require_polars
 from seismass.base.values import (
     FloatArray,
     as_array,
@@ -89,26 +89,26 @@ def write_opensees(
     ['model.py', 'README.md', 'motion-01.txt', 'model.json']
     """
     out = as_path(folder, "folder of OpenSees models", InvalidOption)
-    given = [as_motion(motion, f"motion {number}", "OpenSees export") for number, motion in enumerate(motions, start=1)]
-    if not scenes or not given:
+    items = [as_motion(motion, f"motion {number}", "OpenSees export") for number, motion in enumerate(motions, start=1)]
+    if not scenes or not items:
         got = "no motion" if scenes else "no scene"
         raise refusal(InvalidOption, "models", "OpenSees export", "scenes and motions, at least one of each", got)
     if out.exists() and not out.is_dir():
         raise refusal(InvalidOption, "folder", "OpenSees export", "a folder", str(out))
-    for motion in given:
+    for motion in items:
         if motion.vertical is not None:
             raise refusal(InvalidScene, "motions", "OpenSees export", "horizontal", "one with a vertical component")
     models = {name: model_content(scene, name) for name, scene in scenes.items()}
     for name, scene in scenes.items():
-        models[name]["exact"] = [_exact(scene, motion) for motion in given]
-    files = [f"motion-{number:02d}.txt" for number in range(1, len(given) + 1)]
+        models[name]["exact"] = [_exact(scene, motion) for motion in items]
+    files = [f"motion-{number:02d}.txt" for number in range(1, len(items) + 1)]
     listed = [
-        {"file": file, "dt": motion.dt, "samples": motion.samples} for file, motion in zip(files, given, strict=True)
+        {"file": file, "dt": motion.dt, "samples": motion.samples} for file, motion in zip(files, items, strict=True)
     ]
     source = data_directory() / "opensees"
     texts = dict(documents or {})
     texts |= {name: (source / name).read_text(encoding="utf-8") for name in (PROGRAM, README)}
-    for file, motion in zip(files, given, strict=True):
+    for file, motion in zip(files, items, strict=True):
         texts[file] = "".join(f"{value!r}\n" for value in motion.acceleration.tolist())
     texts[CONTENT] = json.dumps({"units": "kg, N, m, s", "models": models, "motions": listed}, indent=1) + "\n"
     with folder_for(out):

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 import json
-from typing import Any, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import numpy as np
-import polars as pl
 
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import FloatArray, brief, frozen, refusal
 from seismass.base.views import Card, view
-from seismass.media.result import finite_values
 from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
 from seismass.motions.motion import Motion, MotionLike, as_motion
-from seismass.motions.records.pair import Pair
 from seismass.runs.response import EVENT_KINDS
+
+if TYPE_CHECKING:
+    import polars as pl
+
+    from seismass.motions.records import Pair
 
 _PEAKS: Final = (
     "peak_drift",
@@ -227,6 +229,8 @@ class PlaneResponse(Card):
         run = self._run
         if run.event_time is None:
             raise refusal(InvalidOption, "events", "simulate", "asked for, if events are wanted", "False")
+        import polars as pl
+
         kind, direction, angle = (np.asarray(each) for each in (run.event_kind, run.event_direction, run.event_angle))
         return pl.DataFrame(
             {
@@ -267,7 +271,7 @@ class PlaneResponse(Card):
         return {**self._directions[0].statistics, "instructions": self._directions[0].instructions}
 
     def to_dict(self) -> dict[str, Any]:
-        """Return peaks, residuals, counts, events, energy and work in SI units, null for what is not finite."""
+        """Return peaks, residuals, counts, events, energy and work in SI units, null for non-finite values."""
         result: dict[str, Any] = {
             "name": self.scene.name,
             "status": self.status,
@@ -288,6 +292,8 @@ class PlaneResponse(Card):
         if self._run.energy is not None:
             result |= {"energy": self.energy, "energy_by_direction": list(self.energy_by_direction)}
         result["statistics"] = self.statistics
+        from seismass.media.result import finite_values
+
         finite: dict[str, Any] = finite_values(result)
         return finite
 
@@ -305,7 +311,7 @@ class PlaneResponse(Card):
         return f"PlaneResponse({self.scene!r}, {self.status} at {self.end_time:g} s)"
 
 
-MotionPair: TypeAlias = Pair | tuple[MotionLike, MotionLike]
+MotionPair: TypeAlias = "Pair | tuple[MotionLike, MotionLike]"
 """Motions in two directions: a pair of records, or two motions of one step."""
 PlaneMotion: TypeAlias = tuple[Motion, Motion]
 """The motions in x, with the vertical one, and in y, equally long."""
@@ -313,6 +319,8 @@ PlaneMotion: TypeAlias = tuple[Motion, Motion]
 
 def is_motion_pair(motion: Any) -> bool:
     """Whether something is a Pair, or stands for one: a tuple of two."""
+    from seismass.motions.records import Pair
+
     return isinstance(motion, Pair) or (isinstance(motion, tuple) and len(motion) == 2)
 
 
@@ -320,6 +328,8 @@ def motions_in_plane(pair: Any, parameter: str = "motion", owner: str = "simulat
     """Return the motions in x (with the vertical one, of the pair or of the first) and in y, equally long; `parameter`
     and `owner` name them in errors.
     """
+    from seismass.motions.records import Pair
+
     vertical = None
     if isinstance(pair, Pair):
         x, y = pair.first.motion, pair.second.motion

@@ -7,12 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Protocol, TypedDict, cast
 
 import numpy as np
-import polars as pl
 from numpy.typing import ArrayLike, NDArray
 
 from seismass import _kernel
 from seismass.base.errors import InvalidOption
-from seismass.base.forks import require_polars
+from seismass.base.fork_check import require_polars
 from seismass.base.values import FloatArray, frozen, read_only, refusal
 from seismass.base.views import Views, view
 from seismass.model.plausibility import motion_remarks
@@ -21,6 +20,7 @@ from seismass.motions.motion import Motion
 from seismass.runs.response_parts import BaseResults, RackResults, ResponseDocument
 
 if TYPE_CHECKING:
+    import polars as pl
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -147,7 +147,7 @@ class ResponseAnimation(Protocol):
     """The animation of a run: `seismass.Animation`."""
 
     def html(self) -> str:
-        """Return a page that needs nothing but itself."""
+        """Return a page that needs no other file."""
 
     def write(self, path: str | Path, *, frames_per_second: float | None = None, speed: float = 1.0) -> None:
         """Write a page (.html), a GIF (.gif) or a film (.mp4)."""
@@ -412,6 +412,8 @@ class Response(RackResults, BaseResults, ResponseDocument):
             self._asked("events", "events", stored="event_time")
             listed = self.event_log
             require_polars("events", "event_log")
+            import polars as pl
+
             columns = {
                 "time": pl.Series(listed["time"], dtype=pl.Float64),
                 "kind": pl.Series(listed["kind"].tolist(), dtype=pl.String),
@@ -547,11 +549,11 @@ class Response(RackResults, BaseResults, ResponseDocument):
         return f"Response({self.status}{collapsed} at {self.end_time:g} s{drift}{slip})"
 
 
-def _values(of: type) -> tuple[str, ...]:
+def _values(kind: type) -> tuple[str, ...]:
     """Names of the values of a response of the kernel."""
     return tuple(
         name
-        for name, member in vars(of).items()
+        for name, member in vars(kind).items()
         if not name.startswith("_") and not callable(member) and not isinstance(member, staticmethod)
     )
 

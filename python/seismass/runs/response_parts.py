@@ -9,7 +9,6 @@ import numpy as np
 
 from seismass.base.errors import InvalidScene
 from seismass.base.values import FloatArray, frozen, refusal
-from seismass.media.result import finite_values
 from seismass.model.scene import Scene, goods_names
 
 
@@ -205,7 +204,7 @@ class ResponseDocument:
     __slots__ = ()
 
     def to_dict(self) -> dict[str, Any]:
-        """Return peaks, residuals, counts, events, energy and work in SI units, null for what is not finite.
+        """Return peaks, residuals, counts, events, energy and work in SI units, null for non-finite values.
 
         Events and energies are there where `simulate` was asked for them. Histories are left out. In scenes of the
         general engine `goods` says where each block stands, in the order of slips; racks have a list for each, of its
@@ -243,6 +242,8 @@ class ResponseDocument:
         if building is not None:
             result["damping_matrix"] = building.damping_matrix.tolist()
         result["statistics"] = response.statistics
+        from seismass.media.result import finite_values
+
         finite: dict[str, Any] = finite_values(result)
         return finite
 

@@ -268,14 +268,14 @@ def building_of_table(table: Table, walls: Table | None = None) -> Building:
     table.excluded("geometric_stiffness", "gravity_load")
     if "gravity_load" in table.values:
         table.needed("heights")
-    springs = table.given(*_SPRING_KEYS)
+    springs = table.subset(*_SPRING_KEYS)
     for key, field in SPRING_FIELDS.items():
         if key in springs and np.isinf(field.default):
             springs[key] = _infinite_where_null(springs[key])
     if "damping" in table.values:
         springs["damping"] = _damping(table)
     over_weight = _infinite_where_null(table.values.get("yield_shear_over_weight"))
-    springs |= table.given("backbone", "hysteresis", "stiffness_matrix")
+    springs |= table.subset("backbone", "hysteresis", "stiffness_matrix")
     if walls is not None:
         check_walls(walls, table)
     if isinstance(springs.get("backbone"), list):  # TOML has no null
@@ -290,7 +290,7 @@ def building_of_table(table: Table, walls: Table | None = None) -> Building:
         building = Building.uniform(
             table.values["storeys"],
             table.values["period"],
-            **table.given("mass"),
+            **table.subset("mass"),
             yield_shear_over_weight=over_weight,
             **springs,
         )

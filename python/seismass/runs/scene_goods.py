@@ -106,13 +106,13 @@ def read_rack(table: Table, number: int) -> Rack:
     for key, other in (("level_mass_ratio", "level_mass"), ("period", "stiffness")):
         table.excluded(key, other)
     table.excluded("yield_shear_over_weight", "yield_shear")
-    given = {key: table.values[key] for key in GOODS_KEYS["racks"] if key in table.values and key != "blocks"}
+    goods = {key: table.values[key] for key in GOODS_KEYS["racks"] if key in table.values and key != "blocks"}
     for key in ("yield_shear", "yield_shear_over_weight", *SHAPE_FIELDS):
         infinite = key not in SHAPE_FIELDS or np.isinf(SHAPE_FIELDS[key].default)
-        if infinite and isinstance(given.get(key), list):  # null: a level that stays elastic
-            given[key] = [np.inf if item is None else item for item in given[key]]
+        if infinite and isinstance(goods.get(key), list):  # null: a level that stays elastic
+            goods[key] = [np.inf if item is None else item for item in goods[key]]
     blocks = [_rack_block(each, place, number) for place, each in enumerate(table.tables("blocks"), start=1)]
-    return Rack(**given, blocks=blocks)
+    return Rack(**goods, blocks=blocks)
 
 
 def _rack_block(table: Table, number: int, rack: int) -> RackBlock:
@@ -234,8 +234,8 @@ def pair_of_table(table: Table, folder: Path) -> Pair:
 def _named(table: Table, key: str, pairs: list[Pair]) -> Pair:
     """The pair of that name."""
     name = table.text(key)
-    found = [pair for pair in pairs if pair.name == name]
-    if len(found) != 1:
+    matches = [pair for pair in pairs if pair.name == name]
+    if len(matches) != 1:
         known = ", ".join(pair.name for pair in pairs[:3])
         table.refuse(key, f"the name of one of {len(pairs)} pairs, as {known}", brief(name))
-    return found[0]
+    return matches[0]

@@ -108,9 +108,9 @@ class SceneProduct(Card, Sequence[Scene]):
             values = self.values_of(place + 1)
             made: Any = self._make(**values)
             if not isinstance(made, Scene):
-                said = short(", ".join(f"{name} = {value!r}" for name, value in values.items()))
+                words = short(", ".join(f"{name} = {value!r}" for name, value in values.items()))
                 requirement = "a Scene, as the function has to return it"
-                raise refusal(InvalidScene, f"scene {place + 1} ({said})", "scene product", requirement, brief(made))
+                raise refusal(InvalidScene, f"scene {place + 1} ({words})", "scene product", requirement, brief(made))
             self._scenes[place] = made
         return self._scenes[place]
 

@@ -101,24 +101,24 @@ def simulate(
     )
     if duration is not None:
         motions = tuple(each.with_duration(duration) for each in motions)
-    chosen = motions[0]
+    motion_alone = motions[0]
     every = (
         int(histories)
         if isinstance(histories, bool)
         else as_count(histories, "histories", "simulate", InvalidOption, least=1)
     )
-    given = (("displacements_only", displacements_only), ("energy", energy), ("events", events))
-    flags = [as_flag(value, name, "simulate", InvalidOption) for name, value in given]
-    if scene._plane is not None:
+    switches = (("displacements_only", displacements_only), ("energy", energy), ("events", events))
+    flags = [as_flag(value, name, "simulate", InvalidOption) for name, value in switches]
+    if scene._plane_scene is not None:
         other = motions[1].acceleration
-        of_plane = _kernel.simulate_plane(scene._plane, chosen._kernel, other, every, *flags)
-        return PlaneResponse(of_plane, scene, (chosen, motions[1]))
+        of_plane = _kernel.simulate_plane(scene._plane_scene, motion_alone._kernel, other, every, *flags)
+        return PlaneResponse(of_plane, scene, (motion_alone, motions[1]))
     run: _kernel.Response | _kernel.GeneralResponse
-    if scene._general is not None:
-        run = _kernel.simulate_general(scene._general, chosen._kernel, every, *flags)
+    if scene._general_scene is not None:
+        run = _kernel.simulate_general(scene._general_scene, motion_alone._kernel, every, *flags)
     else:
-        run = _kernel.simulate(scene._kernel, chosen._kernel, every, *flags)
-    return Response(run, scene, chosen, motion if isinstance(motion, Record) else None)
+        run = _kernel.simulate(scene._kernel, motion_alone._kernel, every, *flags)
+    return Response(run, scene, motion_alone, motion if isinstance(motion, Record) else None)
 
 
 def instruction_set() -> str:
@@ -150,8 +150,8 @@ def warn_of_doubts(scenes: Any, motions: Any) -> None:
         number, remarks = doubtful[0]
         others = f" (and {len(doubtful) - 1} more scenes)" if len(doubtful) > 1 else ""
         warnings.warn(f"scene {number}: {'; '.join(remarks)}{others}", DoubtfulInput, stacklevel=3)
-    given = [motions] if hasattr(motions, "acceleration") else motions if hasattr(motions, "__len__") else ()
-    first = list(given)[:MOST_LOOKED_AT]
+    listed = [motions] if hasattr(motions, "acceleration") else motions if hasattr(motions, "__len__") else ()
+    first = list(listed)[:MOST_LOOKED_AT]
     alone = [each for one in first for each in (one if is_motion_pair(one) else (one,))]
     strong = motion_remarks([each for each in alone if hasattr(each, "acceleration")])
     if strong:
@@ -160,7 +160,7 @@ def warn_of_doubts(scenes: Any, motions: Any) -> None:
 
 
 def _listed(scenes: Any) -> list[Scene]:
-    """The first scenes of a batch; what is not a scene is refused elsewhere."""
+    """The first scenes of a batch; other values are refused elsewhere."""
     from seismass.runs.grid.grid import Grid  # one run needs no grid
 
     if isinstance(scenes, Grid):
@@ -168,5 +168,5 @@ def _listed(scenes: Any) -> list[Scene]:
             return [scenes.scene(1)]
         except SeismassError:
             return []
-    given = [scenes] if isinstance(scenes, Scene) else scenes if isinstance(scenes, list | tuple) else []
-    return [scene for scene in given[:MOST_LOOKED_AT] if isinstance(scene, Scene)]
+    listed = [scenes] if isinstance(scenes, Scene) else scenes if isinstance(scenes, list | tuple) else []
+    return [scene for scene in listed[:MOST_LOOKED_AT] if isinstance(scene, Scene)]

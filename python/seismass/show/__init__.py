@@ -16,7 +16,7 @@ VIEWS: Final = {
     "PlaneAnimation.write": "seismass.show.animation.plane_picture:write_plane_animation",
     "Assessment.plot": "seismass.show.assessment.figures:assessment_figure",
     "Assessment.text": "seismass.show.assessment.text:assessment_text",
-    "Assessment.write": "seismass.show.assessment.page:write_assessment",
+    "Assessment.write": "seismass.show.assessment.text:write_assessment",
     "Card._repr_html_": "seismass.show.cards:value_html",
     "Building._repr_html_": "seismass.show.cards:building_html",
     "EffectiveMass._repr_html_": "seismass.show.cards:effective_mass_html",

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 import polars as pl
 
-from seismass.assessment.models import REAL
+from seismass.assessment.models import SLIDING
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, counted
 from seismass.base.views import Card
@@ -43,14 +43,14 @@ def assessment_html(result: Assessment) -> str:
     answer = result.answer
     pair = [line(f"{one.number}  {words}") for one, words in zip(answer.analyses, answer.pair, strict=True)]
     facts = [("tables", ", ".join(result.tables)), ("figures", ", ".join(result.figure_names))]
-    said = [answer.why and f"why: {answer.why}", answer.motions and f"motions: {answer.motions}"]
+    lines = [answer.why and f"why: {answer.why}", answer.motions and f"motions: {answer.motions}"]
     return card(
         result.building.name or "Assessment",
         answer.headline,
         *pair,
         _drifts(result),
         facts=facts,
-        notes=[*(sentence for sentence in said if sentence), *result.remarks],
+        notes=[*(sentence for sentence in lines if sentence), *result.remarks],
     )
 
 
@@ -58,7 +58,7 @@ def _drifts(result: Assessment) -> str:
     """Mean peak drifts of each storey: of both analyses, of goods that slide, and the one that governs."""
     table = result.governing.head(MOST_ROWS)
     scale, unit = (1e3, " mm") if result.building.heights is None else (1e2, " %")
-    names = {"advised": "analysis 1", "bare": "analysis 2", REAL: "goods slide", "governing": "governs"}
+    names = {"advised": "analysis 1", "bare": "analysis 2", SLIDING: "goods slide", "governing": "governs"}
     shown = {name: title for name, title in names.items() if table[name].is_not_null().any()}
     # One quantity in all columns: the same decimals in all of them.
     texts = column_texts([value for name in shown for value in table[name].to_list()], scale=scale, unit=unit)
@@ -77,17 +77,17 @@ LEFT: Final = 40.0
 
 def building_html(building: Building) -> str:
     """Return a card of a building."""
-    return card("Building", _about(building), building_sketch(building, ()), facts=_facts(building))
+    return card("Building", _building_words(building), building_sketch(building, ()), facts=_facts(building))
 
 
 def scene_html(scene: Scene) -> str:
     """Return a card of a scene: its building, its blocks, and what is unlikely about them."""
     building = scene.building
-    about = "on the ground alone" if building is None else _about(building)
-    goods = counted(len(scene.blocks), "block") if scene.blocks else "no blocks"
+    words = "on the ground alone" if building is None else _building_words(building)
+    blocks = counted(len(scene.blocks), "block") if scene.blocks else "no blocks"
     return card(
         scene.name or "Scene",
-        f"{about}, {goods}",
+        f"{words}, {blocks}",
         building_sketch(building, scene.blocks),
         _blocks(scene),
         facts=() if building is None else _facts(building),
@@ -111,9 +111,9 @@ def building_sketch(building: Building | None, blocks: tuple[Block, ...]) -> str
     if building is not None and storeys <= MOST_ROWS:
         parts += _labels(building, levels)
     parts += _goods(building, blocks, levels)
-    said = "ground" if building is None else counted(storeys, "storey")
+    words = "ground" if building is None else counted(storeys, "storey")
     return svg(
-        BUILDING_WIDTH, levels[0] + 6.0, f"{said} with {counted(len(blocks), 'block')}" if blocks else said, *parts
+        BUILDING_WIDTH, levels[0] + 6.0, f"{words} with {counted(len(blocks), 'block')}" if blocks else words, *parts
     )
 
 
@@ -169,25 +169,25 @@ def _blocks(scene: Scene) -> str:
     return rows(("", "floor", "mass", "friction"), body)
 
 
-def _about(building: Building) -> str:
+def _building_words(building: Building) -> str:
     return f"{counted(building.storeys, 'storey')}, T1 = {building.periods[0]:.4g} s"
 
 
 def _facts(building: Building) -> list[tuple[str, str]]:
-    found = []
+    facts = []
     if building.mass_is_stated:
-        found.append(("mass", f"{1e-3 * building.mass.sum():.4g} t"))
+        facts.append(("mass", f"{1e-3 * building.mass.sum():.4g} t"))
     for symbol, values in building.spring_summary().items():
         if not np.isinf(values).all():
-            found.append((symbol, _span(values)))
+            facts.append((symbol, _span(values)))
     if np.isinf(building.yield_shear).all() and not building.laws:
-        found = [fact for fact in found if fact[0] == "mass"] + [("springs", "elastic")]
-    found += [("springs", law) for law in building.laws]
+        facts = [fact for fact in facts if fact[0] == "mass"] + [("springs", "elastic")]
+    facts += [("springs", law) for law in building.laws]
     damping = building.damping
-    found.append(("damping", f"{100.0 * damping:g} %" if isinstance(damping, float) else type(damping).__name__))
+    facts.append(("damping", f"{100.0 * damping:g} %" if isinstance(damping, float) else type(damping).__name__))
     if building.gravity_load is not None or building.geometric_stiffness is not None:
-        found.append(("P-Delta", "yes"))
-    return found
+        facts.append(("P-Delta", "yes"))
+    return facts
 
 
 def _span(values: FloatArray) -> str:
@@ -242,11 +242,12 @@ def target_html(target: TargetSpectrum) -> str:
     y = bottom - (bottom - top) * ordinates / highest
     parts = [stroke(left, bottom, right, bottom, opacity=0.5), stroke(left, top, left, bottom, opacity=0.5)]
     for share in (0.0, 0.25, 0.5, 0.75, 1.0):
-        at = left + share * (right - left)
-        parts += [stroke(at, bottom, at, bottom + 3.0, opacity=0.5)]
-        parts.append(text(at, bottom + 15.0, f"{share * longest:.3g}", anchor="middle"))
+        mark = left + share * (right - left)
+        parts += [stroke(mark, bottom, mark, bottom + 3.0, opacity=0.5)]
+        parts.append(text(mark, bottom + 15.0, f"{share * longest:.3g}", anchor="middle"))
     parts.append(text(right + 8.0, bottom + 15.0, "s"))
-    parts += [text(left - 6.0, at + 4.0, said, anchor="end") for at, said in ((bottom, "0"), (top, f"{highest:.3g} g"))]
+    parts.append(text(left - 6.0, bottom + 4.0, "0", anchor="end"))
+    parts.append(text(left - 6.0, top + 4.0, f"{highest:.3g} g", anchor="end"))
     label = f"pseudo-acceleration up to {highest:.3g} g, from {target.shortest:g} to {longest:g} s"
     facts = [(f"Sa({period:g} s)", f"{target([period])[0] / STANDARD_GRAVITY:.3g} g") for period in _within(target)]
     return card("Target spectrum", target.label, svg(470.0, 150.0, label, *parts, curve(x, y, width=1.8)), facts=facts)
@@ -264,9 +265,9 @@ RECORD_HEIGHT: Final = 110
 def record_html(record: Record) -> str:
     """Return HTML with its style in place: no scripts, nothing from elsewhere, text of the record escaped."""
     title = " ".join(part for part in (record.name or "(unnamed record)", "(synthetic)" * record.synthetic) if part)
-    said = [record.event, record.station, record.component]
+    words = [record.event, record.station, record.component]
     if record.azimuth is not None:
-        said.append(f"azimuth {record.azimuth:g}\N{DEGREE SIGN}")
+        words.append(f"azimuth {record.azimuth:g}\N{DEGREE SIGN}")
     measures = (
         ("PGA", f"{record.pga_g:.4f} g"),
         ("PGV", f"{record.pgv:.3f} m/s"),
@@ -277,7 +278,7 @@ def record_html(record: Record) -> str:
     )
     size = line(f"{record.samples} samples at {record.dt:g} s, {record.duration:g} s")
     notes = [*record.history, *record.remarks, *drift_remarks(record)]
-    return card(title, ", ".join(part for part in said if part), _sketch(record), size, facts=measures, notes=notes)
+    return card(title, ", ".join(part for part in words if part), _sketch(record), size, facts=measures, notes=notes)
 
 
 def _sketch(record: Record) -> str:
@@ -302,11 +303,11 @@ def response_html(response: Response) -> str:
     where = "" if fell is None else f" in {spring_names(scene)[fell - 1]}"
     ended = f"{response.status}{where} at {response.end_time:g} s"
     motion = response.record.name if response.record is not None else repr(response.motion)
-    about = ", ".join(part for part in (scene.name, motion) if part)
+    words = ", ".join(part for part in (scene.name, motion) if part)
     facts = [(name, str(count)) for name, count in response.counts.items() if count]
     base = line(base_line(scene, response)) if scene.base is not None else ""
     tables = (_storeys(response), base, _racks(response), _blocks_results(response))
-    return card(f"Response, {ended}", about, _largest(response), *tables, facts=facts)
+    return card(f"Response, {ended}", words, _largest(response), *tables, facts=facts)
 
 
 def _largest(response: Response) -> str:
@@ -343,9 +344,9 @@ def _storeys(response: Response) -> str:
         column_texts(acceleration[order].tolist(), unit=" g"),
     ]
     body = list(zip([f"storey {number + 1}" for number in order], *columns, strict=True))
-    over = [] if ratio is None else ["over height"]
+    unit_words = [] if ratio is None else ["over height"]
     left_out = line(f"the {MOST_ROWS} that drift most of {len(drift)}") if len(drift) > MOST_ROWS else ""
-    return rows(("", "peak drift", *over, "residual", "acceleration above"), body) + left_out
+    return rows(("", "peak drift", *unit_words, "residual", "acceleration above"), body) + left_out
 
 
 def _racks(response: Response) -> str:
@@ -409,7 +410,7 @@ def effective_mass_html(result: EffectiveMass) -> str:
         f"of the live load, under {result.records.height} motions",
         svg(580.0, 84.0, label, *parts),
         line(f"filled: value and interval; triangles: estimates {RULE} and {SAFE_RULE}"),
-        "".join(line(said) for said in result.text.splitlines()[:6]),
+        "".join(line(row) for row in result.text.splitlines()[:6]),
         notes=result.remarks,
     )
 
@@ -433,9 +434,9 @@ LONGEST_TEXT: Final = 60
 def value_html(value: Any) -> str:
     """Return a card of a value."""
     kind = type(value)
-    title, about = kind.__name__, _about_values(value)
+    title, words = kind.__name__, _name_of(value)
     if isinstance(getattr(kind, "text", None), property):
-        return card(title, about, pre(value.text, more=f"print(the {kind.__name__}.text)"))
+        return card(title, words, pre(value.text, more=f"print(the {kind.__name__}.text)"))
     if callable(getattr(kind, "axes", None)):
         body = [(axis.name, str(axis.length), str(axis.each)) for axis in value.axes()]
         size = f"{len(value):,} scenes" if isinstance(value, Sequence) or hasattr(kind, "__len__") else ""
@@ -445,9 +446,9 @@ def value_html(value: Any) -> str:
     facts, notes = _facts_values(value, with_lists=shown is None)
     # A one-line repr says more than the fields, where it is not a list of them.
     listed = is_dataclass(value) and (shown is not None or len(facts) > 1)
-    said = "" if listed else line(repr(value)[:MOST_LETTERS])
+    content = "" if listed else line(repr(value)[:MOST_LETTERS])
     facts = facts if is_dataclass(value) else []
-    return card(title, about, said, "" if shown is None else frame_html(shown), facts=facts, notes=notes)
+    return card(title, words, content, "" if shown is None else frame_html(shown), facts=facts, notes=notes)
 
 
 def frame_html(frame: pl.DataFrame) -> str:
@@ -464,9 +465,9 @@ def frame_html(frame: pl.DataFrame) -> str:
     return rows(names, list(zip(*columns, strict=True))) + ("" if whole else line(size))
 
 
-def _about_values(value: Any) -> str:
-    found = [getattr(value, name, "") for name in ("name", "label")]
-    return next((text[:LONGEST_TEXT] for text in found if isinstance(text, str) and text), "")
+def _name_of(value: Any) -> str:
+    texts = [getattr(value, name, "") for name in ("name", "label")]
+    return next((text[:LONGEST_TEXT] for text in texts if isinstance(text, str) and text), "")
 
 
 def _items(value: Any) -> Iterator[tuple[str, Any]]:
@@ -489,7 +490,7 @@ def _facts_values(value: Any, *, with_lists: bool) -> tuple[list[tuple[str, str]
 
 
 def _is_nothing(item: Any) -> bool:
-    """Whether there is nothing to be said."""
+    """Whether a value is empty."""
     return item is None or (isinstance(item, str | tuple | list) and not any(item))
 
 

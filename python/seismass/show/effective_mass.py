@@ -197,17 +197,17 @@ def storeys_figure(result: EffectiveMass) -> Figure:
 
 def _caption(result: EffectiveMass) -> str:
     """One line on what the numbers depend on."""
-    chosen = result.metadata
+    metadata = result.metadata
 
     def listed(name: str) -> str:
-        values = sorted(set(chosen[name]))
+        values = sorted(set(metadata[name]))
         return f"{values[0]:g}" if len(values) == 1 else f"{values[0]:g} to {values[-1]:g}"
 
-    damping = "C of the building" if chosen["damping"] == "same" else "ratio in the model's own modes"
+    damping = "C of the building" if metadata["damping"] == "same" else "ratio in the model's own modes"
     return (
-        f"{chosen['motions']} motions;  {ETA} = {result.eta:.2f};  {OMEGA} = {listed('overstrength')}, r2 = "
+        f"{metadata['motions']} motions;  {ETA} = {result.eta:.2f};  {OMEGA} = {listed('overstrength')}, r2 = "
         f"{listed('second_slope')}, r3 = {listed('third_slope')};  damping of the models: {damping};  "
-        f"P-Delta {'on' if chosen['p_delta'] else 'off'}"
+        f"P-Delta {'on' if metadata['p_delta'] else 'off'}"
     )
 
 
@@ -266,10 +266,10 @@ def uncertainty_figure(result: LiveLoadUncertainty, name: str | None = None) -> 
         )
         lower.grid(axis="x", color=GREY, alpha=0.25, linewidth=0.5)
         figure.legend(*upper.get_legend_handles_labels(), loc="outside upper center", ncols=2, frameon=False)
-        about = result.metadata
+        metadata = result.metadata
         figure.supxlabel(
-            f"{about['samples']} samples, {about['motions']} motions; "
-            f"{MU} {about['mu']}, occupancy {about['occupancy']}"
+            f"{metadata['samples']} samples, {metadata['motions']} motions; "
+            f"{MU} {metadata['mu']}, occupancy {metadata['occupancy']}"
             f"{marked_legend(STORAGE_CODES)}",
             fontsize=7.5,
         )
@@ -442,15 +442,15 @@ def intensity_figure(result: EffectiveMassMap) -> Figure:
 
 def map_caption(result: EffectiveMassMap) -> str:
     """Return one line on the motions and the parameters that the map depends on."""
-    chosen, suite = result.metadata["parameters"], result.metadata["suite"]
+    parameters, suite = result.metadata["parameters"], result.metadata["suite"]
     name = str(suite["name"]).replace("$", r"\$")
-    damping = "C of the building" if chosen["model_damping"] == "same" else "that ratio in their own modes"
+    damping = "C of the building" if parameters["model_damping"] == "same" else "that ratio in their own modes"
     target = str(result.metadata["target"]["label"]).split(" (")[0].replace("$", r"\$")
     return (
-        f"{len(suite['motions'])} motions ({name}) scaled to {target}, for T = {chosen['scaling_period']:g} s;\n"
-        f"V_y designed with {LAMBDA} = {chosen['design_fraction']:g}; {OMEGA} = {chosen['overstrength']:g}, "
-        f"r2 = {chosen['second_slope']:g}, r3 = {chosen['third_slope']:g}; damping "
-        f"{100.0 * chosen['damping']:g} %, models with {damping}"
+        f"{len(suite['motions'])} motions ({name}) scaled to {target}, for T = {parameters['scaling_period']:g} s;\n"
+        f"V_y designed with {LAMBDA} = {parameters['design_fraction']:g}; {OMEGA} = {parameters['overstrength']:g}, "
+        f"r2 = {parameters['second_slope']:g}, r3 = {parameters['third_slope']:g}; damping "
+        f"{100.0 * parameters['damping']:g} %, models with {damping}"
     )
 
 

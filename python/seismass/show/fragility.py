@@ -32,10 +32,10 @@ _FRACTILE_NAMES: Final = {"p16": "16 %", "p50": "median", "p84": "84 %"}
 
 def analysis_figure(result: FragilityAnalysis, name: str | None = None) -> Figure:
     """Return a figure by its name."""
-    chosen = named_figure(result, name)
-    if chosen == "fragility":
+    figure_name = named_figure(result, name)
+    if figure_name == "fragility":
         return fragility_figure(result)
-    return demand_figure(result, result.demands[chosen.removeprefix("demand_")])
+    return demand_figure(result, result.demands[figure_name.removeprefix("demand_")])
 
 
 def fragility_figure(result: FragilityAnalysis) -> Figure:
@@ -58,8 +58,8 @@ def fragility_figure(result: FragilityAnalysis) -> Figure:
             axes.set_xlabel(_intensity_label(result))
             axes.set_ylabel("probability of exceedance")
             grid_lines(axes)
-            own = [fit for (_, name), fit in result.fits.items() if name == limit.name]
-            if all(fit.kind == "never" for fit in own):
+            fits = [fit for (_, name), fit in result.fits.items() if name == limit.name]
+            if all(fit.kind == "never" for fit in fits):
                 say(axes, "never exceeded")
         for axes in panels[count:]:
             axes.set_axis_off()
@@ -80,16 +80,16 @@ def fragility_figure(result: FragilityAnalysis) -> Figure:
 
 def _highest_drawn(result: FragilityAnalysis, limit: LimitState) -> float | None:
     """Intensity up to which curves are drawn: to where the last of them is nearly one, or all motions are beyond it."""
-    own = result.curves.filter(pl.col("limit") == limit.name)
-    if own.is_empty():
+    curves = result.curves.filter(pl.col("limit") == limit.name)
+    if curves.is_empty():
         return None
     known = [
         rows.filter(pl.col("probability") >= NEARLY_ONE)["intensity"].min()
-        for _, rows in own.group_by("model", maintain_order=True)
+        for _, rows in curves.group_by("model", maintain_order=True)
     ]
     ends = [float(end) for end in known if isinstance(end, float)]
-    seen = [observed(result, limit, str(model))[0] for model in own["model"].unique(maintain_order=True)]
-    points = np.concatenate([at[np.isfinite(at)] for at in seen])
+    seen = [observed(result, limit, str(model))[0] for model in curves["model"].unique(maintain_order=True)]
+    points = np.concatenate([intensities[np.isfinite(intensities)] for intensities in seen])
     nearly = [1.15 * max(ends)] if ends else []
     nearly += [1.25 * float(points.max())] if points.size else []
     return min(nearly) if nearly else None
@@ -107,18 +107,18 @@ def _looks(result: FragilityAnalysis) -> dict[str, tuple[dict[str, Any], str]]:
 def _curve(
     axes: Axes, result: FragilityAnalysis, limit: LimitState, model: str, look: dict[str, Any], marker: str
 ) -> None:
-    own = result.curves.filter(limit=limit.name, model=model)
-    x = own["intensity"].to_numpy()
+    curve = result.curves.filter(limit=limit.name, model=model)
+    x = curve["intensity"].to_numpy()
     y, low, high = (
-        own[name].cast(pl.Float64).fill_null(np.nan).to_numpy()
+        curve[name].cast(pl.Float64).fill_null(np.nan).to_numpy()
         for name in ("probability", "probability_low", "probability_high")
     )
     axes.fill_between(x, low, high, color=look["color"], alpha=0.15, linewidth=0.0)
     axes.plot(x, y, **look, linewidth=1.8, gid=f"{limit.name}:{model}")
-    at, share = observed(result, limit, model)
-    seen = at <= x[-1]
+    intensities, share = observed(result, limit, model)
+    seen = intensities <= x[-1]
     axes.plot(
-        at[seen],
+        intensities[seen],
         share[seen],
         color=look["color"],
         linestyle="",
@@ -135,8 +135,8 @@ def observed(result: FragilityAnalysis, limit: LimitState, model: str) -> tuple[
     """
     if result.method == "hunt_fill":
         capacities = result.capacities.filter(limit=limit.name, model=model)
-        at = np.sort(capacities["capacity"].drop_nulls().to_numpy())
-        return at, (np.arange(1, len(at) + 1) - 0.5) / max(capacities.height, 1)
+        intensities = np.sort(capacities["capacity"].drop_nulls().to_numpy())
+        return intensities, (np.arange(1, len(intensities) + 1) - 0.5) / max(capacities.height, 1)
     if result.method == "cloud":
         return np.empty(0), np.empty(0)
     level = "stripe" if "stripe" in result.runs.columns else "intensity"
@@ -172,12 +172,12 @@ def demand_figure(result: FragilityAnalysis, limit: LimitState) -> Figure:
                 if len(fell):
                     axes.plot(scale * values[fell[0]], points[fell[0]], color=INK, marker="x", markersize=4.5)
             if fractiles is not None:
-                own = fractiles.filter(model=model)
+                rows = fractiles.filter(model=model)
                 for name, style in _FRACTILE_LOOKS.items():
-                    value = own[name].fill_null(np.nan).to_numpy()
+                    value = rows[name].fill_null(np.nan).to_numpy()
                     shown = np.where(np.isfinite(value), scale * value, np.nan)
-                    at = np.append(0.0, own["level"].to_numpy())
-                    axes.plot(np.append(0.0, shown), at, color=SLIDE.colour, linestyle=style, linewidth=1.8)
+                    levels = np.append(0.0, rows["level"].to_numpy())
+                    axes.plot(np.append(0.0, shown), levels, color=SLIDE.colour, linestyle=style, linewidth=1.8)
             fallen = result.runs.filter(model=model, status="collapsed").height
             name = plain(model_name(model))
             axes.set_title(name if scaled or not fallen else f"{name}, {fallen} collapsed")
@@ -247,13 +247,13 @@ def analysis_text(result: FragilityAnalysis) -> str:
     share = f"{100.0 * result.metadata['confidence']:g} %"
     for limit in result.limits:
         lines += ["", f"limit     {limit.text}"]
-        own = result.fragilities.filter(limit=limit.name)
+        fragilities = result.fragilities.filter(limit=limit.name)
         names = {name: model_name(name) for name in result.models}
         width = max(map(len, names.values())) + 2
         lines.append(f"  {'':{width}}{'median capacity':24}dispersion [{share} interval over the motions]")
-        for row in own.iter_rows(named=True):
+        for row in fragilities.iter_rows(named=True):
             lines.append(f"  {names[row['model']]:{width}}{_fitted(row)}")
-        missing = [name for name in result.models if name not in own["model"].to_list()]
+        missing = [name for name in result.models if name not in fragilities["model"].to_list()]
         lines += [f"  {names[name]:{width}}has no such quantity" for name in missing]
         lines += [
             _ratio(row, result.reference) for row in result.comparison.filter(limit=limit.name).iter_rows(named=True)
@@ -269,13 +269,13 @@ def analysis_text(result: FragilityAnalysis) -> str:
 
 def _fitted(row: dict[str, Any]) -> str:
     if row["kind"] in ("never", "always", "falling", "none"):
-        said = {
+        words = {
             "never": f"never exceeded up to {row['highest']:.3g}",
             "always": f"always exceeded from {row['lowest']:.3g} on",
             "falling": "not exceeded more often at higher intensities: no curve",
             "none": "too few runs for a curve",
         }
-        return said[row["kind"]]
+        return words[row["kind"]]
     median = _known(row, "median", ".3g")
     if row["kind"] == "step":
         return f"{median:23} unknown, a step"
@@ -292,8 +292,8 @@ def _ratio(row: dict[str, Any], reference: str) -> str:
     if row["median_ratio"] is None or not math.isfinite(row["median_ratio"]):
         return f"  capacity of {model_name(row['model'])} over {model_name(reference)}: not known"
     interval = ends_text(row["median_ratio_low"], row["median_ratio_high"], infinite="none")
-    over = f"{model_name(row['model'])} over {model_name(reference)}"
-    return f"  capacity of {over}: {row['median_ratio']:.2f}{interval}"
+    words = f"{model_name(row['model'])} over {model_name(reference)}"
+    return f"  capacity of {words}: {row['median_ratio']:.2f}{interval}"
 
 
 def _exceedance(row: dict[str, Any], reference: str) -> str:
@@ -310,6 +310,6 @@ def _exceedance(row: dict[str, Any], reference: str) -> str:
         points = f"{100.0 * row['difference']:+.1f} points"
         ends = ends_text(row["difference_low"], row["difference_high"], "+.1f", scale=100.0, infinite="none")
         difference = f"; {points}{ends}"
-    said = "unknown" if row["probability"] is None else f"{100.0 * row['probability']:.1f} %"
-    model = f"at {row['intensity']:.3g}: {model_name(row['model'])} {said}"
+    share = "unknown" if row["probability"] is None else f"{100.0 * row['probability']:.1f} %"
+    model = f"at {row['intensity']:.3g}: {model_name(row['model'])} {share}"
     return f"  {model}, {model_name(reference)} {percent('reference')}{difference}"

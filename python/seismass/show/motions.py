@@ -76,12 +76,12 @@ def matching_figure(matched: MatchedRecord) -> Figure:
 
 
 def _spectra(matched: MatchedRecord, axes: Axes) -> None:
-    at = matched.wide_periods
+    wide_periods = matched.wide_periods
     axes.axvspan(matched.matched_periods[0], matched.matched_periods[-1], color=BLUE, alpha=0.07, linewidth=0.0)
-    axes.plot(at, matched.wide_before / STANDARD_GRAVITY, **BEFORE)
+    axes.plot(wide_periods, matched.wide_before / STANDARD_GRAVITY, **BEFORE)
     # Within the range every period that was judged, outside the few that are at hand.
-    outside = (at < matched.periods[0]) | (at > matched.periods[-1])
-    periods = np.concatenate([at[outside], matched.periods])
+    outside = (wide_periods < matched.periods[0]) | (wide_periods > matched.periods[-1])
+    periods = np.concatenate([wide_periods[outside], matched.periods])
     order = np.argsort(periods)
     after = np.concatenate([matched.wide_after[outside], matched.ordinates * matched.ratio_after])
     axes.plot(periods[order], after[order] / STANDARD_GRAVITY, **AFTER)
@@ -90,7 +90,7 @@ def _spectra(matched: MatchedRecord, axes: Axes) -> None:
         matched.periods, target * (1.0 - BAND), target * (1.0 + BAND), color=VERMILION, alpha=0.18, linewidth=0.0
     )
     axes.plot(matched.periods, target, color=VERMILION, linewidth=1.4, linestyle=(0, (1, 1)))
-    _period_axis(axes, at[0], at[-1])
+    _period_axis(axes, wide_periods[0], wide_periods[-1])
     axes.set_ylim(0.0, None)
     axes.set_xlabel("period (s)")
     axes.set_ylabel(f"pseudo-acceleration, {100.0 * matched.damping:g} % (g)")
@@ -138,8 +138,8 @@ def _husid(matched: MatchedRecord, axes: Axes) -> None:
     axes.set_xlabel("time (s)")
     axes.set_ylabel("Arias intensity (%)")
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
-    said = f"{matched.original.arias:.2f} to {matched.record.arias:.2f} m/s,\napart by {matched.husid_difference:.0%}"
-    axes.text(0.97, 0.08, said, transform=axes.transAxes, ha="right", va="bottom", fontsize=7.5, color=INK)
+    words = f"{matched.original.arias:.2f} to {matched.record.arias:.2f} m/s,\napart by {matched.husid_difference:.0%}"
+    axes.text(0.97, 0.08, words, transform=axes.transAxes, ha="right", va="bottom", fontsize=7.5, color=INK)
 
 
 def _histories(matched: MatchedRecord, panels: list[Axes], last: Axes) -> None:
@@ -183,7 +183,7 @@ _SHOWN = 0.999
 
 def pulse_figure(result: PulseResult) -> Figure:
     """Velocity, extracted pulse, residual, and both cumulative squared velocities with the test of early arrival."""
-    one = result.chosen
+    one = result.primary
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.4, 6.6), layout="constrained")
         panels = figure.subplots(4, 1, sharex=True, height_ratios=(1.0, 1.0, 1.0, 1.3))
@@ -242,18 +242,18 @@ def _arrival(axes: Axes, method: str, one: Candidate, time: FloatArray) -> None:
 
 
 def _title(result: PulseResult) -> str:
-    one = result.chosen
-    found = {
+    one = result.primary
+    kind = {
         "pulse": f"pulse-like, $T_p$ = {one.period:.2f} s",
         "ambiguous": "ambiguous",
         "no pulse": "no pulse",
     }[one.kind]
     names = " and ".join(name or "(unnamed)" for name in result.names)
-    return f"{plain(names)}: {found}"
+    return f"{plain(names)}: {kind}"
 
 
 def _caption(result: PulseResult) -> str:
-    one = result.chosen
+    one = result.primary
     where = ""
     if len(result.names) == 2:
         where = f" in the direction {one.angle:.0f}° from the first component to the second"
@@ -282,9 +282,11 @@ def orientation_figure(scan: OrientationScan) -> Figure:
         for axes, (name, values, label) in zip(panels, rows, strict=True):
             axes.plot(angles, values, color=GREY, linewidth=0.7, zorder=1)
             for kind, (marker, colour) in markers.items():
-                at = kinds == kind
+                mask = kinds == kind
                 edge = {} if marker == "x" else {"markeredgecolor": INK}
-                axes.plot(angles[at], values[at], linestyle="none", marker=marker, color=colour, markersize=5.5, **edge)
+                axes.plot(
+                    angles[mask], values[mask], linestyle="none", marker=marker, color=colour, markersize=5.5, **edge
+                )
             axes.set_ylabel(label)
             axes.set_ylim(0.0, 1.04 if name == "indicator" else 1.15 * values.max())
             axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
@@ -354,8 +356,8 @@ def _draw(record: Record, panels: list[Axes]) -> None:
         axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     panels[-1].set_xlabel("time (s)")
     panels[0].figure.align_ylabels(panels)
-    said = ", ".join(part for part in (record.event, record.station, record.component) if part)
-    title = (record.name or "(unnamed)") + (", synthetic" if record.synthetic else "") + (f"  ({said})" if said else "")
+    note = ", ".join(part for part in (record.event, record.station, record.component) if part)
+    title = (record.name or "(unnamed)") + (", synthetic" if record.synthetic else "") + (f"  ({note})" if note else "")
     whole = panels[0].figure
     width = int(CAPTION_CHARACTERS * panels[0].get_position().width * whole.bbox.width / whole.dpi)
     lines = [plain(textwrap.fill(text, max(width, 20))) for text in (title, *drift_remarks(record))]
@@ -367,8 +369,8 @@ def _arias(record: Record, axes: Axes, built: FloatArray) -> None:
     axes.plot(record.time, built, color=BLUE, linewidth=1.2)
     bounds = [time_of_share(record.acceleration, record.dt, share) for share in (0.05, 0.95)]
     look: Any = {"color": VERMILION, "linestyle": (0, (4, 2)), "linewidth": 1.0}
-    for at in bounds:
-        axes.axvline(at, **look)
+    for bound in bounds:
+        axes.axvline(bound, **look)
     axes.axvspan(*bounds, color=VERMILION, alpha=0.08, linewidth=0.0)
     axes.set_ylim(0.0, 1.08 * record.arias or 1.0)
     axes.set_ylabel("Arias (m/s)")
@@ -472,9 +474,9 @@ def scaling_lines(scaling: ScalingResult, remarks: Sequence[str]) -> list[str]:
         f"SF2 = {scaling.common:.6f}"
     )
     if len(scaling.names) > 1:
-        at = float(np.interp(np.log(scaling.period), np.log(scaling.periods), scaling.log_scatter))
+        scatter = float(np.interp(np.log(scaling.period), np.log(scaling.periods), scaling.log_scatter))
         lines.append(
-            f"scatter {float(scaling.log_scatter.mean()):.3f} between the motions over the range, {at:.3f} at T "
+            f"scatter {float(scaling.log_scatter.mean()):.3f} between the motions over the range, {scatter:.3f} at T "
             "(standard deviation of ln Sa)"
         )
     return lines

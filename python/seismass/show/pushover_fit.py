@@ -68,39 +68,39 @@ def pushover_fit_figure(fit: PushoverFit, name: str | None = None) -> Figure:
         for number, axes in enumerate(place.axes):
             drift, shear, fitted = (1e3 * fit.drift[number], 1e-3 * fit.shear[number], 1e-3 * fit.fitted[number])
             every = max(1, len(drift) // 40)
-            given = axes.plot(drift, shear, "o", markersize=3.0, color=INK, markevery=every, label="curve")[0]
-            at, force = ([], []) if fit.of_roof else _corners(fit, number)
-            along = np.argsort([*drift, *at], kind="stable")
-            bent = np.array([*drift, *at])[along], np.array([*fitted, *force])[along]
+            handle = axes.plot(drift, shear, "o", markersize=3.0, color=INK, markevery=every, label="curve")[0]
+            corner_drifts, force = ([], []) if fit.of_roof else _corners(fit, number)
+            along = np.argsort([*drift, *corner_drifts], kind="stable")
+            bent = np.array([*drift, *corner_drifts])[along], np.array([*fitted, *force])[along]
             line = axes.plot(*bent, color=BLUE, linewidth=1.5, label="springs")[0]
             corner = None
-            if at:
+            if corner_drifts:
                 corner = axes.plot(
-                    at, force, "o", markersize=7.0, markerfacecolor="none", color=VERMILION, label="corner"
+                    corner_drifts, force, "o", markersize=7.0, markerfacecolor="none", color=VERMILION, label="corner"
                 )[0]
             axes.set_ylim(bottom=0.0)
             axes.set_xlim(left=0.0)
-            of = "roof" if fit.of_roof else f"storey {number + 1}"
+            label = "roof" if fit.of_roof else f"storey {number + 1}"
             axes.set_title(
-                f"{of}: misfit {100 * fit.largest_misfit[number]:.2g} %, rms {100 * fit.rms_misfit[number]:.2g} %"
+                f"{label}: misfit {100 * fit.largest_misfit[number]:.2g} %, rms {100 * fit.rms_misfit[number]:.2g} %"
             )
             axes.set_xlabel("displacement of the roof (mm)" if fit.of_roof else "drift (mm)")
             grid_lines(axes)
         for axes in place.left:
             axes.set_ylabel("base shear (kN)" if fit.of_roof else "shear (kN)")
-        place.legend([given, line] if corner is None else [given, line, corner])
+        place.legend([handle, line] if corner is None else [handle, line, corner])
     return place.figure
 
 
 def _corners(fit: PushoverFit, storey: int) -> tuple[list[float], list[float]]:
     """Corners of a storey's spring within its curve, mm and kN."""
     first, strength = fit.corner_drift[storey], fit.yield_shear[storey]
-    at, force = [first], [strength]
+    corner_drifts, force = [first], [strength]
     overstrength, second = fit.overstrength[storey], fit.second_slope[storey]
     if overstrength > 1.0 and second > 0.0:
-        at.append(first * (1.0 + (overstrength - 1.0) / second))
+        corner_drifts.append(first * (1.0 + (overstrength - 1.0) / second))
         force.append(overstrength * strength)
-    within = np.array(at) <= fit.drift[storey][-1]
-    return [1e3 * x for x, known in zip(at, within, strict=True) if known], [
-        1e-3 * y for y, known in zip(force, within, strict=True) if known
+    is_drawn = np.array(corner_drifts) <= fit.drift[storey][-1]
+    return [1e3 * x for x, known in zip(corner_drifts, is_drawn, strict=True) if known], [
+        1e-3 * y for y, known in zip(force, is_drawn, strict=True) if known
     ]

@@ -111,9 +111,9 @@ def run_text(
     """
     scene, motion = response.scene, response.motion
     lines = [(scene.name if title is None else title) or "Response"]
-    said = scene.note if note is None else note
-    if said:
-        lines.append(f"  {said}")
+    words = scene.note if note is None else note
+    if words:
+        lines.append(f"  {words}")
     lines += [f"  {line}" for line in ([] if scene.building is None else _building_lines(scene.building, scene))]
     vertical = "" if motion.vertical is None else f", vertical {max(abs(motion.vertical)) / STANDARD_GRAVITY:.3f} g"
     name = (response.record.name if response.record else "") if source is None else source
@@ -244,7 +244,7 @@ def _block_table(scene: Scene, response: Response) -> list[list[str]]:
 
 
 def _mass_text(block: Block, mass: float, stated: bool) -> str:
-    """The mass of a block; over that of its floor where that is not stated, but for blocks on the ground."""
+    """The mass of a block; over that of its floor where that is not stated, except for blocks on the ground."""
     if stated:
         return f"{mass:.5g}"
     return f"{mass:.5g} kg" if block.mass_ratio is None else f"{block.mass_ratio:.5g}"

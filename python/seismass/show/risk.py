@@ -76,17 +76,19 @@ def _hazard(axes: Axes, result: RiskTargetedShare) -> None:
     axes.set_ylabel("annual rate of exceedance (1/year)")
     grid_lines(axes)
     other = axes.twinx()
-    at = np.geomspace(hazard.sa_g[0], hazard.sa_g[-1], 401)
+    sa_g = np.geomspace(hazard.sa_g[0], hazard.sa_g[-1], 401)
     for model, share, role, name in (
         ("real", None, SLIDE, SLIDE.name),
         ("attached", result.code_share, CODE, f"{CODE.name}, {result.code_share:g}"),
         ("attached", 1.0, ATTACHED, ATTACHED.name),
     ):
-        own = pl.col("share").is_null() if share is None else pl.col("share") == share
-        fit = result.fragilities.filter(own, model=model).row(0, named=True)
-        capacities = result.capacities.filter(own, model=model)["capacity"].sort().to_numpy()
+        is_share = pl.col("share").is_null() if share is None else pl.col("share") == share
+        fit = result.fragilities.filter(is_share, model=model).row(0, named=True)
+        capacities = result.capacities.filter(is_share, model=model)["capacity"].sort().to_numpy()
         if fit["dispersion"] > 0.0:
-            other.plot(at, ndtr(np.log(at / fit["median"]) / fit["dispersion"]), **role.look, linewidth=1.8, label=name)
+            other.plot(
+                sa_g, ndtr(np.log(sa_g / fit["median"]) / fit["dispersion"]), **role.look, linewidth=1.8, label=name
+            )
         levels: FloatArray = (np.arange(len(capacities)) + 0.5) / len(capacities)
         other.plot(capacities, levels, color=role.colour, linestyle="", marker=role.marker, markersize=3.5)
     other.set_ylim(0.0, 1.0)
@@ -137,12 +139,12 @@ def _rates(axes: Axes, result: RiskTargetedShare, codes: Mapping[str, float]) ->
 
 
 def _caption(result: RiskTargetedShare) -> str:
-    about = result.metadata
+    metadata = result.metadata
     hazard = result.hazard.label or "hazard as given"
-    tail = "hazard extrapolated beyond its ends" if about["extrapolate"] else "hazard cut at its ends"
-    damping = "C of the building" if about["damping"] == "same" else "ratio in the model's own modes"
+    tail = "hazard extrapolated beyond its ends" if metadata["extrapolate"] else "hazard cut at its ends"
+    damping = "C of the building" if metadata["damping"] == "same" else "ratio in the model's own modes"
     return plain(
-        f"{about['motions']} motions, scaled to all intensities; {result.estimator} fragilities; {hazard}, {tail}; "
+        f"{metadata['motions']} motions, scaled to all intensities; {result.estimator} fragilities; {hazard}, {tail}; "
         f"damping of the models: {damping}"
     )
 
@@ -163,22 +165,22 @@ _CHANGES: Final = (-30, 22, 10, 12, 16)
 def risk_text(result: RiskTargetedShare) -> str:
     """Return `RiskTargetedShare.text`."""
     percent = f"{100.0 * result.confidence:g} %"
-    about = result.metadata
-    motions = counted(about["motions"], "motion")
+    metadata = result.metadata
+    motions = counted(metadata["motions"], "motion")
     lines = [
         f"risk-targeted share  {result.value:.3f}{_interval(result.interval, percent)}",
         f"                     {KIND_TEXTS[result.kind]}",
         f"limit                {result.limit.text} under {motions}; {result.measure.label}, "
         f"{result.estimator} fragilities",
         f"hazard               {result.hazard.label or 'as given'}: {result.hazard.sa_g[0]:g} to "
-        f"{result.hazard.sa_g[-1]:g} g{', extrapolated' if about['extrapolate'] else ''}",
+        f"{result.hazard.sa_g[-1]:g} g{', extrapolated' if metadata['extrapolate'] else ''}",
     ]
     effective = result.effective
     if effective is not None:
-        level = result.hazard.intensity(about["design_rate"])
-        at = f"at {level:.3g} g, {1.0 / about['design_rate']:.0f} years"
+        level = result.hazard.intensity(metadata["design_rate"])
+        note = f"at {level:.3g} g, {1.0 / metadata['design_rate']:.0f} years"
         why = "" if math.isfinite(effective.value) else f": {EFFECTIVE_KINDS[effective.kind]}"
-        lines.append(f"effective fraction   {effective.value_text}{_interval(effective.interval, percent)} {at}{why}")
+        lines.append(f"effective fraction   {effective.value_text}{_interval(effective.interval, percent)} {note}{why}")
     lines += [
         "",
         f"Annual rate of exceeding the limit, with its {percent} interval over the motions",

@@ -80,13 +80,13 @@ def _by_block(axes: Axes, result: SlipDemand) -> None:
     """Slip of every motion by block, in the building and beside it on the ground."""
     labels = []
     for place, row in enumerate(result.blocks.iter_rows(named=True)):
-        own = result.runs.filter(block=row["block"], collapsed=False)
+        runs = result.runs.filter(block=row["block"], collapsed=False)
         lost = result.runs.filter(block=row["block"], collapsed=True).height
         for column, offset, colour, fill in (
             ("peak_slip", 0.14, SLIDE.colour, SLIDE.colour),
             ("ground_slip", -0.14, GREY, "white"),
         ):
-            values = 1e3 * own[column].to_numpy()
+            values = 1e3 * runs[column].to_numpy()
             axes.plot(
                 values,
                 np.full(len(values), place + offset),
@@ -123,9 +123,9 @@ def _against_acceleration(axes: Axes, result: SlipDemand) -> None:
     """Slip against friction over the peak acceleration of the floor with all goods attached."""
     handles = []
     for place, row in enumerate(result.blocks.iter_rows(named=True)):
-        own = result.runs.filter(block=row["block"], collapsed=False).drop_nulls("mu_over_attached")
+        runs = result.runs.filter(block=row["block"], collapsed=False).drop_nulls("mu_over_attached")
         look = {**SERIES[place % len(SERIES)], "linestyle": "", "marker": _MARKERS[place % len(_MARKERS)]}
-        axes.plot(own["mu_over_attached"], 1e3 * own["peak_slip"].to_numpy(), **look, markersize=4.5, alpha=0.8)
+        axes.plot(runs["mu_over_attached"], 1e3 * runs["peak_slip"].to_numpy(), **look, markersize=4.5, alpha=0.8)
         handles.append(Line2D([], [], **look, markersize=5.0, label=f"block {row['block']}"))
     axes.axvline(1.0, color=INK, linewidth=0.8)
     axes.set_xlim(0.0, max(1.1, axes.get_xlim()[1]))
@@ -144,12 +144,12 @@ def _fragilities(axes: Axes, result: SlipDemand) -> None:
     fits = result.fragilities.items()
     finite = [fit.median for _, fit in fits if np.isfinite(fit.median) and fit.median > 0.0]
     highest = 3.0 * max(finite, default=1.0)
-    at = np.linspace(0.0, highest, 301)
+    intensities = np.linspace(0.0, highest, 301)
     for place, (block, fit) in enumerate(fits):
         look = SERIES[place % len(SERIES)]
-        low, high = fit.band(at)
-        axes.fill_between(at, low, high, color=look["color"], alpha=0.15, linewidth=0.0)
-        axes.plot(at, fit.probability(at), **look, linewidth=1.8, label=f"block {block}")
+        low, high = fit.band(intensities)
+        axes.fill_between(intensities, low, high, color=look["color"], alpha=0.15, linewidth=0.0)
+        axes.plot(intensities, fit.probability(intensities), **look, linewidth=1.8, label=f"block {block}")
     axes.set_xlim(0.0, highest)
     axes.set_ylim(0.0, 1.0)
     measure = result.metadata["measure"]
@@ -160,9 +160,9 @@ def _fragilities(axes: Axes, result: SlipDemand) -> None:
 
 
 def _caption(result: SlipDemand) -> str:
-    about = result.metadata
+    metadata = result.metadata
     rocking = result.squat.filter(result.squat["rocks_first"])["block"].to_list()
-    notes = [f"{about['motions']} motions", "slip of rigid blocks that do not rock and meet no obstacle"]
+    notes = [f"{metadata['motions']} motions", "slip of rigid blocks that do not rock and meet no obstacle"]
     if rocking:
         notes.append(f"block {', '.join(map(str, rocking))} would rock before it slides")
     return plain("; ".join(notes))
@@ -236,8 +236,8 @@ def _directions(result: SlipDemand) -> list[str]:
     ]
     for row in result.blocks.iter_rows(named=True):
         of_axes = (f"{_mm(row[f'{axis}_mean'])}, {_mm(row[f'{axis}_largest'])}" for axis in "xy")
-        over = (number_text(row[name]) for name in ("over_one_direction", "length_over_one_direction"))
-        lines.append(text_line((f"{row['block']}, {_place(row)}", *of_axes, _mm(row["path_mean"]), *over), _DIRECTIONS))
+        rest = (number_text(row[name]) for name in ("over_one_direction", "length_over_one_direction"))
+        lines.append(text_line((f"{row['block']}, {_place(row)}", *of_axes, _mm(row["path_mean"]), *rest), _DIRECTIONS))
     return [*lines, "  in each: means of the peaks in x and in y over those of each direction under its motion alone"]
 
 
@@ -248,7 +248,7 @@ def _contacts(result: SlipDemand) -> list[str]:
     lines = ["Stops: share of motions that touch, velocity at contact (m/s) and contact force (kN), 84 % and largest"]
     for row in result.blocks.filter(pl.col("touches") > 0.0).iter_rows(named=True):
         velocity = f"{number_text(row['contact_velocity_p84'])}, {number_text(row['contact_velocity_largest'])} m/s"
-        force = ", ".join(number_text(row[f"contact_force_{of}"], scale=1e-3) for of in ("p84", "largest"))
+        force = ", ".join(number_text(row[f"contact_force_{end}"], scale=1e-3) for end in ("p84", "largest"))
         name = f"{row['block']}, {_place(row)}"
         lines.append(f"  {name:16}{_percent(row['touches']):>8}   {velocity:24}{force} kN")
     return lines if len(lines) > 1 else [f"{lines[0][:5]}: no goods touch any"]

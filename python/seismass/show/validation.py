@@ -62,8 +62,8 @@ def section4_figure(result: Section4, component: str, second_slope: float) -> Fi
                 axes.set_ylabel("mm")
                 if np.abs(getattr(exact, name)[:, storey]).max() == 0.0:
                     axes.set_ylim(-1.0, 1.0)
-                    said = "does not slide" if name == "slip" else "does not drift"
-                    axes.text(0.5, 0.62, said, transform=axes.transAxes, ha="center", fontsize=8.0)
+                    words = "does not slide" if name == "slip" else "does not drift"
+                    axes.text(0.5, 0.62, words, transform=axes.transAxes, ha="center", fontsize=8.0)
         for axes in panels[-1]:
             axes.set_xlabel("time (s)")
         figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False)
@@ -169,11 +169,11 @@ _WIDTH: Final = 100
 
 def validation_text(result: Validation) -> str:
     """Return the validations as lines to read: the motions, the comparison of programs, the claims."""
-    about = result.metadata()
+    metadata = result.metadata()
     lines = [
-        f"study      {about['suite']}",
-        f"section 4  {about['section4_motion']}",
-        f"platform   {about['platform_motion']}",
+        f"study      {metadata['suite']}",
+        f"section 4  {metadata['section4_motion']}",
+        f"platform   {metadata['platform_motion']}",
         "",
         "Section 4: largest difference from the exact kernel",
         *differences_text(result.section4),
@@ -209,12 +209,12 @@ def claim_text(claim: Claim) -> list[str]:
     return text
 
 
-def claims_markdown(found: list[Claim]) -> str:
+def claims_markdown(claims: list[Claim]) -> str:
     """Return the claims as a table in Markdown."""
     rows = [
         f"| {claim.number} | {claim.claim} ({claim.source}) | **{claim.verdict}** | {claim.numbers} "
         f"| {claim.depends_on or '-'} |"
-        for claim in found
+        for claim in claims
     ]
     return "\n".join(["| | claim | verdict | our numbers | depends on |", "| --- | --- | --- | --- | --- |", *rows])
 

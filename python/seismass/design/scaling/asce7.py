@@ -53,15 +53,15 @@ def scale_asce7_10(
         of its components as they are; the factor is that of both.
     target : TargetSpectrum
         Design spectrum.
-    period : float
+    period : float, default 1.0
         Fundamental period T (s) for which the suite is scaled.
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping of the spectra.
-    period_range : tuple of float
+    period_range : tuple of float, optional
         Range of the comparison as multiples of T.
-    count : int
+    count : int, default 100
         Periods in the range, in geometric spacing, ends included, at which motions are fitted and the result is shown.
-    between : bool
+    between : bool, default True
         Whether the mean is held above the target between these periods, too: at ten times as many, and around the
         lowest of those. False, at these periods alone, where it may be lower between two by some tenths of a per
         cent: so the study, the assessment, the maps and the live page scale, as the paper does.
@@ -82,9 +82,9 @@ def scale_asce7_10(
     Spectra 28:1205, in the logarithm: ln SF1_i = mean over T_j of ln A_t - ln A_i, then SF2 = max over T_j of A_t over
     the mean of SF1_i A_i.
     """
-    given = _given(records)
+    listed = _listed_records(records)
     suite = suite_spectra(
-        _first_components(given),
+        _first_components(listed),
         target,
         period,
         damping=damping,
@@ -93,19 +93,19 @@ def scale_asce7_10(
         threads=threads,
         least=(3, "ASCE/SEI 7-10, 16.1.3"),
     )
-    if any(_is_pair(item) for item in given):
-        names = tuple(item.name or name for item, name in zip(given, suite.names, strict=True))
+    if any(_is_pair(item) for item in listed):
+        names = tuple(item.name or name for item, name in zip(listed, suite.names, strict=True))
         suite = replace(
-            suite, spectra=frozen(spectra_of(given, suite.periods, suite.damping, threads=threads)), names=names
+            suite, spectra=frozen(spectra_of(listed, suite.periods, suite.damping, threads=threads)), names=names
         )
     individual = suite.log_factors()
     common = suite.common_factor(individual, 1.0)
     if as_flag(between, "between", "scaling", InvalidOption):
-        common = max(common, 1.0 / _least_between(suite, given, target, individual, threads))
+        common = max(common, 1.0 / _least_between(suite, listed, target, individual, threads))
     return suite.result("ASCE 7-10", individual, common)
 
 
-def _given(records: Any) -> list[Any]:
+def _listed_records(records: Any) -> list[Any]:
     """Motions and pairs as a list."""
     single = hasattr(records, "acceleration") or not isinstance(records, Iterable)
     return as_motions(records, "scaling") if single else list(records)
@@ -115,19 +115,19 @@ def _is_pair(item: Any) -> bool:
     return hasattr(item, "at_angles")
 
 
-def _first_components(given: list[Any]) -> list[Any]:
+def _first_components(records: list[Any]) -> list[Any]:
     """Motions, and the first component of each pair."""
-    return [item.first if _is_pair(item) else item for item in given]
+    return [item.first if _is_pair(item) else item for item in records]
 
 
 def spectra_of(
-    given: list[Any], periods: FloatArray, damping: float = 0.05, *, threads: int | None = None
+    records: list[Any], periods: FloatArray, damping: float = 0.05, *, threads: int | None = None
 ) -> FloatArray:
     """Return spectra of motions (m/s2, motions x periods); of a pair the geometric mean of its components'."""
-    if not any(_is_pair(item) for item in given):
-        alone: FloatArray = response_spectrum(given, periods, damping, threads=threads)
+    if not any(_is_pair(item) for item in records):
+        alone: FloatArray = response_spectrum(records, periods, damping, threads=threads)
         return alone
-    both = [_first_components(given), [item.second if _is_pair(item) else item for item in given]]
+    both = [_first_components(records), [item.second if _is_pair(item) else item for item in records]]
     first, second = (response_spectrum(each, periods, damping, threads=threads) for each in both)
     check_not_zero(second)
     mean: FloatArray = np.sqrt(first * second)
@@ -136,7 +136,7 @@ def spectra_of(
 
 def _least_between(
     suite: SuiteSpectra,
-    given: list[Any],
+    records: list[Any],
     target: TargetSpectrum,
     individual: FloatArray,
     threads: int | None,
@@ -145,16 +145,16 @@ def _least_between(
 
     def over(periods: FloatArray) -> FloatArray:
         ratios: FloatArray = np.mean(
-            individual[:, None] * spectra_of(given, periods, suite.damping, threads=threads), axis=0
+            individual[:, None] * spectra_of(records, periods, suite.damping, threads=threads), axis=0
         )
         ratios /= target(periods)
         return ratios
 
     first, last = suite.periods[0], suite.periods[-1]
-    between = np.geomspace(first, last, REFINED * (len(suite.periods) - 1) + 1)
-    ratios = over(between)
-    step = between[1] / between[0]
-    lowest = between[np.argsort(ratios)[:LOWEST]]
+    grid = np.geomspace(first, last, REFINED * (len(suite.periods) - 1) + 1)
+    ratios = over(grid)
+    step = grid[1] / grid[0]
+    lowest = grid[np.argsort(ratios)[:LOWEST]]
     near = np.clip((lowest[:, None] * np.geomspace(1.0 / step, step, 2 * REFINED + 1)).ravel(), first, last)
     return min(float(ratios.min()), float(over(np.unique(near)).min()))
 
@@ -186,11 +186,11 @@ def scale_asce7_16(
         Its modes say which period takes part with 90 % of the mass.
     lowest_period : float, optional
         That period (s), where no building is given. The range begins at it where it is below 0.2 T, else at 0.2 T.
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping of the spectra.
-    longest : float
+    longest : float, default 2.0
         Upper end of the range as a multiple of T; the standard permits a lower one, down to 1.5, where it is justified.
-    count : int
+    count : int, default 100
         Periods in the range, in geometric spacing, ends included.
     threads : int, optional
         Number of threads; default all cores.
@@ -220,9 +220,9 @@ def scale_asce7_16(
     if upper < 1.5:
         raise refusal(InvalidOption, "longest", "scaling", "at least 1.5 (ASCE/SEI 7-16, 16.2.3.1)", f"{upper:g}")
     lowest = np.inf if lowest_period is None else positive_number(lowest_period, "lowest_period")
-    given = _given(records)
-    pairs = [item for item in given if _is_pair(item)]
-    motions = _first_components(given)
+    listed = _listed_records(records)
+    pairs = [item for item in listed if _is_pair(item)]
+    motions = _first_components(listed)
     suite = suite_spectra(
         motions,
         target,
@@ -234,7 +234,7 @@ def scale_asce7_16(
         least=(MOTIONS_7_16, "ASCE/SEI 7-16, 16.2.2"),
     )
     if pairs:
-        suite = _of_pairs(suite, given, threads)
+        suite = _of_pairs(suite, listed, threads)
     individual = suite.log_factors()
     common = suite.common_factor(individual, SHARE_7_16)
     return suite.result("ASCE 7-16", individual, common, _notes(len(pairs), len(motions), lowest_period is None))
@@ -242,30 +242,30 @@ def scale_asce7_16(
 
 def _notes(pairs: int, motions: int, without_modes: bool) -> list[str]:
     """What a two-dimensional model cannot honour of the standard, and what is left to the user."""
-    found = []
+    notes = []
     if pairs < motions:
-        found.append(
+        notes.append(
             f"{motions - pairs} of {motions} are single components: ASCE 7-16 scales the maximum-direction spectra of "
             "pairs, which are above those of a component as recorded, so these factors are larger than the standard's"
         )
-    found.append(
+    notes.append(
         "the target of ASCE 7-16 is MCE_R in the maximum direction, 1.5 times the design spectrum; the one given is "
         "taken as it is"
     )
-    found.append(
+    notes.append(
         "near a fault the standard keeps fault-normal and fault-parallel components apart and asks for a fitting share "
         "of motions with a velocity pulse; a model in one plane takes one component and cannot honour that"
     )
     if without_modes:
-        found.append("the range begins at 0.2 T; the period of 90 % of the mass, if it is shorter, was not given")
-    return found
+        notes.append("the range begins at 0.2 T; the period of 90 % of the mass, if it is shorter, was not given")
+    return notes
 
 
-def _of_pairs(suite: SuiteSpectra, given: list[Any], threads: int | None) -> SuiteSpectra:
+def _of_pairs(suite: SuiteSpectra, pairs: list[Any], threads: int | None) -> SuiteSpectra:
     """The suite with the maximum-direction spectra and the names of pairs."""
     spectra, names = suite.spectra.copy(), list(suite.names)
     turns = np.arange(DIRECTIONS) * (180.0 / DIRECTIONS)
-    for index, item in enumerate(given):
+    for index, item in enumerate(pairs):
         if _is_pair(item):
             directions = [Motion(row, item.dt) for row in item.at_angles(turns)]
             ordinates = response_spectrum(directions, suite.periods, suite.damping, threads=threads)

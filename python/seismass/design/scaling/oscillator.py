@@ -26,9 +26,9 @@ class FirstModeOscillator(Card):
         Initial period T1 (s).
     yield_acceleration : float
         A_y (m/s2): F at the first yield, V_b1y/M1*. Infinite: elastic.
-    overstrength, second_slope, third_slope : float
+    overstrength, second_slope, third_slope : float, optional
         Second yield over the first, and slopes over the initial one.
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping.
     """
 
@@ -145,24 +145,24 @@ def _idealised(building: Building, shares: FloatArray) -> tuple[float, float, fl
     keep = np.append(np.diff(corners) > 1e-12 * ultimate, True)
     corners = corners[keep]
     corners[-1] = ultimate
-    at = pushover_curve(building, shares, corners)
+    curve = pushover_curve(building, shares, corners)
     initial = float(1.0 / np.sum(shares / building.stiffness))  # N/m of base shear over roof displacement
-    area = float(np.trapezoid(corners, at))
-    u, v = float(at[-1]), float(corners[-1])
-    behind = _slope_behind(building, shares, ultimate) / initial
+    area = float(np.trapezoid(corners, curve))
+    u, v = float(curve[-1]), float(corners[-1])
+    slope_after = _slope_behind(building, shares, ultimate) / initial
     gap = u - v / initial
     if gap <= 1e-12 * u:  # the curve is straight up to there
-        return v, 1.0, behind, behind
+        return v, 1.0, slope_after, slope_after
     first = (2.0 * area - v * u) / gap
     slope = (v - first) / (u - first / initial) / initial
-    return first, v / first, slope, min(behind, slope)
+    return first, v / first, slope, min(slope_after, slope)
 
 
 def _slope_behind(building: Building, shares: FloatArray, base_shear: float) -> float:
     """Slope (N/m) of the curve just after a base shear."""
-    beyond = shares * base_shear * (1.0 + 1e-9)
+    larger_shear = shares * base_shear * (1.0 + 1e-9)
     v_y, v_u = building.yield_shear, building.overstrength * building.yield_shear
-    slope = np.where(beyond > v_u, building.third_slope, np.where(beyond > v_y, building.second_slope, 1.0))
+    slope = np.where(larger_shear > v_u, building.third_slope, np.where(larger_shear > v_y, building.second_slope, 1.0))
     if (slope == 0.0).any():
         return 0.0
     return float(1.0 / np.sum(shares / (slope * building.stiffness)))

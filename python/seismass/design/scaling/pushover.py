@@ -119,9 +119,9 @@ def scale_modal_pushover(
         A_y/g: yield strength of the oscillator over its weight. Either it or the next is needed without a building.
     reduction : float, optional
         R_y: A_t(T1) over the yield acceleration A_y.
-    overstrength, second_slope, third_slope, damping : float
+    overstrength, second_slope, third_slope, damping : float, optional
         The oscillator's, as for `Building`; left out with a building, which has its own.
-    deformation : {"ratio", "median"}
+    deformation : {"ratio", "median"}, default "ratio"
         Target deformation D_t: C_R times the elastic one, or the median over the suite of the inelastic deformation of
         the motions scaled to A_t(T1).
     corner_period : float, optional
@@ -157,7 +157,7 @@ def scale_modal_pushover(
         raise refusal(InvalidOption, "deformation", "scaling", choices, brief(deformation))
     springs = {"overstrength": overstrength, "second_slope": second_slope, "third_slope": third_slope}
     oscillator = (
-        _given_oscillator(target, period, yield_coefficient, reduction, damping, springs)
+        _oscillator_of_options(target, period, yield_coefficient, reduction, damping, springs)
         if building is None
         else _of_building(building, period, yield_coefficient, reduction)
     )
@@ -183,7 +183,7 @@ def scale_modal_pushover(
         ratio = float(np.median(search.deformations(np.arange(len(suite)), demand / elastic))) / demand
     wanted = ratio * demand
     roots = search.roots(wanted)
-    factors = np.array([found[np.argmin(np.abs(np.log(found)))] for found in roots])
+    factors = np.array([crossings[np.argmin(np.abs(np.log(crossings)))] for crossings in roots])
     reached = search.deformations(np.arange(len(suite)), factors)
     second = None if building is None else _second_mode(building, suite, target, factors, oscillator.damping, threads)
     notes = _notes(compared.names, roots, deformation, strength, oscillator, corner)
@@ -195,7 +195,7 @@ def scale_modal_pushover(
         deformation_ratio=ratio,
         target_deformation=wanted,
         deformations=frozen(reached),
-        roots=tuple(frozen(found) for found in roots),
+        roots=tuple(frozen(crossings) for crossings in roots),
         second_mode_ratio=second,
     )
 
@@ -211,12 +211,12 @@ def _second_mode(
     """Scaled over target pseudo-acceleration at the second period."""
     if building.storeys == 1 or not target.shortest <= building.periods[1] <= target.longest:
         return None
-    at = float(building.periods[1])
-    ordinates = response_spectrum(suite, [at], damping, threads=threads)[:, 0]
-    return frozen(factors * ordinates / float(target(at)))
+    period = float(building.periods[1])
+    ordinates = response_spectrum(suite, [period], damping, threads=threads)[:, 0]
+    return frozen(factors * ordinates / float(target(period)))
 
 
-def _given_oscillator(
+def _oscillator_of_options(
     target: TargetSpectrum, period: Any, yield_coefficient: Any, reduction: Any, damping: Any, springs: dict[str, Any]
 ) -> FirstModeOscillator:
     if (yield_coefficient is None) == (reduction is None):
@@ -255,15 +255,15 @@ def _notes(
         else "the median of the suite scaled to the elastic target"
     )
     target = "the oscillator stays elastic, R_y <= 1" if strength <= 1.0 else f"target deformation by {source}"
-    found = [
+    notes = [
         f"first mode alone, an oscillator of {oscillator.period:.4g} s with R_y = {strength:.3g}; {target}; "
         "nothing keeps the mean spectrum above the target"
     ]
     for number, (name, several) in enumerate(zip(names, roots, strict=True), start=1):
         if len(several) > 1:
             listed = ", ".join(f"{value:.4g}" for value in several)
-            found.append(f"motion {number} ({name}) reaches the target deformation at several factors: {listed}")
-    return found
+            notes.append(f"motion {number} ({name}) reaches the target deformation at several factors: {listed}")
+    return notes
 
 
 def _p_delta_notes(building: Building) -> list[str]:
@@ -313,8 +313,8 @@ class _Search:
             middle = 0.5 * (low + high)
             below = self.deformations(motion, np.exp(middle)) < wanted
             low, high = np.where(below == rising, middle, low), np.where(below == rising, high, middle)
-        found = np.exp(0.5 * (low + high))
-        return [found[motion == number] for number in range(len(self._elastic))]
+        factors = np.exp(0.5 * (low + high))
+        return [factors[motion == number] for number in range(len(self._elastic))]
 
     def _brackets(self, wanted: float) -> tuple[Any, FloatArray, FloatArray]:
         """Motion, and ln of the factors around each passage of the target, from the factor at yield up."""
@@ -338,8 +338,8 @@ class _Search:
                 log_factors = np.append(log_factors, more)
                 peaks = np.append(peaks, self.deformations(np.full(steps, number), np.exp(more)))
             below = peaks < wanted
-            at = np.flatnonzero(below[:-1] != below[1:])
-            motions += [number] * len(at)
-            lows.append(log_factors[at])
-            highs.append(log_factors[at + 1])
+            intervals = np.flatnonzero(below[:-1] != below[1:])
+            motions += [number] * len(intervals)
+            lows.append(log_factors[intervals])
+            highs.append(log_factors[intervals + 1])
         return np.array(motions), np.concatenate(lows), np.concatenate(highs)

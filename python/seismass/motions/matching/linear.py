@@ -38,14 +38,14 @@ class Stopped(Exception):
     """The suite that a motion belongs to is given up."""
 
 
-STOP: Final[ContextVar[Event | None]] = ContextVar("STOP", default=None)
+CANCELLED: Final[ContextVar[Event | None]] = ContextVar("STOP", default=None)
 """Set where the threads of a suite are to end, as on Ctrl-C; none in a thread that matches one motion alone."""
 
 
-def end_if_stopped() -> None:
+def end_if_cancelled() -> None:
     """Raise `Stopped` where the event of this thread is set."""
-    stop = STOP.get()
-    if stop is not None and stop.is_set():
+    cancelled = CANCELLED.get()
+    if cancelled is not None and cancelled.is_set():
         raise Stopped
 
 
@@ -103,7 +103,7 @@ def exact_product(left: FloatArray, right: FloatArray) -> FloatArray:
     width = SINGLE_THREAD // (height * depth)
     result = np.zeros((rows, columns))
     for top in range(0, rows, height):
-        end_if_stopped()
+        end_if_cancelled()
         for start in range(0, columns, width):
             tile = result[top : top + height, start : start + width]
             for first in range(0, inner, depth):
@@ -148,20 +148,20 @@ def _by_cholesky(matrix: FloatArray, right: FloatArray) -> FloatArray:
     rest = matrix * scale * scale[:, None]
     factors = []
     for start in range(0, len(right), BLOCK):
-        own, below = slice(start, start + BLOCK), slice(start + BLOCK, None)
-        inverse = _inverse_factor(rest[own, own])
-        panel = product(_halves_below_1(rest[below, own]), halves(inverse))
+        block, below = slice(start, start + BLOCK), slice(start + BLOCK, None)
+        inverse = _inverse_factor(rest[block, block])
+        panel = product(_halves_below_1(rest[below, block]), halves(inverse))
         _subtract_square(rest[below, below], _halves_below_1(panel))
-        factors.append((own, below, inverse, panel))
+        factors.append((block, below, inverse, panel))
     solution = np.zeros(len(right))
     for _ in range(REFINED):
         change = (right - np.einsum("ij,j->i", matrix, solution)) * scale
-        for own, below, inverse, panel in factors:
-            change[own] = np.einsum("ij,j->i", inverse, change[own])
-            change[below] -= np.einsum("ij,j->i", panel, change[own])
-        for own, below, inverse, panel in reversed(factors):
-            moved = change[own] - np.einsum("ij,i->j", panel, change[below])
-            change[own] = np.einsum("ij,i->j", inverse, moved)
+        for block, below, inverse, panel in factors:
+            change[block] = np.einsum("ij,j->i", inverse, change[block])
+            change[below] -= np.einsum("ij,j->i", panel, change[block])
+        for block, below, inverse, panel in reversed(factors):
+            moved = change[block] - np.einsum("ij,i->j", panel, change[below])
+            change[block] = np.einsum("ij,i->j", inverse, moved)
         solution += change * scale
     return solution
 
@@ -278,9 +278,7 @@ class Extrema:
 
 
 class Oscillators:
-    """Oscillators of one damping ratio (from 0, below 1) at one time step (s); natural periods (s) are at least four
-    time steps.
-    """
+    """Oscillators of a damping ratio (from 0, below 1) at a time step (s), of periods (s) of at least four steps."""
 
     def __init__(self, periods: FloatArray, damping: float, dt: float) -> None:
         self.periods, self.damping, self.dt = periods, damping, dt
@@ -296,17 +294,17 @@ class Oscillators:
         pole = complex_exp(scaled(rate, dt))
         back, further = -2.0 * pole.real, exp(2.0 * dt * rate.real)
         # Displacement at the instant of such a sample and at the two after it.
-        at = self._ramp(np.arange(len(periods)), np.full(len(periods), dt)) / dt
+        ramp = self._ramp(np.arange(len(periods)), np.full(len(periods), dt)) / dt
         once = times(self.weight, pole)
         after, later = once.real, times(once, pole).real
-        self.numerator = np.array([at, after + back * at, later + back * after + further * at]).T
+        self.numerator = np.array([ramp, after + back * ramp, later + back * after + further * ramp]).T
         self.denominator = np.array([np.ones(len(periods)), back, further]).T
         # Displacement at the end of a step: by what is there at its start, and by the acceleration at both ends.
         # By a constant acceleration of 1 m/s2.
         step = -1.0 / omega**2 - times(times(self.free, rate), pole).real
         self.from_displacement = pole.real - rate.real / rate.imag * pole.imag
         self.from_velocity = pole.imag / rate.imag
-        self.from_start, self.from_end = step - at, at
+        self.from_start, self.from_end = step - ramp, ramp
 
     def response(self, index: int, acceleration: FloatArray) -> FloatArray:
         """Return the relative displacement (m) of one oscillator at the samples, from rest at the first."""
@@ -326,18 +324,18 @@ class Oscillators:
         samples = np.concatenate([acceleration, np.zeros(longest)])
         rows: list[Any] = []
         for number, period in enumerate(self.periods):
-            end_if_stopped()
+            end_if_cancelled()
             end = len(acceleration) + int(np.ceil(period / self.dt)) + 3
             moved = self.response(number, samples[:end])
             size = np.abs(moved)
             peak = (size[1:-2] >= size[:-3]) & (size[1:-2] > size[2:-1])
-            at = np.flatnonzero(peak & (size[1:-2] >= UNDERSHOOT * share * size.max())) + 1
-            rows.append((np.full(len(at), number), at, moved[at - 1], moved[at], moved[at + 1]))
-        index, at, before, here, after = (np.concatenate(part) for part in zip(*rows, strict=True))
+            tops = np.flatnonzero(peak & (size[1:-2] >= UNDERSHOOT * share * size.max())) + 1
+            rows.append((np.full(len(tops), number), tops, moved[tops - 1], moved[tops], moved[tops + 1]))
+        index, tops, before, here, after = (np.concatenate(part) for part in zip(*rows, strict=True))
         # In the step after the sample where |u| still grows at it, else in the one before it.
-        velocity = self._velocity(index, samples[at], samples[at + 1], here, after)
+        velocity = self._velocity(index, samples[tops], samples[tops + 1], here, after)
         earlier = velocity * here < 0.0
-        step, start = at - earlier, np.where(earlier, before, here)
+        step, start = tops - earlier, np.where(earlier, before, here)
         end_of_step = np.where(earlier, here, after)
         fraction, value = self._turn(index, samples[step], samples[step + 1], start, end_of_step)
         order = np.lexsort((-np.abs(value), index))
@@ -345,32 +343,32 @@ class Oscillators:
         firsts = np.flatnonzero(np.diff(index, prepend=-1))
         counts = np.diff(firsts, append=len(index))
         rank = np.arange(len(index)) - np.repeat(firsts, counts)
-        kept = (rank < most) & (np.abs(value) >= share * np.repeat(np.abs(value[firsts]), counts))
-        return Extrema(index[kept], step[kept], fraction[kept], value[kept], (rank == 0)[kept])
+        is_large = (rank < most) & (np.abs(value) >= share * np.repeat(np.abs(value[firsts]), counts))
+        return Extrema(index[is_large], step[is_large], fraction[is_large], value[is_large], (rank == 0)[is_large])
 
     def influence(self, extrema: Extrema, first: int, last: int) -> FloatArray:
         """Return what samples `first` to `last` (not included) add to the displacement at each extremum (m per m/s2),
         shape (extrema, samples). Sample 0 counts as having a step before it, which a motion has not.
         """
         rows = np.zeros((len(extrema.value), last - first))
-        within = extrema.fraction * self.dt
-        after = self._ramp(extrema.oscillator, within) / self.dt
-        here = self._ramp(extrema.oscillator, within + self.dt) / self.dt - 2.0 * after
+        time_in_step = extrema.fraction * self.dt
+        after = self._ramp(extrema.oscillator, time_in_step) / self.dt
+        here = self._ramp(extrema.oscillator, time_in_step + self.dt) / self.dt - 2.0 * after
         rate = self.rate[extrema.oscillator]
-        turn = complex_exp(scaled(rate, within))
+        turn = complex_exp(scaled(rate, time_in_step))
         # What a sample k + 1 steps before leaves, as an amplitude of the free vibration.
         per_step = scaled(self.rate, self.dt)
         far, near = complex_series(per_step, per_step, max(int(extrema.step.max()) - first, 1))
         far = times(self.weight[:, None], far)
-        known, real, imag = -1, np.empty(0), np.empty(0)
+        known, real_part, imag = -1, np.empty(0), np.empty(0)
         for number, (row, index, step) in enumerate(zip(rows, extrema.oscillator, extrema.step, strict=True)):
             if index != known:
                 known = int(index)
-                real, imag = series_real(far[index], near[index]), series_imaginary(far[index], near[index])
+                real_part, imag = series_real(far[index], near[index]), series_imaginary(far[index], near[index])
             end = min(int(step), last)  # samples before the step are one step or more before the extremum
             if end > first:
                 before = slice(step - end, step - first)
-                row[: end - first] = (real[before] * turn[number].real - imag[before] * turn[number].imag)[::-1]
+                row[: end - first] = (real_part[before] * turn[number].real - imag[before] * turn[number].imag)[::-1]
             if first <= step < last:
                 row[step - first] = here[number]
             if first <= step + 1 < last:
@@ -399,9 +397,9 @@ class Oscillators:
         # u = level + drift t + Re(swing exp(rate t)): static displacement under the linear acceleration, and the rest.
         drift = -(end - start) / self.dt / omega**2
         level = -start / omega**2 - 2.0 * self.damping / omega * drift
-        real = here - level
+        distance = here - level
         velocity = self._velocity(index, start, end, here, after)
-        swing = joined(real, -(velocity - drift - rate.real * real) / rate.imag)
+        swing = joined(distance, -(velocity - drift - rate.real * distance) / rate.imag)
         swung = times(swing, rate)
         time = np.full(len(index), 0.5 * self.dt)
         for _ in range(6):  # Newton; a step is at most a quarter of a period

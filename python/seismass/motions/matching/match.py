@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, counted, frozen, is_one_of, refusal
 from seismass.motions.elementary import exp, geomspace, log, rounded
-from seismass.motions.matching.linear import STOP
+from seismass.motions.matching.linear import CANCELLED
 from seismass.motions.matching.result import MatchedRecord, MatchedSuite
 from seismass.motions.matching.solver import Ratios, adjust
 from seismass.motions.records.record import Record
@@ -118,20 +118,20 @@ def match_spectrum(
         What is matched; a vertical component is multiplied by the same factor and not matched.
     target : TargetSpectrum or callable
         Pseudo-acceleration (m/s2) at periods (s), for the damping below.
-    periods : array_like
+    periods : array_like, optional
         Two numbers: the range (s). More: the periods themselves, increasing; between them is looked at, too.
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping of the spectra.
     points : int, optional
         Periods in the range at which wavelets are fitted, in geometric spacing; by default so many that neighbours
         differ by a quarter of the damping. The misfit is judged at three times as many.
-    tolerance : float
+    tolerance : float, optional
         Largest misfit, abs(Sa/target - 1), at any of the periods at which it is judged.
-    max_iterations : int
+    max_iterations : int, default 40
         Largest number of passes; 0 for the scaled record.
-    scale : {"least_squares", "none"} or float
+    scale : {"least_squares", "none"} or float, default "least_squares"
         How the record is scaled first: to the target by least squares in the logarithm, not at all, or by this factor.
-    padding : tuple of float
+    padding : tuple of float, optional
         Zeros (s) added before and after the record, where wavelets need room: for a record that begins with its
         strong motion, or is short beside the longest period. The time axis then begins earlier.
     threads : int, optional
@@ -174,19 +174,19 @@ def match_spectrum(
     passes = as_count(max_iterations, "max_iterations", "matching", InvalidOption)
     workers = None if threads is None else as_count(threads, "threads", "matching", InvalidOption, least=1)
     matched = _periods(periods, points, ratio, record)
-    before, behind = _padding(padding)
+    before, after = _padding(padding)
     fitted, judged = _refined(matched, 2), _refined(matched, 3)
-    ordinates = {count: _ordinates(target, at) for count, at in ((1, matched), (2, fitted), (3, judged))}
-    between = Ratios(fitted, ordinates[2], ratio, record.dt, workers)
+    ordinates = {count: _ordinates(target, grid) for count, grid in ((1, matched), (2, fitted), (3, judged))}
+    fitted_ratios = Ratios(fitted, ordinates[2], ratio, record.dt, workers)
     final = Ratios(judged, ordinates[3], ratio, record.dt, workers)
 
-    given = np.array(record.acceleration)
-    as_given = final([given])[0]
-    padded = before > 0.0 or behind > 0.0
-    factor = _factor(scale, as_given, largest)
+    unmatched = np.array(record.acceleration)
+    unmatched_ratios = final([unmatched])[0]
+    padded = before > 0.0 or after > 0.0
+    factor = _factor(scale, unmatched_ratios, largest)
     original = record if factor == 1.0 else record.scaled(factor)
     if padded:
-        original = _padded(original, before, behind)
+        original = _padded(original, before, after)
     start = np.array(original.acceleration)
     adjusted = adjust(
         start,
@@ -194,7 +194,7 @@ def match_spectrum(
         matched,
         ordinates[1],
         _guards(matched, ordinates[1], start, ratio, record.dt, workers),
-        between,
+        fitted_ratios,
         final,
         damping=ratio,
         tolerance=largest,
@@ -204,20 +204,20 @@ def match_spectrum(
     result = original
     label = getattr(target, "label", "a given function of the period")
     if factor != 1.0 or padded or adjusted.best > 0:
-        said = (
+        note = (
             f"matched to {label} from {matched[0]:g} to {matched[-1]:g} s at {100.0 * ratio:g} % damping: "
             f"{counted(adjusted.best, 'pass', 'passes')}, "
             f"largest misfit {100.0 * np.max(np.abs(ratios[1] - 1.0)):.2f} %"
         )
         result = original.replace(
             acceleration=adjusted.acceleration,
-            history=(*original.history, said),
+            history=(*original.history, note),
             remarks=(*original.remarks, "matched to a spectrum: not as recorded"),
         )
     wide = geomspace(max(WIDE[0], record.dt), max(WIDE[1], 2.0 * matched[-1]), 160)
-    over = np.ones(len(wide))
-    spectra = Ratios(wide, over, ratio, record.dt, workers)([start, result.acceleration])
-    found = MatchedRecord(
+    unit_target = np.ones(len(wide))
+    spectra = Ratios(wide, unit_target, ratio, record.dt, workers)([start, result.acceleration])
+    matched_record = MatchedRecord(
         record=result,
         original=original,
         factor=factor,
@@ -235,7 +235,7 @@ def match_spectrum(
         wide_after=frozen(spectra[1]),
         remarks=(),
     )
-    return found.with_remarks(matching_remarks(found, adjusted.shortened))
+    return matched_record.with_remarks(matching_remarks(matched_record, adjusted.shortened))
 
 
 def match_suite(
@@ -264,38 +264,38 @@ def match_suite(
         As for `match_spectrum`, or no record.
     """
     try:
-        given: Sequence[Any] = [records] if isinstance(records, Record) else list(records)
+        listed: Sequence[Any] = [records] if isinstance(records, Record) else list(records)
     except TypeError:
         raise refusal(InvalidMotion, "records", "matching", "Records", brief(records)) from None
-    if not given:
+    if not listed:
         raise refusal(InvalidMotion, "records", "matching", "at least one Record", "none")
     name = records.name if isinstance(records, Suite) else "records"
     suite_remarks = records.remarks if isinstance(records, Suite) else ()
     tell = progress or (lambda done, total: None)
-    tell(0, len(given))
+    tell(0, len(listed))
     done: list[MatchedRecord] = []
-    stop = Event()
+    cancelled = Event()
 
-    def matched_until_stopped(record: Any) -> MatchedRecord:
-        STOP.set(stop)
+    def matched_unless_cancelled(record: Any) -> MatchedRecord:
+        CANCELLED.set(cancelled)
         return match_spectrum(record, target, **options)
 
     # Two at a time: what one does in Python, the other does in libraries that let it.
     with ThreadPoolExecutor(AT_ONCE) as pool:
         try:
-            for future in [pool.submit(matched_until_stopped, record) for record in given]:
+            for future in [pool.submit(matched_unless_cancelled, record) for record in listed]:
                 # A signal may reach another thread than this one, which sees it when it wakes.
                 while not wait([future], timeout=AWAKE).done:
                     pass
                 done.append(future.result())
-                tell(len(done), len(given))
+                tell(len(done), len(listed))
         except BaseException:
-            stop.set()
+            cancelled.set()
             pool.shutdown(wait=False, cancel_futures=True)
             raise
     matched = tuple(done)
-    said = f"matched to {matched[0].target}: the scatter from record to record is taken out of the spectra"
-    suite = Suite(f"{name}, matched", tuple(one.record for one in matched), remarks=(*suite_remarks, said))
+    note = f"matched to {matched[0].target}: the scatter from record to record is taken out of the spectra"
+    suite = Suite(f"{name}, matched", tuple(one.record for one in matched), remarks=(*suite_remarks, note))
     return MatchedSuite(suite, matched)
 
 
@@ -310,36 +310,36 @@ def _check_record(record: Any) -> None:
         raise refusal(InvalidMotion, "acceleration", what, "other than zero somewhere", "zero throughout")
 
 
-def _share(given: Any, name: str) -> float:
+def _share(share: Any, name: str) -> float:
     """A number above 0 and below 1."""
-    value = as_number(given, name, "matching", InvalidOption)
+    value = as_number(share, name, "matching", InvalidOption)
     if not 0.0 < value < 1.0:
         raise refusal(InvalidOption, name, "matching", "above 0 and below 1", f"{value:g}")
     return value
 
 
-def _periods(given: ArrayLike, points: int | None, damping: float, record: Record) -> FloatArray:
+def _periods(periods: ArrayLike, points: int | None, damping: float, record: Record) -> FloatArray:
     """The periods that are matched."""
-    at = as_array(given, "periods", "matching", InvalidOption)
-    wrong = len(at) < 2 or not np.all(np.isfinite(at)) or np.any(at <= 0.0) or np.any(np.diff(at) <= 0.0)
+    array = as_array(periods, "periods", "matching", InvalidOption)
+    wrong = len(array) < 2 or not np.all(np.isfinite(array)) or np.any(array <= 0.0) or np.any(np.diff(array) <= 0.0)
     if wrong:
         requirement = "a range of two positive numbers, or a list of more, increasing"
-        raise refusal(InvalidOption, "periods", "matching", requirement, brief(given))
+        raise refusal(InvalidOption, "periods", "matching", requirement, brief(periods))
     least = STEPS_PER_PERIOD * record.dt
-    if at[0] < least * (1.0 - 1e-9):
+    if array[0] < least * (1.0 - 1e-9):
         what = f"matching of record {record.name}".rstrip()
         requirement = f"at least four time steps, {least:g} s, or the record resampled"
-        raise refusal(InvalidOption, "shortest period", what, requirement, f"{at[0]:g} s")
-    if len(at) > 2:
+        raise refusal(InvalidOption, "shortest period", what, requirement, f"{array[0]:g} s")
+    if len(array) > 2:
         if points is not None:
             raise refusal(InvalidOption, "points", "matching", "left out for a list of periods", brief(points))
-        return at
-    span = float(log(at[1] / at[0]))
+        return array
+    span = float(log(array[1] / array[0]))
     if points is None:
         count = max(int(np.ceil(span / max(SPACING * damping, CLOSEST))) + 1, 2)
     else:
         count = as_count(points, "points", "matching", InvalidOption, least=2)
-    return geomspace(float(at[0]), float(at[1]), count)
+    return geomspace(float(array[0]), float(array[1]), count)
 
 
 def _refined(periods: FloatArray, parts: int) -> FloatArray:
@@ -376,16 +376,16 @@ def _guards(
     """
     shortest, longest = float(periods[0]), float(periods[-1])
     first = max(shortest / GUARDED, STEPS_PER_PERIOD * dt)
-    at: list[FloatArray] = []
+    parts: list[FloatArray] = []
     if first < shortest / GUARD_SPACING:
         count = int(log(shortest / GUARD_SPACING / first) / log(GUARD_SPACING)) + 1
-        at.append(geomspace(first, shortest / GUARD_SPACING, max(count, 1)))
-    beyond = np.arange(1.0, int(log(GUARDED) / log(GUARD_SPACING)) + 1.0)
-    at.append(longest * exp(float(log(GUARD_SPACING)) * beyond))
-    guarded = np.concatenate(at)
-    given = rounded(Ratios(guarded, np.ones(len(guarded)), damping, dt, threads)([motion])[0], LIMIT_BITS)
+        parts.append(geomspace(first, shortest / GUARD_SPACING, max(count, 1)))
+    exponents = np.arange(1.0, int(log(GUARDED) / log(GUARD_SPACING)) + 1.0)
+    parts.append(longest * exp(float(log(GUARD_SPACING)) * exponents))
+    guarded = np.concatenate(parts)
+    ratios = rounded(Ratios(guarded, np.ones(len(guarded)), damping, dt, threads)([motion])[0], LIMIT_BITS)
     short = target[0] * (0.4 + 0.6 * guarded / shortest)
-    return guarded, np.maximum(GROWTH * given, np.where(guarded < shortest, short, target[-1] * longest / guarded))
+    return guarded, np.maximum(GROWTH * ratios, np.where(guarded < shortest, short, target[-1] * longest / guarded))
 
 
 def _factor(scale: Literal["least_squares", "none"] | float, ratios: FloatArray, tolerance: float) -> float:
@@ -402,24 +402,24 @@ def _factor(scale: Literal["least_squares", "none"] | float, ratios: FloatArray,
     return factor
 
 
-def _padding(given: tuple[float, float]) -> tuple[float, float]:
+def _padding(seconds: tuple[float, float]) -> tuple[float, float]:
     requirement = "two times of at least 0 s, before and behind"
     try:
-        before, behind = given
+        before, after = seconds
     except (TypeError, ValueError):
-        raise refusal(InvalidOption, "padding", "matching", requirement, brief(given)) from None
-    times = [as_number(value, "padding", "matching", InvalidOption) for value in (before, behind)]
+        raise refusal(InvalidOption, "padding", "matching", requirement, brief(seconds)) from None
+    times = [as_number(value, "padding", "matching", InvalidOption) for value in (before, after)]
     if not all(np.isfinite(value) and value >= 0.0 for value in times):
-        raise refusal(InvalidOption, "padding", "matching", requirement, brief(given))
+        raise refusal(InvalidOption, "padding", "matching", requirement, brief(seconds))
     return times[0], times[1]
 
 
-def _padded(record: Record, before: float, behind: float) -> Record:
+def _padded(record: Record, before: float, after: float) -> Record:
     """The record with zeros before and after it, as its history says."""
-    counts = (int(np.ceil(before / record.dt - 1e-9)), int(np.ceil(behind / record.dt - 1e-9)))
-    said = f"{counts[0]} zeros added before the first sample, {counts[1]} behind the last"
+    counts = (int(np.ceil(before / record.dt - 1e-9)), int(np.ceil(after / record.dt - 1e-9)))
+    note = f"{counts[0]} zeros added before the first sample, {counts[1]} behind the last"
     return record.replace(
         acceleration=np.pad(record.acceleration, counts),
         vertical=None if record.vertical is None else np.pad(record.vertical, counts),
-        history=(*record.history, said),
+        history=(*record.history, note),
     )

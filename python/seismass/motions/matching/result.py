@@ -55,9 +55,9 @@ def _at2(record: Record) -> str:
 
 
 def _csv(record: Record) -> str:
-    said = [f"# {_one_line(sentence)}" for sentence in (*record.history, *record.remarks)]
+    comments = [f"# {_one_line(sentence)}" for sentence in (*record.history, *record.remarks)]
     rows = (f"{number * record.dt:.10g},{value!r}" for number, value in enumerate(record.acceleration.tolist()))
-    return "\n".join((*said, "time (s),acceleration (m/s2)", *rows)) + "\n"
+    return "\n".join((*comments, "time (s),acceleration (m/s2)", *rows)) + "\n"
 
 
 def _one_line(text: str) -> str:
@@ -181,10 +181,10 @@ class MatchedRecord(Card):
         Shorter from a fifth of the shortest, longer up to five times the longest period; empty where there is none.
         """
         shortest, longest = self.matched_periods[0], self.matched_periods[-1]
-        at, grown = self.wide_periods, np.log(self.wide_after / self.wide_before)
+        wide, grown = self.wide_periods, np.log(self.wide_after / self.wide_before)
         ranges = {
-            "shorter": (0.2 * shortest <= at) & (at < shortest),
-            "longer": (longest < at) & (at <= 5.0 * longest),
+            "shorter": (0.2 * shortest <= wide) & (wide < shortest),
+            "longer": (longest < wide) & (wide <= 5.0 * longest),
         }
         return {name: float(np.exp(grown[inside].mean())) for name, inside in ranges.items() if inside.any()}
 
@@ -247,8 +247,8 @@ class MatchedRecord(Card):
             f"build-up apart by {100.0 * self.husid_difference:.1f} % at most",
         ]
         if self.outside:
-            said = ", ".join(f"{ratio:.2f} at {name} periods" for name, ratio in self.outside.items())
-            lines.append(f"outside spectrum times {said}, on average")
+            ratios = ", ".join(f"{ratio:.2f} at {name} periods" for name, ratio in self.outside.items())
+            lines.append(f"outside spectrum times {ratios}, on average")
         return "\n".join([*lines, *(f"remark  {remark}" for remark in self.remarks)]) + "\n"
 
     @view

@@ -23,7 +23,7 @@ from seismass.motions.matching.linear import (
     Oscillators,
     Placed,
     coarse,
-    end_if_stopped,
+    end_if_cancelled,
     exact_product,
     half_width,
     halves,
@@ -99,12 +99,12 @@ class Ratios:
 
 
 def adjust(
-    given: FloatArray,
+    original: FloatArray,
     dt: float,
     periods: FloatArray,
     target: FloatArray,
     guards: tuple[FloatArray, FloatArray],
-    between: Ratios,
+    fitted_ratios: Ratios,
     final: Ratios,
     *,
     damping: float,
@@ -115,47 +115,47 @@ def adjust(
     m/s2). `guards` hold it outside the range; `between` chooses the best pass, `final` judges the misfit.
     """
     grid = _Grid(np.concatenate([periods, guards[0]]), np.concatenate([target, guards[1]]), len(periods), damping, dt)
-    acceleration, best = given, given
-    least, _ = _score(between([given])[0])
-    reached = _score(final([given])[0])[1] <= tolerance
-    passes = chosen = 0
+    acceleration, best = original, original
+    least, _ = _score(fitted_ratios([original])[0])
+    reached = _score(final([original])[0])[1] <= tolerance
+    passes = best_pass = 0
     shortened = False
-    span = (len(given), 0)  # of all wavelets so far
+    span = (len(original), 0)  # of all wavelets so far
     weight = REGULARISATION[0]
-    while passes < max_iterations and not reached and passes - chosen < PATIENCE:
-        end_if_stopped()
+    while passes < max_iterations and not reached and passes - best_pass < PATIENCE:
+        end_if_cancelled()
         extrema = grid.oscillators.extrema(acceleration, SHARE, MOST)
         sought = extrema.largest & (extrema.oscillator < grid.matched)
         # Those of the guards have no wavelets; the largest of the others have a wide one, too.
         usual = np.flatnonzero(extrema.oscillator < grid.matched)
-        of = np.concatenate([usual, np.flatnonzero(sought)])
-        own, time = extrema.oscillator[of], dt * (extrema.step + extrema.fraction)[of]
-        wide = np.arange(len(of)) >= len(usual)
-        wavelets = place(time - grid.delay[own], grid.periods[own], damping, dt, len(given), wide)
+        selected = np.concatenate([usual, np.flatnonzero(sought)])
+        oscillator, time = extrema.oscillator[selected], dt * (extrema.step + extrema.fraction)[selected]
+        wide = np.arange(len(selected)) >= len(usual)
+        wavelets = place(time - grid.delay[oscillator], grid.periods[oscillator], damping, dt, len(original), wide)
         first, last = min(span[0], wavelets.first), max(span[1], wavelets.last)
-        end_if_stopped()
+        end_if_cancelled()
         influence = grid.oscillators.influence(extrema, first, last)
         scale = np.sign(extrema.value) / grid.displacement[extrema.oscillator]
         ratio = scale * extrema.value
-        added = (acceleration - given)[first:last]
+        added = (acceleration - original)[first:last]
         forget = FORGET[0] * float(power(FORGET[1], passes))
         taken_back = forget * scale * np.einsum("es,s->e", influence, added)
-        within = slice(wavelets.first - first, wavelets.last - first)
-        effect = _effect(influence[:, within], extrema.step, wavelets) * scale[:, None]
-        end_if_stopped()
+        window = slice(wavelets.first - first, wavelets.last - first)
+        effect = _effect(influence[:, window], extrema.step, wavelets) * scale[:, None]
+        end_if_cancelled()
         ease = min(SECONDARY[0] * float(power(SECONDARY[1], passes)), 1.0)
         emphasis = np.ones(len(ratio))
         emphasis[sought] = grid.emphasis(ratio[sought], extrema.oscillator[sought], tolerance)
         candidates = []
-        for amplitudes in _amplitudes(effect, of, ratio, taken_back, sought, weight, ease, emphasis):
+        for amplitudes in _amplitudes(effect, selected, ratio, taken_back, sought, weight, ease, emphasis):
             change = -forget * added
-            change[within] += np.einsum("w,ws->s", amplitudes, wavelets.samples)
+            change[window] += np.einsum("w,ws->s", amplitudes, wavelets.samples)
             for step in STEPS:
                 motion = acceleration.copy()
                 motion[first:last] += step * change
                 candidates.append(motion)
-        end_if_stopped()
-        scores = [_score(ratios) for ratios in between(candidates)]
+        end_if_cancelled()
+        scores = [_score(ratios) for ratios in fitted_ratios(candidates)]
         number = min(range(len(scores)), key=lambda which: scores[which][0])
         acceleration = candidates[number]
         span = (first, last)
@@ -169,8 +169,8 @@ def adjust(
         if not reached:
             grid.insert(float(final.periods[worst]), 1.0 / float(final.over[worst]))
         if scores[number][0] < least or reached:
-            least, best, chosen = scores[number][0], acceleration, passes
-    return Adjusted(best, passes, chosen, shortened)
+            least, best, best_pass = scores[number][0], acceleration, passes
+    return Adjusted(best, passes, best_pass, shortened)
 
 
 class _Grid:
@@ -191,19 +191,19 @@ class _Grid:
         np.maximum.at(off, oscillator, np.abs(1.0 - ratio))
         factor = np.where(off > STILL_OFF * tolerance, PERSISTENT, 1.0 / PERSISTENT)
         self.persistence = np.clip(self.persistence * factor, 1.0, MOST_PERSISTENT)
-        found = np.minimum(1.0 + (EMPHASIS * off) ** 2, LARGEST_EMPHASIS) * self.persistence
-        return np.asarray((found / found.max())[oscillator])
+        weight = np.minimum(1.0 + (EMPHASIS * off) ** 2, LARGEST_EMPHASIS) * self.persistence
+        return np.asarray((weight / weight.max())[oscillator])
 
     def insert(self, period: float, displacement: float) -> None:
         """Match a period (s) more, to a displacement (m)."""
         if np.any(self.periods[: self.matched] == period):
             return
-        at = int(np.searchsorted(self.periods[: self.matched], period))
-        self.periods = np.insert(self.periods, at, period)
-        self.displacement = np.insert(self.displacement, at, displacement)
+        index = int(np.searchsorted(self.periods[: self.matched], period))
+        self.periods = np.insert(self.periods, index, period)
+        self.displacement = np.insert(self.displacement, index, displacement)
         one = Oscillators(np.array([period]), self.damping, self.dt)
-        self.delay = np.insert(self.delay, at, _delays(one))
-        self.persistence = np.insert(self.persistence, at, MOST_PERSISTENT)
+        self.delay = np.insert(self.delay, index, _delays(one))
+        self.persistence = np.insert(self.persistence, index, MOST_PERSISTENT)
         self.matched += 1
         self.oscillators = Oscillators(self.periods, self.damping, self.dt)
 
@@ -219,15 +219,15 @@ def _delays(oscillators: Oscillators) -> FloatArray:
     """Time (s) from the crest of a wavelet to the largest response of its own oscillator."""
     delays = []
     for period, width in zip(oscillators.periods, half_width(oscillators.periods), strict=True):
-        end_if_stopped()
+        end_if_cancelled()
         dt = oscillators.dt
         crest = np.array([width + 2.0 * dt])
         samples = int(np.ceil(2.0 * (width + period) / dt)) + 8
         placed: Placed = place(crest, np.array([period]), oscillators.damping, dt, samples, np.array([False]))
         motion = np.zeros(samples)
         motion[placed.first : placed.last] = placed.samples[0]
-        found: Extrema = Oscillators(np.array([period]), oscillators.damping, dt).extrema(motion, 1.0, 1)
-        delays.append(dt * float(found.step[0] + found.fraction[0]) - crest[0])
+        extrema: Extrema = Oscillators(np.array([period]), oscillators.damping, dt).extrema(motion, 1.0, 1)
+        delays.append(dt * float(extrema.step[0] + extrema.fraction[0]) - crest[0])
     return np.array(delays)
 
 
@@ -253,7 +253,7 @@ def _effect(influence: FloatArray, steps: NDArray[np.int64], wavelets: Placed) -
 
 def _amplitudes(
     effect: FloatArray,
-    of: NDArray[np.int64],
+    index: NDArray[np.int64],
     ratio: FloatArray,
     taken_back: FloatArray,
     largest: NDArray[np.bool_],
@@ -265,18 +265,18 @@ def _amplitudes(
     extremum of each matched oscillator, brought to the target, and others that would grow past it.
     """
     # An end of the record may leave a wavelet with hardly any effect on its own extremum.
-    size = np.maximum(np.abs(effect[of, np.arange(len(of))]), 0.1 * np.max(np.abs(effect), axis=0))
-    own = largest[of]
+    size = np.maximum(np.abs(effect[index, np.arange(len(index))]), 0.1 * np.max(np.abs(effect), axis=0))
+    is_largest = largest[index]
     size = np.where(size > 0.0, size, 1.0)
-    size = np.where(own, size, size / ease)
+    size = np.where(is_largest, size, size / ease)
     effect = effect / size
     upper, lower = halves(effect)
     products, known = np.zeros((len(effect), len(effect))), np.zeros(len(effect), dtype=bool)
     miss = 1.0 - ratio + taken_back
-    found = []
+    steps = []
     for share in WEIGHTS:
         regular = (share * weight) ** 2 / emphasis
-        end_if_stopped()
+        end_if_cancelled()
         held = largest.copy()
         for _ in range(HOLDS):
             added = held & ~known
@@ -291,5 +291,5 @@ def _amplitudes(
             if not grown.any():
                 break
             held |= grown
-        found.append(amplitudes / size)
-    return found
+        steps.append(amplitudes / size)
+    return steps

@@ -22,9 +22,9 @@ from seismass.motions.pulses.extraction import (
     horizontals,
     scale_range,
     single_velocity,
+    transform,
 )
 from seismass.motions.pulses.result import BAKER, Candidate, Kind, OrientationScan, PulseResult
-from seismass.motions.pulses.wavelet import transform
 from seismass.motions.records.formats.labels import is_vertical
 from seismass.motions.records.pair import Pair
 from seismass.motions.records.record import Record
@@ -156,12 +156,12 @@ def _largest_by_angle(
 def _candidate(
     velocity: FloatArray, dt: float, row: int, sample: int, *, angle: float, azimuth: float | None
 ) -> Candidate:
-    found = extract(velocity, scale_range(dt, _OWNER), row, sample)
+    extraction = extract(velocity, scale_range(dt, _OWNER), row, sample)
     pgv = float(np.max(np.abs(velocity)))
-    pgv_ratio = float(np.max(np.abs(found.residual))) / pgv
-    energy_ratio = float(np.sum(np.square(found.residual)) / np.sum(np.square(velocity)))
+    pgv_ratio = float(np.max(np.abs(extraction.residual))) / pgv
+    energy_ratio = float(np.sum(np.square(extraction.residual)) / np.sum(np.square(velocity)))
     indicator = pulse_indicator_2007(pgv_ratio, energy_ratio)
-    of_record, of_pulse = cumulative_share(velocity), cumulative_share(found.pulse)
+    of_record, of_pulse = cumulative_share(velocity), cumulative_share(extraction.pulse)
     share_of_pulse, share_of_record = ARRIVAL[BAKER]
     begins = int(np.argmax(of_pulse >= share_of_pulse))
     early = int(np.argmax(of_record >= share_of_record)) > begins
@@ -185,7 +185,7 @@ def _candidate(
         number=1,
         kind=kind,
         reasons=tuple(reasons),
-        scale=found.scale,
+        scale=extraction.scale,
         dt=dt,
         angle=angle,
         azimuth=azimuth,
@@ -194,9 +194,9 @@ def _candidate(
         early=early,
         energy_before=float(of_record[begins]),
         arrival=begins * dt,
-        centres=frozen(np.array(found.samples) * dt),
-        coefficients=frozen(found.coefficients),
+        centres=frozen(np.array(extraction.samples) * dt),
+        coefficients=frozen(extraction.coefficients),
         velocity=frozen(velocity),
-        pulse=frozen(found.pulse),
-        residual=frozen(found.residual),
+        pulse=frozen(extraction.pulse),
+        residual=frozen(extraction.residual),
     )

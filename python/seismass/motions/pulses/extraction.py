@@ -1,25 +1,35 @@
-"""What the two methods share: velocities of two components, the scales searched, and the pulse of ten wavelets.
+"""What the two methods share: velocities of two components, the scales searched, the pulse of ten wavelets, and the db4
+wavelet with its continuous transform.
 
-The algorithm is that of Shahi and Baker (2014), Bulletin of the Seismological Society of America 104:2456.
+The algorithm is that of Shahi and Baker (2014), Bulletin of the Seismological Society of America 104:2456. PyWavelets
+gives the wavelet and is imported on first use. Its own continuous transform takes no db4, so that this one is built
+from the integral of the wavelet, as MATLAB's `cwt` is, by convolution through FFT.
 """
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from seismass.base.errors import InvalidMotion
-from seismass.base.values import FloatArray, brief, refusal
-from seismass.motions.pulses.result import BAKER, SHAHI_BAKER
-from seismass.motions.pulses.wavelet import PERIOD_OF_SCALE, coefficient, transform_near, wavelet_history
+from seismass.base.errors import InvalidMotion, MissingPackage
+from seismass.base.values import FloatArray, brief, frozen, refusal
+from seismass.motions.pulses.result import BAKER, PERIOD_OF_SCALE, SHAHI_BAKER
 from seismass.motions.records.measures import drift_remarks
 from seismass.motions.records.pair import Pair
 from seismass.motions.records.record import Record
 
+WAVELET: Final = "db4"
+SUPPORT: Final = 7
+"""Width of the wavelet in units of its scale."""
+_LEVEL: Final = 4
+"""Level of the wavelet that is subtracted (Shahi and Baker, 2014): sixteen points per unit, linear between them."""
+_FINE_LEVEL: Final = 10
 SHORTEST_PERIOD: Final = 0.25
 """Shortest pulse period that is looked for (s)."""
 LONGEST_PERIOD: Final = 15.0
@@ -153,8 +163,8 @@ def extract(velocity: FloatArray, scales: range, row: int, sample: int) -> Extra
     at `sample`; each wavelet is the largest of the residual within 0.4 scales of the sample.
     """
     low, high = scales[max(0, row - 1)], scales[min(len(scales) - 1, row + 1)]
-    between = range(low, high + 1, math.ceil((high + 1 - low) / REFINEMENTS))
-    scale = max(between, key=lambda one: abs(coefficient(velocity, one, sample)))
+    samples_between = range(low, high + 1, math.ceil((high + 1 - low) / REFINEMENTS))
+    scale = max(samples_between, key=lambda one: abs(coefficient(velocity, one, sample)))
     reach = math.ceil(NEIGHBOURHOOD * scale)
     lowest, highest = max(0, sample - reach), min(len(velocity) - 1, sample + reach)
     residual, pulse = velocity.copy(), np.zeros(len(velocity))
@@ -183,3 +193,96 @@ LEAST_PGV: Final = 0.30
 """Baker (2007): peak velocity (m/s) that a pulse-like record is above."""
 ARRIVAL: Final = {BAKER: (0.10, 0.20), SHAHI_BAKER: (0.05, 0.17)}
 """Early arrival, by method: when the pulse has the first share of its energy, the record has less than the second."""
+
+
+def _pywt() -> Any:
+    try:
+        import pywt
+    except ImportError as error:
+        raise MissingPackage(
+            "PyWavelets of pulse identification must be installed (pip install PyWavelets); "
+            f"got {str(error) or 'no such package'}"
+        ) from error
+    return pywt
+
+
+@functools.cache
+def _wavelet(level: int) -> tuple[FloatArray, FloatArray]:
+    """Places from 0 to 7 and values of the wavelet of unit energy there."""
+    _, psi, places = _pywt().Wavelet(WAVELET).wavefun(level)
+    return frozen(places), frozen(psi)
+
+
+@functools.cache
+def _integral() -> FloatArray:
+    """Integral of the wavelet from 0 to each of 1024 points per unit."""
+    places, psi = _wavelet(_FINE_LEVEL)
+    return frozen(np.cumsum(psi) * (places[1] - places[0]))
+
+
+@functools.lru_cache(maxsize=128)
+def _filter(scale: int) -> FloatArray:
+    """Weights of a transform at one scale, shape (7 scale,): the integral of the wavelet over each sample. As in
+    MATLAB's `cwt` the integral is taken at the point before, to meet published periods to the sample.
+    """
+    points = np.arange(SUPPORT * scale + 1) * 2**_FINE_LEVEL // scale
+    return frozen(np.diff(_integral()[points]) * np.sqrt(scale))
+
+
+def _before(scale: int) -> int:
+    """Weights before the one that is centred on a sample."""
+    return SUPPORT * scale // 2
+
+
+@functools.lru_cache(maxsize=64)
+def _spectrum(scale: int, size: int) -> NDArray[np.complex128]:
+    """Conjugate Fourier transform of the weights: products with it are correlations."""
+    from scipy.fft import rfft  # slow to import
+
+    return np.asarray(np.conj(rfft(_filter(scale), size)))
+
+
+def transform(velocity: FloatArray, scale: int) -> FloatArray:
+    """Return the wavelet coefficient of unit energy centred on each sample, at one scale (samples), in the unit of the
+    velocity times the root of a sample. The history is zero before and after.
+    """
+    return transform_near(velocity, scale, 0, len(velocity) - 1)
+
+
+def transform_near(velocity: FloatArray, scale: int, first: int, last: int) -> FloatArray:
+    """Return the coefficients of `transform` at one scale centred on the samples `first` to `last`, both included,
+    computed only from the samples that these wavelets touch.
+    """
+    from scipy.fft import irfft, next_fast_len, rfft  # slow to import
+
+    start = first - _before(scale)
+    end = last - _before(scale) + SUPPORT * scale
+    touched = velocity[max(0, start) : end]
+    padded = np.zeros(next_fast_len(end - start, real=True))  # so long that nothing that is returned wraps around
+    padded[max(0, -start) : max(0, -start) + len(touched)] = touched
+    correlated = irfft(rfft(padded) * _spectrum(scale, len(padded)), len(padded))
+    return np.asarray(correlated[: last - first + 1])
+
+
+def coefficient(velocity: FloatArray, scale: int, sample: int) -> float:
+    """Return the one coefficient at a scale that is centred on a sample."""
+    start = sample - _before(scale)
+    first, last = max(0, start), min(len(velocity), start + SUPPORT * scale)
+    return float(velocity[first:last] @ _filter(scale)[first - start : last - start])
+
+
+def wavelet_history(samples: int, scale: int, sample: int) -> FloatArray:
+    """Return the wavelet of unit energy centred on a sample, as a history: level 4, linear between its points, divided
+    by the root of the scale (samples).
+    """
+    places, psi = _wavelet(_LEVEL)
+    phase = (np.arange(samples) - sample) / scale + 0.5 * SUPPORT
+    return np.asarray(np.interp(phase, places, psi, left=0.0, right=0.0) / np.sqrt(scale))
+
+
+def approximation_energy(velocity: FloatArray) -> float:
+    """Return the energy of the approximation coefficients of one level of the discrete transform: half the frequencies,
+    and nearly all the energy of a velocity.
+    """
+    approximation, _ = _pywt().dwt(velocity, WAVELET)
+    return float(np.sum(np.square(approximation)))

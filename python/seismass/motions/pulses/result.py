@@ -11,13 +11,14 @@ import polars as pl
 
 from seismass.base.values import FloatArray, content_hash, same_content, short_repr
 from seismass.base.views import Card, view
-from seismass.motions.pulses.wavelet import PERIOD_OF_SCALE
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 BAKER: Final = "Baker (2007)"
 SHAHI_BAKER: Final = "Shahi and Baker (2014)"
+PERIOD_OF_SCALE: Final = 1.4
+"""Period of the wavelet over scale times step: one over its centre frequency, 5/7."""
 Kind = Literal["pulse", "ambiguous", "no pulse"]
 
 
@@ -136,64 +137,64 @@ class PulseResult(Card):
     __hash__ = content_hash
 
     @property
-    def chosen(self) -> Candidate:
+    def primary(self) -> Candidate:
         """The first candidate that is a pulse; the first of all where none is."""
         return next((one for one in self.candidates if one.is_pulse), self.candidates[0])
 
     @property
     def is_pulse(self) -> bool:
         """Whether any candidate is a pulse."""
-        return self.chosen.is_pulse
+        return self.primary.is_pulse
 
     @property
     def ambiguous(self) -> bool:
         """Whether it is neither a pulse nor clearly none: Baker's indicator between 0.15 and 0.85."""
-        return self.chosen.kind == "ambiguous"
+        return self.primary.kind == "ambiguous"
 
     @property
     def period(self) -> float | None:
         """Pulse period T_p (s) of a pulse-like record; None for any other."""
-        return self.chosen.period if self.is_pulse else None
+        return self.primary.period if self.is_pulse else None
 
     @property
     def indicator(self) -> float:
         """Pulse indicator of the chosen candidate."""
-        return self.chosen.indicator
+        return self.primary.indicator
 
     @property
     def pgv(self) -> float:
         """Peak velocity (m/s) in the direction of the chosen candidate."""
-        return self.chosen.pgv
+        return self.primary.pgv
 
     @property
     def pgv_ratio(self) -> float:
         """r_PGV of the chosen candidate."""
-        return self.chosen.pgv_ratio
+        return self.primary.pgv_ratio
 
     @property
     def energy_ratio(self) -> float:
         """r_E of the chosen candidate."""
-        return self.chosen.energy_ratio
+        return self.primary.energy_ratio
 
     @property
     def early(self) -> bool:
         """Whether the chosen candidate arrives early."""
-        return self.chosen.early
+        return self.primary.early
 
     @property
     def angle(self) -> float:
         """Direction of the chosen candidate, in degrees from the first component to the second."""
-        return self.chosen.angle
+        return self.primary.angle
 
     @property
     def pulse(self) -> FloatArray:
         """Velocity of the extracted pulse (m/s), shape (samples,)."""
-        return self.chosen.pulse
+        return self.primary.pulse
 
     @property
     def residual(self) -> FloatArray:
         """Velocity without the extracted pulse (m/s), shape (samples,)."""
-        return self.chosen.residual
+        return self.primary.residual
 
     def table(self) -> pl.DataFrame:
         """Return one row per candidate: its class, direction, period, indicator and what it follows from."""
@@ -232,14 +233,14 @@ class PulseResult(Card):
 
     def history_table(self) -> pl.DataFrame:
         """Return one row per sample: time (s), and velocity, extracted pulse and residual (m/s) of the chosen one."""
-        one = self.chosen
+        one = self.primary
         time = np.arange(len(one.velocity)) * one.dt
         return pl.DataFrame({"time": time, "velocity": one.velocity, "pulse": one.pulse, "residual": one.residual})
 
     @property
     def text(self) -> str:
         """The result in a few lines, for a terminal."""
-        one = self.chosen
+        one = self.primary
         head = f"{' and '.join(name or '(unnamed)' for name in self.names)}, {self.method}: "
         if one.is_pulse:
             head += f"pulse-like, T_p = {one.period:.2f} s"
@@ -262,8 +263,8 @@ class PulseResult(Card):
         return "\n".join(lines)
 
     def __repr__(self) -> str:
-        found = f"T_p {self.period:.2f} s" if self.period is not None else self.chosen.kind
-        return f"<PulseResult {' and '.join(self.names)}: {found}, {self.method}>"
+        words = f"T_p {self.period:.2f} s" if self.period is not None else self.primary.kind
+        return f"<PulseResult {' and '.join(self.names)}: {words}, {self.method}>"
 
     @view
     def plot(self) -> Figure:
@@ -313,7 +314,7 @@ class OrientationScan(Card):
 
     def table(self) -> pl.DataFrame:
         """Return one row per orientation: angle, azimuth where known, class, period, indicator and the reasons."""
-        rows = [one.chosen for one in self.results]
+        rows = [one.primary for one in self.results]
         return pl.DataFrame(
             {
                 "angle": self.angles,
@@ -344,7 +345,7 @@ class OrientationScan(Card):
         else:
             one = self.strongest
             lines.append(
-                f"  largest indicator {one.indicator:.3f}, at {one.angle:.0f} degrees: {'; '.join(one.chosen.reasons)}"
+                f"  largest indicator {one.indicator:.3f}, at {one.angle:.0f} degrees: {'; '.join(one.primary.reasons)}"
             )
         lines += [f"  remark: {remark}" for remark in self.remarks]
         return "\n".join(lines)

@@ -14,14 +14,15 @@ from seismass.motions.pulses.extraction import (
     CENTIMETRES,
     NEIGHBOURHOOD,
     Horizontals,
+    approximation_energy,
     cumulative_share,
     doubtful_period,
     extract,
     horizontals,
     scale_range,
+    transform,
 )
 from seismass.motions.pulses.result import SHAHI_BAKER, Candidate, PulseResult
-from seismass.motions.pulses.wavelet import approximation_energy, transform
 from seismass.motions.records.pair import Pair
 from seismass.motions.records.record import Record
 
@@ -105,7 +106,7 @@ def shahi_baker2014(first: Record | Pair, second: Record | None = None) -> Pulse
         if not size.any():
             break
     result = PulseResult(SHAHI_BAKER, pair.names, tuple(candidates), pair.remarks)
-    doubtful = doubtful_period(result.chosen.period, (len(pair.velocities[0]) - 1) * pair.dt)
+    doubtful = doubtful_period(result.primary.period, (len(pair.velocities[0]) - 1) * pair.dt)
     return replace(result, remarks=result.remarks + doubtful)
 
 
@@ -126,12 +127,12 @@ def _largest_by_time(pair: Horizontals, scales: range) -> tuple[FloatArray, Floa
 
 def _candidate(pair: Horizontals, scales: range, number: int, row: int, sample: int, angle: float) -> Candidate:
     velocity = pair.towards(angle)
-    found = extract(velocity, scales, row, sample)
+    extraction = extract(velocity, scales, row, sample)
     pgv = float(np.max(np.abs(velocity)))
-    pgv_ratio = float(np.max(np.abs(found.residual))) / pgv
-    energy_ratio = approximation_energy(found.residual) / approximation_energy(velocity)
+    pgv_ratio = float(np.max(np.abs(extraction.residual))) / pgv
+    energy_ratio = approximation_energy(extraction.residual) / approximation_energy(velocity)
     indicator = pulse_indicator_2014(pgv_ratio, energy_ratio, CENTIMETRES * pgv)
-    of_record, of_pulse = cumulative_share(velocity), cumulative_share(found.pulse)
+    of_record, of_pulse = cumulative_share(velocity), cumulative_share(extraction.pulse)
     # A pulse that begins with the record has nothing before it.
     share_of_pulse, share_of_record = ARRIVAL[SHAHI_BAKER]
     begins = int(np.count_nonzero(of_pulse <= share_of_pulse)) - 1
@@ -149,7 +150,7 @@ def _candidate(pair: Horizontals, scales: range, number: int, row: int, sample: 
         number=number,
         kind="no pulse" if reasons else "pulse",
         reasons=tuple(reasons),
-        scale=found.scale,
+        scale=extraction.scale,
         dt=pair.dt,
         angle=math.degrees(angle),
         azimuth=pair.azimuth(angle),
@@ -158,9 +159,9 @@ def _candidate(pair: Horizontals, scales: range, number: int, row: int, sample: 
         early=early,
         energy_before=before,
         arrival=max(begins, 0) * pair.dt,
-        centres=frozen(np.array(found.samples) * pair.dt),
-        coefficients=frozen(found.coefficients),
+        centres=frozen(np.array(extraction.samples) * pair.dt),
+        coefficients=frozen(extraction.coefficients),
         velocity=frozen(velocity),
-        pulse=frozen(found.pulse),
-        residual=frozen(found.residual),
+        pulse=frozen(extraction.pulse),
+        residual=frozen(extraction.residual),
     )

@@ -7,15 +7,17 @@ import io
 from dataclasses import dataclass, fields
 from functools import cache
 from pathlib import Path
-from typing import Any, Final, Literal
+from typing import TYPE_CHECKING, Any, Final, Literal
 
 from seismass.base.errors import InvalidOption, RecordFormatError
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import brief, is_one_of, refusal
-from seismass.motions.records.pair import Pair, Pairs
 from seismass.motions.records.read import FormatName, is_archive, read_record, read_text
 from seismass.motions.records.record import Record
-from seismass.motions.records.suite import Suite, read_suite, suite_of_file
+
+if TYPE_CHECKING:
+    from seismass.motions.records.pair import Pairs
+    from seismass.motions.records.suite import Suite
 
 BuiltinName = Literal["forty", "eleven", "seven"]
 
@@ -48,7 +50,7 @@ def builtin_suite(suite: BuiltinName = "eleven") -> Suite:
 
     Parameters
     ----------
-    suite : {"eleven", "seven", "forty"}
+    suite : {"eleven", "seven", "forty"}, default "eleven"
         "forty": those of `records.synthetic.scenarios`, whose scatter is that of recordings; what `assess` and
         the commands that give an answer take by default. "eleven": as many as ASCE 7-16 asks for. "seven": the first
         seven of those, as many as ASCE 7-10 asks for, with which the study of the paper is.
@@ -58,10 +60,12 @@ def builtin_suite(suite: BuiltinName = "eleven") -> Suite:
     InvalidOption
         Another name.
     """
-    found = next((listed for key, listed in _SUITES.items() if is_one_of(suite, (key,))), None)
-    if found is None:
+    entry = next((listed for key, listed in _SUITES.items() if is_one_of(suite, (key,))), None)
+    if entry is None:
         raise refusal(InvalidOption, "suite", "built-in motions", " or ".join(map(repr, _SUITES)), brief(suite))
-    name, listed = found
+    from seismass.motions.records.suite import Suite, read_suite
+
+    name, listed = entry
     if listed.endswith(".parquet"):
         return Suite(name, _forty())
     return Suite(name, read_suite(data_directory() / "synthetic" / listed).records)
@@ -73,6 +77,8 @@ def builtin_pairs() -> Pairs:
     The second ones are those of `records.synthetic.second`: of the duration and content of the first, with a
     correlation and spectra that scatter as those of recorded pairs.
     """
+    from seismass.motions.records.pair import Pair, Pairs
+
     name, _ = _SUITES["forty"]
     seconds = _stored("forty_second.parquet", "second horizontal")
     return Pairs(name, tuple(Pair(first, second) for first, second in zip(_forty(), seconds, strict=True)))
@@ -160,6 +166,8 @@ def records_named(path: Path, reading: Reading = Reading()) -> Suite:
     """Return the records that a path names: a folder, a ZIP archive, a CSV with a column `file`, or else one file.
     Arguments of one file are refused for more than one record: a list has columns for them.
     """
+    from seismass.motions.records.suite import Suite, read_suite, suite_of_file
+
     if path.is_dir() or is_archive(path) or is_list(path):
         reading.refuse(path, "a folder or a list of records")
         return read_suite(path)

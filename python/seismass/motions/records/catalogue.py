@@ -432,7 +432,7 @@ class CatalogueSearch(Card):
         for recording, line in zip(RECORDINGS, paper.iter_rows(named=True), strict=True):
             horizontals, verticals = self._count(recording, "horizontal"), self._count(recording, "vertical")
             stand_ins = [one for one in SUBSTITUTES if one.number == recording.number]
-            found = [
+            files = [
                 f"{one.station} (RSN{one.rsn}): {_horizontals(self._count(one, 'horizontal'))}"
                 for one in stand_ins
                 if self._count(one, "horizontal")
@@ -446,7 +446,7 @@ class CatalogueSearch(Card):
                     "horizontals": horizontals,
                     "verticals": verticals,
                     "complete": horizontals >= 2,
-                    "substitutes": "; ".join(found),
+                    "substitutes": "; ".join(files),
                     "how_to_get": "" if horizontals >= 2 else how_to_get(recording),
                 }
             )
@@ -514,8 +514,8 @@ class CatalogueSearch(Card):
         if one.samples is not None:
             step = "step not stated" if one.dt is None else f"dt {one.dt:g} s"
             size = f"{one.samples} points, {step}, PGA {one.pga_g:.5f} g"
-        said = f"component {one.label or '?'}, {one.direction}"
-        yield f"   {printable(str(name))}: {said}, {size}; by {one.judged}"
+        words = f"component {one.label or '?'}, {one.direction}"
+        yield f"   {printable(str(name))}: {words}, {size}; by {one.judged}"
         for remark in one.remarks:
             yield f"      {remark}"
 

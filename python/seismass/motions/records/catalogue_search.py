@@ -73,16 +73,16 @@ def find_catalogue(folder: str | os.PathLike[str]) -> CatalogueSearch:
     if not place.is_dir():
         raise RecordFormatError(f"folder of catalogue search must be a directory; got {place}")
     files = files_below(place)
-    found = [one for file in files for one in _identified(file)]
+    matches = [one for file in files for one in _identified(file)]
     order = {recording.rsn: position for position, recording in enumerate(_ALL)}
-    found.sort(key=lambda one: (order[one.recording.rsn], one.file))
-    return CatalogueSearch(place, tuple(_without_doubles(found)), len(files))
+    matches.sort(key=lambda one: (order[one.recording.rsn], one.file))
+    return CatalogueSearch(place, tuple(_without_doubles(matches)), len(files))
 
 
-def _without_doubles(found: list[FoundFile]) -> Iterator[FoundFile]:
+def _without_doubles(matches: list[FoundFile]) -> Iterator[FoundFile]:
     """The files, with a remark on each that is of the same component as one before."""
     first: dict[str, Path] = {}
-    for one in found:
+    for one in matches:
         if one.component is None or not one.usable:
             yield one
             continue
@@ -236,11 +236,11 @@ def _alike(record: Record, component: Component, tolerance: float = _SAME_SHAPE)
     if record.samples != component.samples or component.opposite is None:
         return False
     samples = record.acceleration
-    at = int(np.argmax(np.abs(samples)))
-    if samples[at] == 0.0 or at + 1 != component.peak_sample:
+    peak = int(np.argmax(np.abs(samples)))
+    if samples[peak] == 0.0 or peak + 1 != component.peak_sample:
         return False
-    sign = np.sign(samples[at])
-    return abs(float(np.min(sign * samples)) / abs(float(samples[at])) - component.opposite) < tolerance
+    sign = np.sign(samples[peak])
+    return abs(float(np.min(sign * samples)) / abs(float(samples[peak])) - component.opposite) < tolerance
 
 
 def _scale(record: Record, component: Component) -> list[str]:

@@ -113,14 +113,14 @@ def _traces(content: bytes, kind: str, file: str) -> list[Any]:
             f'ObsPy of {kind} files must be installed (pip install "seismass[obspy]"); got: {error}'
         ) from error
     try:
-        found = list(obspy.read(io.BytesIO(content), format=FORMATS[kind]))
+        traces = list(obspy.read(io.BytesIO(content), format=FORMATS[kind]))
     except Exception as error:  # its readers raise of many kinds
         raise RecordFormatError(
             f"content of {file} must be a sound {kind} file; got: {printable(str(error))}"
         ) from error
-    if not found:
+    if not traces:
         raise RecordFormatError(f"content of {file} must be at least one channel; got none")
-    return found
+    return traces
 
 
 def _record(trace: Any, factors: Mapping[str, float], source: Path, kind: str, digest: str, channels: int) -> Record:
@@ -161,7 +161,7 @@ def _record(trace: Any, factors: Mapping[str, float], source: Path, kind: str, d
         )
     except InvalidMotion as error:
         raise RecordFormatError(f"samples of {file} must be those of a motion; got: {error}") from error
-    return record.replace(remarks=record.remarks + suspicions(record, unit_given=True))
+    return record.replace(remarks=record.remarks + suspicions(record, unit_is_stated=True))
 
 
 def _direction(trace: Any, code: str, kind: str, remarks: list[str]) -> tuple[str, float | None]:

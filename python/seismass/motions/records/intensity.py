@@ -35,10 +35,10 @@ def integrals(acceleration: FloatArray, dt: float) -> tuple[FloatArray, FloatArr
 def peak_velocity(acceleration: FloatArray, dt: float, velocity: FloatArray) -> FloatArray:
     """Return the largest absolute velocity in continuous time (m/s): at a sample, or where acceleration is zero."""
     before, after = acceleration[..., :-1], acceleration[..., 1:]
-    within = before * after < 0.0
-    first, last = before[within], after[within]
-    turns = np.zeros(within.shape)
-    turns[within] = velocity[..., :-1][within] + 0.5 * dt * first * (first / (first - last))
+    crosses = before * after < 0.0
+    first, last = before[crosses], after[crosses]
+    turns = np.zeros(crosses.shape)
+    turns[crosses] = velocity[..., :-1][crosses] + 0.5 * dt * first * (first / (first - last))
     return _largest(velocity, turns)
 
 
@@ -48,19 +48,19 @@ def peak_displacement(
     """Return the largest absolute displacement in continuous time (m): at a sample, or where velocity is zero."""
     before, after = acceleration[..., :-1], acceleration[..., 1:]
     # Velocity may be zero within a step if it changes sign or turns there.
-    within = (velocity[..., :-1] * velocity[..., 1:] < 0.0) | (before * after < 0.0)
-    start, slope = velocity[..., :-1][within], dt * before[within]
-    bend = 0.5 * dt * (after[within] - before[within])
+    crosses = (velocity[..., :-1] * velocity[..., 1:] < 0.0) | (before * after < 0.0)
+    start, slope = velocity[..., :-1][crosses], dt * before[crosses]
+    bend = 0.5 * dt * (after[crosses] - before[crosses])
     # It is start + slope s + bend s^2 for s from 0 to 1; both roots without cancellation, 0 for those outside.
     discriminant = slope * slope - 4.0 * bend * start
-    real = discriminant >= 0.0
-    w = -0.5 * (slope + np.copysign(np.sqrt(np.where(real, discriminant, 0.0)), slope))
-    turns = np.zeros((2, *within.shape))
+    has_root = discriminant >= 0.0
+    w = -0.5 * (slope + np.copysign(np.sqrt(np.where(has_root, discriminant, 0.0)), slope))
+    turns = np.zeros((2, *crosses.shape))
     for turn, above, below in zip(turns, (w, start), (bend, w), strict=True):
-        inside = real & (np.abs(above) < np.abs(below)) & ((above > 0.0) == (below > 0.0))
+        inside = has_root & (np.abs(above) < np.abs(below)) & ((above > 0.0) == (below > 0.0))
         s = np.divide(above, below, out=np.zeros(w.shape), where=inside)
         moved = dt * s * (start + s * (0.5 * slope + s * bend / 3.0))
-        turn[within] = displacement[..., :-1][within] + moved
+        turn[crosses] = displacement[..., :-1][crosses] + moved
     return _largest(displacement, *turns)
 
 
@@ -118,9 +118,7 @@ def cumulative_absolute_velocity(acceleration: FloatArray, dt: float) -> float:
 
 
 def bracketed_duration(acceleration: FloatArray, dt: float, threshold_g: float) -> float:
-    """Return the time (s) from the first to the last crossing of a positive threshold of abs(a); 0 where it is not
-    reached.
-    """
+    """Return the time (s) from the first to the last crossing of a threshold (above 0) of abs(a); 0 without one."""
     threshold = as_number(threshold_g, "threshold_g", "bracketed duration", InvalidOption)
     if not (math.isfinite(threshold) and threshold > 0.0):
         raise refusal(InvalidOption, "threshold_g", "bracketed duration", "a positive number", brief(threshold_g))
@@ -133,8 +131,8 @@ def bracketed_duration(acceleration: FloatArray, dt: float, threshold_g: float) 
         """Time from the sample at which the threshold is reached to its crossing towards the one beside it."""
         if not 0 <= outside < len(size):
             return 0.0
-        beside = float(acceleration[outside]) * math.copysign(1.0, acceleration[inside])
-        return dt * (float(size[inside]) - level) / (float(size[inside]) - beside)
+        value_outside = float(acceleration[outside]) * math.copysign(1.0, acceleration[inside])
+        return dt * (float(size[inside]) - level) / (float(size[inside]) - value_outside)
 
     first, last = int(above[0]), int(above[-1])
     return (last - first) * dt + crossing(first, first - 1) + crossing(last, last + 1)

@@ -60,28 +60,28 @@ EARTH_KM: Final = 6371.0
 
 def known_of_header(text: str) -> dict[str, Any]:
     """Return what the head of a file says, by the names of the fields of a record."""
-    found: dict[str, Any] = {}
+    facts: dict[str, Any] = {}
     for name, pattern in _PATTERNS.items():
         for match in pattern.finditer(text):
-            said = next(group for group in match.groups() if group)
+            text_of_value = next(group for group in match.groups() if group)
             if name == "mechanism":
-                found.setdefault(name, said.strip())
-            elif _LIMITS[name][0] < float(said) <= _LIMITS[name][1]:
-                found.setdefault(name, float(said))
+                facts.setdefault(name, text_of_value.strip())
+            elif _LIMITS[name][0] < float(text_of_value) <= _LIMITS[name][1]:
+                facts.setdefault(name, float(text_of_value))
     for pattern, over in _BANDS:
         band = pattern.search(text)
         if band is not None:
             numbers = [float(one) for one in band.groups()]
-            found |= {"lowest_hz": over * numbers[len(numbers) // 2 - 1], "highest_hz": numbers[len(numbers) // 2]}
+            facts |= {"lowest_hz": over * numbers[len(numbers) // 2 - 1], "highest_hz": numbers[len(numbers) // 2]}
             break
     places = [place[1] for pattern in _PLACES if (place := pattern.search(text))]
-    if "distance_km" not in found and len(places) == len(_PLACES):
+    if "distance_km" not in facts and len(places) == len(_PLACES):
         lat, lon, at_lat, at_lon = (math.radians(float(one)) for one in places)
         half = (
             math.sin((at_lat - lat) / 2.0) ** 2 + math.cos(lat) * math.cos(at_lat) * math.sin((at_lon - lon) / 2.0) ** 2
         )
-        found["distance_km"] = round(2.0 * EARTH_KM * math.asin(math.sqrt(half)), 1)
-    return found
+        facts["distance_km"] = round(2.0 * EARTH_KM * math.asin(math.sqrt(half)), 1)
+    return facts
 
 
 _HEADS: Final = {
@@ -122,7 +122,7 @@ def _rows_of(file: Path) -> dict[str, dict[str, Any]]:
         table = list(csv.reader(io.StringIO(text), skipinitialspace=True)) if _RSN.search(text) else []
     except (OSError, csv.Error):
         return {}
-    found: dict[str, dict[str, Any]] = {}
+    rows: dict[str, dict[str, Any]] = {}
     heads: list[str] = []
     for cells in table:
         if any(_RSN.fullmatch(cell.strip()) for cell in cells):
@@ -130,24 +130,24 @@ def _rows_of(file: Path) -> dict[str, dict[str, Any]]:
             continue
         if not heads or len(cells) < len(heads) - 1:
             continue
-        said = dict(zip(heads, (cell.strip() for cell in cells), strict=False))
+        by_head = dict(zip(heads, (cell.strip() for cell in cells), strict=False))
         row: dict[str, Any] = {}
         for name, pattern in _HEADS.items():
-            cell = next((said[head] for head in said if re.fullmatch(pattern, head, re.IGNORECASE)), "")
+            cell = next((by_head[head] for head in by_head if re.fullmatch(pattern, head, re.IGNORECASE)), "")
             try:
                 row[name] = _MECHANISMS.get(cell, printable(cell)) if name == "mechanism" else float(cell)
             except ValueError:
                 continue
             if name != "mechanism" and not (math.isfinite(row[name]) and row[name] > 0.0):
                 del row[name]  # -999 is not known
-        keys = [cell for head, cell in said.items() if _FILES.fullmatch(head) or _RSN.fullmatch(head)]
-        found |= dict.fromkeys((re.split(r"[\\/]", key)[-1].lower() for key in keys if key), row)
-    return found
+        keys = [cell for head, cell in by_head.items() if _FILES.fullmatch(head) or _RSN.fullmatch(head)]
+        rows |= dict.fromkeys((re.split(r"[\\/]", key)[-1].lower() for key in keys if key), row)
+    return rows
 
 
 def known_words(record: Record) -> str:
     """Return what is known of a record in a line, or nothing."""
-    said = (
+    facts = (
         ("M {:g}", record.magnitude),
         ("{:g} km", record.distance_km),
         ("Vs30 {:g} m/s", record.vs30),
@@ -155,22 +155,22 @@ def known_words(record: Record) -> str:
         ("usable from {:.3g} Hz", record.lowest_hz),
         ("to {:.3g} Hz", record.highest_hz),
     )
-    return ", ".join(form.format(value) for form, value in said if value not in (None, ""))
+    return ", ".join(form.format(value) for form, value in facts if value not in (None, ""))
 
 
 def band_remarks(records: Iterable[Any], shortest: float, longest: float) -> list[str]:
     """Return a remark on records that are used at periods (s) beyond their usable band."""
-    found = []
+    sentences = []
     for number, motion in enumerate(records, start=1):
         record = getattr(motion, "first", motion)
         lowest, highest = getattr(record, "lowest_hz", None), getattr(record, "highest_hz", None)
         name = getattr(motion, "name", "") or f"motion {number}"
         if lowest and longest > (1.0 + 1e-9) / lowest:
-            found.append(f"{name} is usable to {1.0 / lowest:.3g} s and used to {longest:.3g} s")
+            sentences.append(f"{name} is usable to {1.0 / lowest:.3g} s and used to {longest:.3g} s")
         elif highest and shortest < (1.0 - 1e-9) / highest:
-            found.append(f"{name} is usable from {1.0 / highest:.3g} s and used from {shortest:.3g} s")
-    said = "; ".join(found[:3]) + (f" (and {len(found) - 3} more)" if len(found) > 3 else "")
-    return [f"the suite is used beyond the band of its records: {said}"] if found else []
+            sentences.append(f"{name} is usable from {1.0 / highest:.3g} s and used from {shortest:.3g} s")
+    listed = "; ".join(sentences[:3]) + (f" (and {len(sentences) - 3} more)" if len(sentences) > 3 else "")
+    return [f"the suite is used beyond the band of its records: {listed}"] if sentences else []
 
 
 __all__ = ["KNOWN", "band_remarks", "known_of_header", "known_words", "with_tables"]

@@ -33,7 +33,7 @@ MEASURES: Final = (
 
 def drift_remarks(record: Record) -> tuple[str, ...]:
     """Return remarks on the baseline: a velocity at the end above `END_VELOCITY` of PGV or a displacement above
-    `END_DISPLACEMENT` of PGD is mostly an error or a cut, save permanent displacement near a fault.
+    `END_DISPLACEMENT` of PGD is mostly an error or a cut, except for permanent displacement near a fault.
     """
     velocity, displacement = float(record.velocity[-1]), float(record.displacement[-1])
     remarks = []
@@ -79,11 +79,11 @@ def intensity_table(records: Iterable[Record]) -> pl.DataFrame:
     ['duration', 'pga_g', 'pgv', 'pgd', 'arias']
     """
     try:
-        given: list[Any] = [records] if isinstance(records, Record) else list(records)
+        listed: list[Any] = [records] if isinstance(records, Record) else list(records)
     except TypeError:
         raise refusal(InvalidMotion, "records", "intensity table", "Records", brief(records)) from None
     rows = []
-    for number, record in enumerate(given, start=1):
+    for number, record in enumerate(listed, start=1):
         if not isinstance(record, Record):
             raise refusal(InvalidMotion, f"record {number}", "intensity table", "a Record", brief(record))
         labels = {name: getattr(record, name) for name in ("name", "event", "station", "component")}

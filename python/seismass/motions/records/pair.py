@@ -10,10 +10,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
 from itertools import takewhile
 from pathlib import Path
-from typing import Any, Final, Literal
+from typing import TYPE_CHECKING, Any, Final, Literal
 
 import numpy as np
-import polars as pl
 
 from seismass.base.errors import InvalidMotion, InvalidOption, RecordFormatError
 from seismass.base.values import FloatArray, Value, as_number, as_path, brief, is_one_of, printable, refusal
@@ -30,6 +29,9 @@ from seismass.motions.records.read import (
 )
 from seismass.motions.records.record import Record
 from seismass.motions.records.suite import Excluded, excluded_record, read_file, recorded_once
+
+if TYPE_CHECKING:
+    import polars as pl
 
 
 def between(first: float, second: float) -> float:
@@ -68,7 +70,7 @@ class Pair(Value):
         Horizontal components: of one step and length, without vertical accelerations of their own.
     vertical : Record, optional
         Vertical component, up positive, of the same step and length.
-    remarks : tuple of str
+    remarks : tuple of str, optional
         What was done to bring them together.
 
     Raises
@@ -124,10 +126,10 @@ class Pair(Value):
 
         Parameters
         ----------
-        first, second, vertical : Record
+        first, second, vertical : Record, optional
             Components that begin at the same instant, as those of one file set do. A horizontal without azimuth has the
             one that its component label states, if it states one.
-        lengths : {"shorter", "padded"}
+        lengths : {"shorter", "padded"}, default "shorter"
             Where the horizontals differ in length: cut the longer, or pad the shorter with zeros. The vertical is cut
             or padded to them. Both are stated in the remarks and in the history of the component.
 
@@ -311,7 +313,7 @@ class Pair(Value):
         one, other = (record.component or record.name or "?" for record in (self.first, self.second))
         return f"{one} and {other}"
 
-    def _turned(self, turn: float, azimuth: float | None, said: str) -> Record:
+    def _turned(self, turn: float, azimuth: float | None, note: str) -> Record:
         acceleration = self.at_angles(np.array([turn]))[0]
         direction = f"{turn % 360.0:g} from first" if azimuth is None else f"{azimuth:g}"
         return self.first.replace(
@@ -321,7 +323,7 @@ class Pair(Value):
             azimuth=azimuth,
             source=None,
             sha256="",
-            history=(*self.first.history, said),
+            history=(*self.first.history, note),
         )
 
 
@@ -337,9 +339,9 @@ def read_pair(
 
     Parameters
     ----------
-    first, second, vertical : path-like
+    first, second, vertical : path-like, optional
         The files; each of any format that `read_record` reads.
-    lengths : {"shorter", "padded"}
+    lengths : {"shorter", "padded"}, default "shorter"
         See `Pair.from_records`.
     **options
         Passed to `read_record` for each file, such as `dt` and `unit`.
@@ -380,10 +382,10 @@ def _aligned(record: Record, samples: int, remarks: list[str]) -> Record:
     if more == 0:
         return record
     what = f"{record.name or 'component'} "
-    said = f"cut to the {samples} samples of its pair" if more < 0 else f"padded by {more} zeros to its pair"
-    remarks.append(f"{what}{said}, from {record.samples}")
+    note = f"cut to the {samples} samples of its pair" if more < 0 else f"padded by {more} zeros to its pair"
+    remarks.append(f"{what}{note}, from {record.samples}")
     acceleration = record.acceleration[:samples] if more < 0 else np.pad(record.acceleration, (0, more))
-    return record.replace(acceleration=acceleration, history=(*record.history, said))
+    return record.replace(acceleration=acceleration, history=(*record.history, note))
 
 
 _SEQUENCE: Final = re.compile(r"^RSN(\d+)(?!\d)", re.IGNORECASE)
@@ -405,7 +407,7 @@ class Pairs(Card):
         Name of the folder.
     pairs : tuple of Pair
         What was found.
-    excluded : tuple of Excluded
+    excluded : tuple of Excluded, optional
         Files that are not a component of a pair, with the reason.
     """
 
@@ -424,6 +426,8 @@ class Pairs(Card):
 
     def table(self) -> pl.DataFrame:
         """Return one row per pair: labels, files, azimuths (degrees), samples, dt (s), PGA (g) and remarks."""
+        import polars as pl
+
         rows = [
             {
                 "pair": number,
@@ -454,7 +458,7 @@ def find_pairs(folder: str | os.PathLike[str], *, lengths: Literal["shorter", "p
     """Return the pairs and triples of components among the record files of a folder and of those below.
 
     Files of one folder belong together that share the record sequence number of their names (``RSN161_...``), or else
-    event and station of their headers, or else a name but for the direction it ends in. Of those the two horizontals
+    event and station of their headers, or else a name without the direction it ends in. Of those the two horizontals
     make the pair, and one vertical component is added. Directions come from the header, or from names that end in two
     numbers 90 degrees apart.
 
@@ -463,7 +467,7 @@ def find_pairs(folder: str | os.PathLike[str], *, lengths: Literal["shorter", "p
     folder : path-like
         The folder, or a ZIP archive of one; hidden files are not looked at. What is read of it is what `read_suite`
         reads: every record format, each channel of files of several, and text of columns that states step and unit.
-    lengths : {"shorter", "padded"}
+    lengths : {"shorter", "padded"}, default "shorter"
         See `Pair.from_records`.
 
     Raises
@@ -487,7 +491,7 @@ def _pairs_of(name: str, files: list[tuple[Path, Path]], lengths: Literal["short
     """Return the pairs of files, each with the path that it is called by."""
     excluded: list[Excluded] = []
     groups: dict[tuple[str, ...], list[Record]] = {}
-    found: list[Record] = []
+    records_of_all: list[Record] = []
     for file, shown in files:
         try:
             read = read_file(file)
@@ -498,11 +502,11 @@ def _pairs_of(name: str, files: list[tuple[Path, Path]], lengths: Literal["short
             continue
         read = tuple(record.replace(source=shown) for record in read)
         excluded += [excluded_record(one, reason) for one in read if (reason := off_ground(one))]
-        found += [one for one in read if not off_ground(one)]
-    found, twice = recorded_once(with_tables(found, (file for file, _ in files)))
+        records_of_all += [one for one in read if not off_ground(one)]
+    records_of_all, twice = recorded_once(with_tables(records_of_all, (file for file, _ in files)))
     excluded += twice
-    several = Counter(record.source for record in found)
-    for record in found:
+    several = Counter(record.source for record in records_of_all)
+    for record in records_of_all:
         groups.setdefault(_group(record, several[record.source] > 1), []).append(record)
     pairs: list[Pair] = []
     for records in groups.values():

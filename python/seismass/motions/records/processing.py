@@ -139,11 +139,11 @@ def band_passed(
 
     band = f"above {low:g} Hz" if high is None else f"below {high:g} Hz" if low is None else f"{low:g} to {high:g} Hz"
     pads = "kept" if keep_pads else "removed again"
-    said = (
+    note = (
         f"filtered {band}: Butterworth of order {poles} forwards and backwards, ends tapered over {tapered} samples, "
         f"{pad} zeros at each end {pads}"
     )
-    changed = _both(record, filtered, said)
+    changed = _both(record, filtered, note)
     peak = int(np.argmax(np.abs(record.acceleration)))
     if tapered and not tapered <= peak < record.samples - tapered:
         changed = changed.replace(remarks=(*changed.remarks, "the taper reduced its largest acceleration"))
@@ -167,17 +167,17 @@ def resampled(record: R, dt: float) -> R:
     if ratio.denominator == 1:
         times = ratio.numerator
         finer = np.arange((record.samples - 1) * times + 1) / times
-        at = np.arange(record.samples)
-        said = f"resampled from {record.dt:g} to {step:g} s on the lines between samples: the same motion"
-        return _both(record, lambda acceleration: np.interp(finer, at, acceleration), said, dt=step)
+        indices = np.arange(record.samples)
+        note = f"resampled from {record.dt:g} to {step:g} s on the lines between samples: the same motion"
+        return _both(record, lambda acceleration: np.interp(finer, indices, acceleration), note, dt=step)
     from scipy import signal  # slow to import
 
     def interpolated(acceleration: FloatArray) -> FloatArray:
         samples: FloatArray = signal.resample_poly(acceleration, ratio.numerator, ratio.denominator)
         return samples
 
-    said = f"resampled from {record.dt:g} to {step:g} s by band-limited interpolation ({ratio})"
-    changed = _both(record, interpolated, said, dt=step)
+    note = f"resampled from {record.dt:g} to {step:g} s by band-limited interpolation ({ratio})"
+    changed = _both(record, interpolated, note, dt=step)
     if record.pga == 0.0:
         return changed
     loss = 100.0 * (changed.pga / record.pga - 1.0)
@@ -185,11 +185,11 @@ def resampled(record: R, dt: float) -> R:
     return changed.replace(remarks=(*changed.remarks, remark))
 
 
-def _both(record: R, change: Callable[[FloatArray], FloatArray], said: str, **others: Any) -> R:
+def _both(record: R, change: Callable[[FloatArray], FloatArray], note: str, **others: Any) -> R:
     """The record with both components changed, and what was done."""
     vertical = None if record.vertical is None else change(record.vertical)
     return record.replace(
-        acceleration=change(record.acceleration), vertical=vertical, history=(*record.history, said), **others
+        acceleration=change(record.acceleration), vertical=vertical, history=(*record.history, note), **others
     )
 
 

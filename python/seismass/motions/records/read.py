@@ -79,7 +79,7 @@ def no_motion(record: Record) -> str | None:
     return "its samples have one sign, as those of a spectrum or of absolute values, and no motion's have"
 
 
-def suspicions(record: Record, *, unit_given: bool) -> tuple[str, ...]:
+def suspicions(record: Record, *, unit_is_stated: bool) -> tuple[str, ...]:
     """Return remarks on samples that look wrong: the peak at the last sample, a doubtful unit (unless the caller stated
     it: `unit_given`), an offset, a spike.
     """
@@ -105,7 +105,7 @@ def suspicions(record: Record, *, unit_given: bool) -> tuple[str, ...]:
             f"PGV {record.pgv:.3g} m/s is above {LARGE_PGV:g} m/s: the unit, {record.file_unit}, or the step, "
             f"{record.dt:g} s, is doubtful, or an offset was not removed"
         )
-    elif record.pga_g < SMALLEST_PGA_G and unit_given:
+    elif record.pga_g < SMALLEST_PGA_G and unit_is_stated:
         remarks.append(f"PGA {record.pga_g:.2g} g is very small: the unit, {record.file_unit}, is doubtful")
     one_sign = no_motion(record)
     if one_sign:
@@ -145,13 +145,13 @@ def _spike(record: Record) -> str | None:
     """Return a remark on the one sample that stands out from its neighbours."""
     samples = record.acceleration / record.pga
     out = np.abs(samples[1:-1] - 0.5 * (samples[:-2] + samples[2:]))
-    at = int(np.argmax(out))
+    place = int(np.argmax(out))
     others = out.copy()
-    others[max(at - 1, 0) : at + 2] = 0.0
+    others[max(place - 1, 0) : place + 2] = 0.0
     next_largest = float(np.max(others))
-    if out[at] > SPIKE * next_largest and out[at] > 0.5:
+    if out[place] > SPIKE * next_largest and out[place] > 0.5:
         return (
-            f"sample {at + 2} (t = {(at + 1) * record.dt:.6g} s) stands out from its neighbours as no other does: "
+            f"sample {place + 2} (t = {(place + 1) * record.dt:.6g} s) stands out from its neighbours as no other: "
             "a spike, or a damaged number"
         )
     return None
@@ -252,11 +252,11 @@ def read_record(
     if channel is None:
         raise RecordFormatError(f"channel of {file} must be given, the file has {there}; got none")
     wanted = str(channel).strip().lower()
-    found = [one for one in channels if one.label.lower() == wanted]
-    found = found or [one for one in channels if one.record.component.lower() == wanted]
-    if len(found) != 1:
+    matches = [one for one in channels if one.label.lower() == wanted]
+    matches = matches or [one for one in channels if one.record.component.lower() == wanted]
+    if len(matches) != 1:
         raise RecordFormatError(f"channel of {file} must be one of {there}; got {brief(channel)}")
-    return found[0].record
+    return matches[0].record
 
 
 def read_records(
@@ -312,7 +312,7 @@ def _read(path: Any, dt: Any, unit: Any, format: Any, skip: Any) -> tuple[Channe
             one.record.replace(
                 sha256=digest,
                 **known,
-                remarks=one.record.remarks + altered + suspicions(one.record, unit_given=name is not None),
+                remarks=one.record.remarks + altered + suspicions(one.record, unit_is_stated=name is not None),
             ),
         )
         for one in channels
@@ -327,11 +327,11 @@ def _head_of(text: str) -> str:
 
 def format_of(head: str, source: Path) -> Format:
     """Return the format that the head of a text shows; columns, or .AT2 by its suffix, where it shows none."""
-    found = recognise(head)
-    if isinstance(found, Format):
-        return found
-    if found is not None:
-        name, instead = found
+    result = recognise(head)
+    if isinstance(result, Format):
+        return result
+    if result is not None:
+        name, instead = result
         raise NotRead(f"format of {source.name} must be one that is read; got {name}: {instead}")
     if source.suffix.lower() not in (".at2", ".vt2", ".dt2") or is_row_of_numbers(head.lstrip().partition("\n")[0]):
         return COLUMNS  # numbers from the first line on are no .AT2 file, whatever the suffix

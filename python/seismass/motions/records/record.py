@@ -45,32 +45,32 @@ class Record(Value):
         Ground acceleration in `unit`, first sample at t = 0; kept as a read-only copy in m/s2.
     dt : float
         Time step (s).
-    name : str
+    name : str, optional
         Short name, for a file its name without the suffix.
-    event, station, component : str
+    event, station, component : str, optional
         What the source calls them; empty where it does not say.
     source : Path, optional
         The file it was read from.
-    unit : {"m/s2", "g", "cm/s2", "gal"}
+    unit : {"m/s2", "g", "cm/s2", "gal"}, default "m/s2"
         Unit of the accelerations that are given, also of `vertical`; those of the record are in m/s2 whatever it is.
-    synthetic : bool
+    synthetic : bool, default False
         True for a made motion that no instrument recorded.
     vertical : array_like, shape (samples,), optional
         Vertical ground acceleration (in `unit`, up positive) at the same instants.
-    remarks : tuple of str
+    remarks : tuple of str, optional
         What a reader had to interpret or leave out.
     azimuth : float, optional
         Direction of positive acceleration, degrees clockwise from north; None where the source does not say.
-    network : str
+    network : str, optional
         Network or agency that recorded it; empty where the source does not say.
-    sha256 : str
+    sha256 : str, optional
         Digest of the bytes of the source file; empty for a record that no file holds.
-    place : str
+    place : str, optional
         Where the sensor stands, as the source says: "Roof", "borehole"; empty for the surface of the ground, or where
         the source does not say.
-    history : tuple of str
+    history : tuple of str, optional
         What was done to the samples after reading, in order.
-    file_unit : str
+    file_unit : str, default "m/s2"
         Unit of the accelerations in the source file, as a label: "g", "m/s2" or "cm/s2".
     magnitude, distance_km, vs30, mechanism
         Of the earthquake, to it (km) and of the site (m/s), as the source or a table beside it says; None or empty.
@@ -216,7 +216,7 @@ class Record(Value):
 
         Parameters
         ----------
-        start, end : float
+        start, end : float, optional
             Shares from 0 to 1, in order.
 
         Raises
@@ -231,7 +231,7 @@ class Record(Value):
 
         Parameters
         ----------
-        threshold_g : float
+        threshold_g : float, optional
             The threshold (g), positive.
 
         Raises
@@ -294,8 +294,8 @@ class Record(Value):
             The ratio is not a positive number.
         """
         ratio = _number("length_ratio", length_ratio, "similitude", positive=True)
-        said = f"time step over sqrt({ratio:g}) for a model at 1:{ratio:g}, accelerations unchanged"
-        return self._changed(said, dt=self.dt / math.sqrt(ratio))
+        note = f"time step over sqrt({ratio:g}) for a model at 1:{ratio:g}, accelerations unchanged"
+        return self._changed(note, dt=self.dt / math.sqrt(ratio))
 
     def with_duration(self, duration: float) -> Record:
         """Return the record up to the sample nearest to `duration` (s), as `Motion.with_duration` does.
@@ -307,8 +307,8 @@ class Record(Value):
         """
         changed = self.motion.with_duration(duration)
         what = "cut" if changed.samples < self.samples else "continued at zero"
-        said = f"{what} to {changed.duration:g} s"
-        return self._changed(said, acceleration=changed.acceleration, vertical=changed.vertical)
+        note = f"{what} to {changed.duration:g} s"
+        return self._changed(note, acceleration=changed.acceleration, vertical=changed.vertical)
 
     def resampled(self, dt: float) -> Record:
         """Return the record at another time step; see `seismass.motions.records.processing.resampled`."""
@@ -350,12 +350,12 @@ class Record(Value):
         if self.samples != vertical.samples:
             cut = f"cut to {samples} samples: {self.samples} horizontal, {vertical.samples} vertical"
             record = self.replace(remarks=(*self.remarks, cut))
-        said = f"vertical accelerations of {vertical.name or 'another record'} set beside it"
-        return record._changed(said, acceleration=self.acceleration[:samples], vertical=vertical.acceleration[:samples])
+        note = f"vertical accelerations of {vertical.name or 'another record'} set beside it"
+        return record._changed(note, acceleration=self.acceleration[:samples], vertical=vertical.acceleration[:samples])
 
-    def _changed(self, said: str, **changes: Any) -> Record:
+    def _changed(self, note: str, **changes: Any) -> Record:
         """Return another record, with a step added to its history."""
-        return self.replace(history=(*self.history, said), **changes)
+        return self.replace(history=(*self.history, note), **changes)
 
     @view
     def plot(self, *, figure: Figure | SubFigure | None = None, axes: Sequence[Axes] | None = None) -> Figure:

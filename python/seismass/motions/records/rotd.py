@@ -74,11 +74,11 @@ class RotD(Card):
 
     def __getitem__(self, percentile: float) -> FloatArray:
         """Return the spectrum of one of the percentiles, shape (periods,)."""
-        found = np.flatnonzero(self.percentiles == percentile)
-        if len(found) == 0:
+        indices = np.flatnonzero(self.percentiles == percentile)
+        if len(indices) == 0:
             known = "one of " + ", ".join(f"{value:g}" for value in self.percentiles)
             raise refusal(InvalidOption, "percentile", "RotD", known, brief(percentile))
-        row: FloatArray = self.values[found[0]]
+        row: FloatArray = self.values[indices[0]]
         return row
 
     def table(self) -> pl.DataFrame:
@@ -113,13 +113,13 @@ def rotd(
         Two horizontal components.
     periods : array_like, shape (periods,)
         Natural periods (s).
-    percentiles : sequence of float
+    percentiles : sequence of float, optional
         From 0 to 100; interpolated linearly between the sorted values over the angles.
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping.
     angles : int, default 180
         Directions, evenly over half a turn from the first component on; the other half has the same peaks.
-    kind : {"pseudo_acceleration", "displacement", "pseudo_velocity", "acceleration"}
+    kind : {"pseudo_acceleration", "displacement", "pseudo_velocity", "acceleration"}, default "pseudo_acceleration"
         Ordinate, as in `response_spectrum`, in m/s2, m, m/s or m/s2.
     threads : int, optional
         As in `response_spectrum`.
@@ -154,17 +154,17 @@ def rotd(
         raise refusal(InvalidOption, "percentiles", "RotD", "a list of numbers from 0 to 100", brief(percentiles))
     count = as_count(angles, "angles", "RotD", InvalidOption, least=2)
     ratio = as_number(damping, "damping", "RotD", InvalidOption)
-    at = as_array(periods, "periods", "RotD", InvalidOption)
+    grid = as_array(periods, "periods", "RotD", InvalidOption)
     turns = frozen(np.arange(count) * (180.0 / count))
     rotated = pair.at_angles(turns)
-    ordinates = response_spectrum([Motion(row, pair.dt) for row in rotated], at, ratio, kind, threads=threads)
+    ordinates = response_spectrum([Motion(row, pair.dt) for row in rotated], grid, ratio, kind, threads=threads)
     angle = turns[np.argmax(ordinates, axis=0)]
     azimuth = None
     if pair.azimuths is not None:
         azimuth = frozen((pair.azimuths[0] + np.copysign(1.0, pair.apart) * angle) % 180.0)
     peaks = _peaks(rotated, pair.dt)
     return RotD(
-        periods=at,
+        periods=grid,
         percentiles=shares,
         values=frozen(np.percentile(ordinates, shares, axis=0)),
         angle=frozen(angle),

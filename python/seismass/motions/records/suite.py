@@ -9,10 +9,9 @@ import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
-import polars as pl
 
 from seismass.base.errors import InvalidMotion, RecordFormatError
 from seismass.base.files import open_regular
@@ -44,6 +43,9 @@ from seismass.motions.records.read import (
 )
 from seismass.motions.records.record import KNOWN, Record
 
+if TYPE_CHECKING:
+    import polars as pl
+
 _SAID_BY_NAME = "files are read by name or from a list, where their units can be given"
 LARGEST_COLUMNS = 32 * 1024 * 1024
 """Text of columns above so many bytes is left to be read by name."""
@@ -69,9 +71,9 @@ class Suite:
         Name of the directory or list.
     records : tuple of Record
         What was taken, in order.
-    excluded : tuple of Excluded
+    excluded : tuple of Excluded, optional
         What was left out.
-    remarks : tuple of str
+    remarks : tuple of str, optional
         What else a reader of the suite should know, such as columns of a list that were not used.
 
     Raises
@@ -118,6 +120,8 @@ class Suite:
 
     def table(self) -> pl.DataFrame:
         """Return one row per file, those taken first, in order, then those left out with the reason."""
+        import polars as pl
+
         schema = {
             "taken": pl.Boolean,
             "name": pl.String,
@@ -241,7 +245,7 @@ def _read_directory(directory: Path) -> Suite:
         )
     records, twice = recorded_once(with_tables(records, files_below(directory)))
     offset = {number: is_uncorrected(record) and _offset(record) for number, record in enumerate(records)}
-    excluded += [*twice, *(excluded_record(records[at], reason) for at, reason in offset.items() if reason)]
+    excluded += [*twice, *(excluded_record(records[index], reason) for index, reason in offset.items() if reason)]
     taken = tuple(record for number, record in enumerate(records) if not offset[number])
     return Suite(printable(directory.resolve().name), taken, tuple(sorted(excluded, key=lambda one: one.file)))
 
@@ -318,8 +322,8 @@ def is_uncorrected(record: Record) -> bool:
 
 
 def _offset(record: Record) -> str | None:
-    found = next((remark for remark in record.remarks if remark.startswith("mean is ")), None)
-    return f"uncorrected, and its {found}" if found else None
+    sentence = next((remark for remark in record.remarks if remark.startswith("mean is ")), None)
+    return f"uncorrected, and its {sentence}" if sentence else None
 
 
 SAME_SAMPLES: Final = 2e-3
@@ -334,19 +338,19 @@ def recorded_once(records: Sequence[Record]) -> tuple[list[Record], list[Exclude
     """
     reasons: dict[int, str] = {}
     uncorrected = [is_uncorrected(record) for record in records]
-    for at, record in enumerate(records):
+    for index, record in enumerate(records):
         if any(remark.startswith("uncorrected: column") for remark in record.remarks):
-            reasons[at] = "uncorrected, beside its corrected column"
+            reasons[index] = "uncorrected, beside its corrected column"
         for other_at, other in enumerate(records):
-            if at in reasons or other_at == at or other_at in reasons:
+            if index in reasons or other_at == index or other_at in reasons:
                 continue
             named = printable(other.source.name if other.source else other.name)
-            if uncorrected[at] and not uncorrected[other_at] and _is_of_one_motion(record, other):
-                reasons[at] = f"uncorrected; the corrected record of the same motion is taken, {named}"
-            elif other_at < at and uncorrected[at] == uncorrected[other_at] and _has_same_samples(record, other):
-                reasons[at] = f"the same recording as {named}, in another format"
-    left = [excluded_record(records[at], reason) for at, reason in reasons.items()]
-    return list(_with_copies([record for at, record in enumerate(records) if at not in reasons])), left
+            if uncorrected[index] and not uncorrected[other_at] and _is_of_one_motion(record, other):
+                reasons[index] = f"uncorrected; the corrected record of the same motion is taken, {named}"
+            elif other_at < index and uncorrected[index] == uncorrected[other_at] and _has_same_samples(record, other):
+                reasons[index] = f"the same recording as {named}, in another format"
+    left = [excluded_record(records[index], reason) for index, reason in reasons.items()]
+    return list(_with_copies([record for index, record in enumerate(records) if index not in reasons])), left
 
 
 def _with_copies(records: list[Record]) -> Iterator[Record]:
@@ -391,12 +395,13 @@ def _is_of_one_motion(one: Record, other: Record) -> bool:
     peaks = [int(np.argmax(np.abs(record.acceleration))) * record.dt for record in (one, other)]
     before = min(int(peak / dt) for peak in peaks)
     after = min(int((record.duration - peak) / dt) for record, peak in zip((one, other), peaks, strict=True))
-    at = dt * np.arange(-before, after + 1)
+    times = dt * np.arange(-before, after + 1)
     first, second = (
-        np.interp(at + peak, record.time, record.acceleration) for record, peak in zip((one, other), peaks, strict=True)
+        np.interp(times + peak, record.time, record.acceleration)
+        for record, peak in zip((one, other), peaks, strict=True)
     )
     together = float(np.sqrt(np.dot(first, first) * np.dot(second, second)))
-    return len(at) > 2 and together > 0.0 and float(np.dot(first, second)) > SAME_MOTION * together
+    return len(times) > 2 and together > 0.0 and float(np.dot(first, second)) > SAME_MOTION * together
 
 
 def _counted(excluded: list[Excluded]) -> str:
@@ -404,10 +409,10 @@ def _counted(excluded: list[Excluded]) -> str:
     if not excluded:
         return "no file"
     others = [item for item in excluded if "vertical component" not in item.reason]
-    beside = ""
+    ending = ""
     if others:
-        beside = f" and {len(others)} other files, {printable(others[0].file.name)} {others[0].reason}"
-    return f"{len(excluded) - len(others)} vertical components{beside}"
+        ending = f" and {len(others)} other files, {printable(others[0].file.name)} {others[0].reason}"
+    return f"{len(excluded) - len(others)} vertical components{ending}"
 
 
 def _read_list(source: Path) -> Suite:

@@ -142,23 +142,23 @@ class ScalingResult(Result):
     def doubts(self) -> tuple[str, ...]:
         """What is unlikely: factors outside 0.2 to 5, and a mean spectrum above twice the target, as sentences."""
         low, high = FACTOR_RANGE
-        found = []
+        doubts = []
         outside = np.flatnonzero((self.factors < low) | (self.factors > high))
         if len(outside):
             listed = ", ".join(f"{self.factors[i]:.4g} of motion {i + 1} ({self.names[i]})" for i in outside[:3])
             others = f" and {len(outside) - 3} more" if len(outside) > 3 else ""
-            found.append(
+            doubts.append(
                 f"scale factors are outside {low:g} to {high:g}: {listed}{others}; "
                 "records so far from the target may not stand for it"
             )
         ratio = self.mean / self.target
         worst = int(np.argmax(ratio))
         if ratio[worst] > MAX_OVERSHOOT:
-            found.append(
+            doubts.append(
                 f"mean scaled spectrum is {ratio[worst]:.3g} times the target at {self.periods[worst]:.4g} s, "
                 f"above {MAX_OVERSHOOT:g} times: the shapes of suite and target differ"
             )
-        return tuple(found)
+        return tuple(doubts)
 
     def spectrum_table(self) -> pl.DataFrame:
         """Return one row per period: target, mean scaled pseudo-acceleration (m/s2), their ratio, and the scatter.
@@ -191,7 +191,7 @@ class ScalingResult(Result):
         return {"scaling": self.diagnostics(), "spectrum": self.spectrum_table()}
 
     def to_dict(self) -> dict[str, Any]:
-        """Return factors, misfits and the spectrum as plain values; null for what is not finite."""
+        """Return factors, misfits and the spectrum as plain values; null for non-finite values."""
         document = {
             "target": self.target_label,
             "method": self.method,

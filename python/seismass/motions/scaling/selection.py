@@ -77,10 +77,10 @@ def select_records(
         Most records of one event; None: any number. Synthetic records and those without an event are each their own.
     max_per_station : int, optional
         Most records of one event at one station: 1 takes one of the two components of a recording. Where event or
-        station is not known, an NGA sequence number in the name (RSN767) tells components of one recording.
+        station is not known, an NGA sequence number in the name (RSN767) identifies components of one recording.
     factor_range : tuple of float, optional
         Least and largest factor of a record.
-    method : {"mean", "each"}
+    method : {"mean", "each"}, default "mean"
         At each step, the record with which the mean of those chosen is closest to the target; or the one that is
         closest by itself.
 
@@ -127,21 +127,21 @@ def select_records(
         None if factors_within[0] <= factor <= factors_within[1] else _factor_reason(factor, factors_within)
         for factor in factors
     ]
-    chosen: list[int] = []
+    picks: list[int] = []
     means: list[float] = []
-    while len(chosen) < wanted:
-        open_ones = [number for number, reason in enumerate(reasons) if reason is None and number not in chosen]
+    while len(picks) < wanted:
+        open_ones = [number for number, reason in enumerate(reasons) if reason is None and number not in picks]
         if not open_ones:
-            got = f"{len(chosen)} of {len(candidates)} within the limits"
+            got = f"{len(picks)} of {len(candidates)} within the limits"
             raise refusal(InvalidMotion, "records", "selection", f"at least {wanted} to choose", got)
-        together = _misfits_of_mean(compared, factors, chosen, open_ones)
-        order = together if method == "mean" and chosen else misfit[open_ones]
+        together = _misfits_of_mean(compared, factors, picks, open_ones)
+        order = together if method == "mean" and picks else misfit[open_ones]
         best = int(np.argmin(order))
-        chosen.append(open_ones[best])
+        picks.append(open_ones[best])
         means.append(float(together[best]))
-        _close(reasons, groups, limits, candidates, chosen)
-    table = _table(candidates, factors, log_ratio, chosen, means, method, reasons)
-    records = tuple(record for number, record in enumerate(candidates) if number in chosen)
+        _close(reasons, groups, limits, candidates, picks)
+    table = _table(candidates, factors, log_ratio, picks, means, method, reasons)
+    records = tuple(record for number, record in enumerate(candidates) if number in picks)
     remark = f"{wanted} of {len(candidates)} records chosen: {_words(method)}"
     return Selection(Suite(candidates.name, records, candidates.excluded, (*candidates.remarks, remark)), table)
 
@@ -150,14 +150,14 @@ def _table(
     candidates: Suite,
     factors: FloatArray,
     log_ratio: FloatArray,
-    chosen: list[int],
+    picks: list[int],
     means: list[float],
     method: Choice,
     reasons: list[str | None],
 ) -> pl.DataFrame:
     """The table of `Selection`."""
     misfit = _rms(log_ratio)
-    steps = {number: step for step, number in enumerate(chosen, start=1)}
+    steps = {number: step for step, number in enumerate(picks, start=1)}
     rows = [
         {
             "number": number + 1,
@@ -182,12 +182,12 @@ def _rms(log_ratio: FloatArray) -> FloatArray:
     return np.asarray(np.sqrt(np.mean(log_ratio**2, axis=1)))
 
 
-def _factor_range(given: Any) -> tuple[float, float]:
+def _factor_range(value: Any) -> tuple[float, float]:
     try:
-        return checked_range(given)
+        return checked_range(value)
     except InvalidOption:
         requirement = "two positive numbers, the smaller first"
-        raise refusal(InvalidOption, "factor_range", "selection", requirement, brief(given)) from None
+        raise refusal(InvalidOption, "factor_range", "selection", requirement, brief(value)) from None
 
 
 def _event(record: Record, number: int) -> tuple[Any, ...]:
@@ -205,12 +205,12 @@ def _recording(record: Record, number: int) -> tuple[Any, ...]:
 
 
 def _misfits_of_mean(
-    compared: SuiteSpectra, factors: FloatArray, chosen: list[int], candidates: list[int]
+    compared: SuiteSpectra, factors: FloatArray, picks: list[int], candidates: list[int]
 ) -> FloatArray:
     """Misfit of the mean of those chosen with each candidate."""
     scaled = factors[:, None] * compared.spectra
-    total = scaled[chosen].sum(axis=0)
-    means = (total[None, :] + scaled[candidates]) / (len(chosen) + 1)
+    total = scaled[picks].sum(axis=0)
+    means = (total[None, :] + scaled[candidates]) / (len(picks) + 1)
     # The mean is compared in shape: a common factor brings it to the target anyway.
     ratio = np.log(means / compared.target)
     ratio -= ratio.mean(axis=1, keepdims=True)
@@ -222,22 +222,22 @@ def _close(
     groups: dict[str, list[tuple[Any, ...]]],
     limits: dict[str, int | None],
     candidates: Suite,
-    chosen: list[int],
+    picks: list[int],
 ) -> None:
     """Give candidates a reason whose event or recording has as many as may be chosen."""
-    last = chosen[-1]
-    for limit, of in groups.items():
+    last = picks[-1]
+    for limit, group in groups.items():
         most = limits[limit]
-        if most is None or sum(of[number] == of[last] for number in chosen) < most:
+        if most is None or sum(group[number] == group[last] for number in picks) < most:
             continue
         what = f"event {candidates[last].event}" if limit == "max_per_event" else "this recording"
         for number, reason in enumerate(reasons):
-            if reason is None and number not in chosen and of[number] == of[last]:
+            if reason is None and number not in picks and group[number] == group[last]:
                 reasons[number] = f"{limit} is {most}: {what} has {most} already"
 
 
-def _factor_reason(factor: float, within: tuple[float, float]) -> str:
-    return f"factor {factor:.3g} is outside {within[0]:g} to {within[1]:g}"
+def _factor_reason(factor: float, factor_range: tuple[float, float]) -> str:
+    return f"factor {factor:.3g} is outside {factor_range[0]:g} to {factor_range[1]:g}"
 
 
 def _words(method: str) -> str:

@@ -23,6 +23,7 @@ from seismass.base.values import (
 )
 from seismass.motions.motion import motion_names
 from seismass.motions.records.known import band_remarks
+from seismass.motions.scaling import FORMS
 from seismass.motions.scaling.result import ScalingResult
 from seismass.motions.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 from seismass.motions.spectra.elastic import check_not_zero
@@ -39,7 +40,7 @@ class SuiteSpectra:
     target: FloatArray
     spectra: FloatArray
     target_label: str
-    beyond: tuple[str, ...] = ()
+    remarks_on_band: tuple[str, ...] = ()
 
     def result(
         self, method: str, individual: FloatArray, common: float = 1.0, notes: Iterable[str] = ()
@@ -66,7 +67,7 @@ class SuiteSpectra:
             "period": self.period,
             "damping": self.damping,
             "target_label": self.target_label,
-            "notes": (*notes, *self.beyond),
+            "notes": (*notes, *self.remarks_on_band),
         }
 
     def log_factors(self) -> FloatArray:
@@ -116,12 +117,12 @@ def suite_spectra(
         target=frozen(ordinates),
         spectra=frozen(spectra),
         target_label=target.label,
-        beyond=tuple(band_remarks(suite, float(periods[0]), float(periods[-1]))),
+        remarks_on_band=tuple(band_remarks(suite, float(periods[0]), float(periods[-1]))),
     )
 
 
 def checked_target(target: Any) -> None:
-    """Refuse what is not a target spectrum."""
+    """Raise where the argument is not a target spectrum."""
     if not isinstance(target, TargetSpectrum):
         raise refusal(InvalidOption, "target", "scaling", "a TargetSpectrum", brief(target))
 
@@ -136,34 +137,18 @@ def positive_number(value: Any, name: str) -> float:
     return as_positive(value, name, "scaling", InvalidOption)
 
 
-def checked_range(given: Any) -> tuple[float, float]:
+def checked_range(ends: Any) -> tuple[float, float]:
     """Return two positive multiples of the period, the smaller first."""
     requirement = "two positive multiples of the period, the smaller first"
     try:
-        shortest, longest = (as_number(value, "period_range", "scaling", InvalidOption) for value in given)
+        shortest, longest = (as_number(value, "period_range", "scaling", InvalidOption) for value in ends)
     except (TypeError, ValueError) as error:
         if isinstance(error, InvalidOption):
             raise
-        raise refusal(InvalidOption, "period_range", "scaling", requirement, brief(given)) from None
+        raise refusal(InvalidOption, "period_range", "scaling", requirement, brief(ends)) from None
     if not (0.0 < shortest < longest < np.inf):
-        raise refusal(InvalidOption, "period_range", "scaling", requirement, brief(given))
+        raise refusal(InvalidOption, "period_range", "scaling", requirement, brief(ends))
     return shortest, longest
-
-
-FORMS: Final = {
-    "asce7": "asce7:SDS:SD1[:TL]",
-    "asce7-22": "asce7-22:CSV",
-    "ec8": "ec8:TYPE:GROUND:AGR[:IMPORTANCE[:DAMPING]]",
-    "nzs1170": "nzs1170:CLASS:Z[:R[:KM]]",
-    "mean": "mean:RECORDS",
-}
-"""What may stand in place of a CSV, by name."""
-
-TARGET_HELP: Final = (
-    "target spectrum: a table of period (s) and Sa, FILE, FILE:UNIT or FILE:COLUMN where it does not say, or one of "
-    + ", ".join(FORMS.values())
-    + "; accelerations in g"
-)
 
 
 ALIASES: Final = {"nzs": "nzs1170", "asce": "asce7"}
@@ -178,16 +163,16 @@ def target_of(text: str, folder: Path = Path()) -> TargetSpectrum:
     name, colon, rest = text.partition(":")
     name = ALIASES.get(name.lower(), name.lower())
     if name not in FORMS or not colon:
-        file, said = file_and_words(text, folder)
+        file, words_behind = file_and_words(text, folder)
         if (colon or not Path(text).suffix) and not file.exists():
             forms = ", ".join(FORMS.values())
             raise InvalidOption(f"--target of command must be a CSV that is there or one of {forms}; got {text}")
-        return TargetSpectrum.from_csv(file, **said)
+        return TargetSpectrum.from_csv(file, **words_behind)
     if not rest:
         raise _refused(name, text)
     if name == "asce7-22":
-        file, said = file_and_words(rest, folder)
-        return TargetSpectrum.asce7_multi_period(*read_table(file, **said))
+        file, words_behind = file_and_words(rest, folder)
+        return TargetSpectrum.asce7_multi_period(*read_table(file, **words_behind))
     if name == "mean":
         from seismass.motions.records.builtin import records_named
 
@@ -203,12 +188,12 @@ def target_of(text: str, folder: Path = Path()) -> TargetSpectrum:
     if name == "ec8":
         kind, ground, *numbers = words
         keys = ("agr_g", "importance", "damping")
-        given: dict[str, Any] = dict(zip(keys, (_number(word, name, text) for word in numbers), strict=False))
-        return TargetSpectrum.eurocode8(int(kind) if kind.isdecimal() else 0, ground.upper(), **given)
+        parameters: dict[str, Any] = dict(zip(keys, (_number(word, name, text) for word in numbers), strict=False))
+        return TargetSpectrum.eurocode8(int(kind) if kind.isdecimal() else 0, ground.upper(), **parameters)
     site_class, *numbers = words
     keys = ("z", "r", "fault_distance_km")
-    given = dict(zip(keys, (_number(word, name, text) for word in numbers), strict=False))
-    return TargetSpectrum.nzs1170(site_class.upper(), **given)
+    parameters = dict(zip(keys, (_number(word, name, text) for word in numbers), strict=False))
+    return TargetSpectrum.nzs1170(site_class.upper(), **parameters)
 
 
 def _number(word: str, name: str, text: str) -> float:
@@ -243,7 +228,7 @@ def scale_least_squares(
     ----------
     records, target, period, damping, period_range, count, threads
         As for `scale_asce7_10`; one motion is enough.
-    space : {"log", "linear"}
+    space : {"log", "linear"}, default "log"
         Differences of logarithms, or of ordinates, which weigh the periods of large ordinates.
 
     Raises
@@ -287,9 +272,9 @@ def scale_sa_t1(
     ----------
     records, target, damping, count, threads
         As for `scale_asce7_10`; one motion is enough.
-    period : float
+    period : float, default 1.0
         T1 (s).
-    period_range : tuple of float
+    period_range : tuple of float, optional
         Range of the comparison as multiples of T1, which the factors do not depend on.
 
     Raises

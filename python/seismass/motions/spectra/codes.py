@@ -119,18 +119,20 @@ class MultiPeriod(PeriodTable):
 
 def multi_period_shape(periods: ArrayLike, sa_g: ArrayLike) -> MultiPeriod:
     """Return the shape; periods increase from 0 or more, and every Sa is positive."""
-    at = as_array(periods, "periods", OWNER, InvalidOption)
+    grid = as_array(periods, "periods", OWNER, InvalidOption)
     ordinates = as_array(sa_g, "sa_g", OWNER, InvalidOption)
-    if len(at) < 2:
-        raise refusal(InvalidOption, "periods", OWNER, "a list of at least two", str(len(at)))
-    if len(ordinates) != len(at):
-        raise refusal(InvalidOption, "sa_g", OWNER, f"a list of {len(at)} values, one per period", str(len(ordinates)))
-    if not (np.isfinite(at).all() and at[0] >= 0.0 and (np.diff(at) > 0.0).all()):
-        wrong = np.flatnonzero(~(np.isfinite(at) & (np.diff(at, prepend=-1e-300) > 0.0)) | (at < 0.0))
-        raise refusal(InvalidOption, "periods", OWNER, "increasing from 0 or more", f"{at[wrong[0]]:g}")
+    if len(grid) < 2:
+        raise refusal(InvalidOption, "periods", OWNER, "a list of at least two", str(len(grid)))
+    if len(ordinates) != len(grid):
+        raise refusal(
+            InvalidOption, "sa_g", OWNER, f"a list of {len(grid)} values, one per period", str(len(ordinates))
+        )
+    if not (np.isfinite(grid).all() and grid[0] >= 0.0 and (np.diff(grid) > 0.0).all()):
+        wrong = np.flatnonzero(~(np.isfinite(grid) & (np.diff(grid, prepend=-1e-300) > 0.0)) | (grid < 0.0))
+        raise refusal(InvalidOption, "periods", OWNER, "increasing from 0 or more", f"{grid[wrong[0]]:g}")
     for value in ordinates:
         positive(float(value), "sa_g")
-    return MultiPeriod(frozen(at), frozen(ordinates))
+    return MultiPeriod(frozen(grid), frozen(ordinates))
 
 
 class Ground(NamedTuple):

@@ -30,15 +30,15 @@ class GroundMotion(Protocol):
 def as_motions(motions: Any, owner: str) -> list[GroundMotion]:
     """Return motions as a list; one motion is a list of one."""
     try:
-        given = [motions] if hasattr(motions, "acceleration") else list(motions)
+        listed = [motions] if hasattr(motions, "acceleration") else list(motions)
     except TypeError:
         raise refusal(InvalidMotion, "motions", owner, "Records or Motions", brief(motions)) from None
-    if not given:
+    if not listed:
         raise refusal(InvalidMotion, "motions", owner, "at least one Record or Motion", "none")
-    for number, motion in enumerate(given, start=1):
+    for number, motion in enumerate(listed, start=1):
         if not (hasattr(motion, "acceleration") and hasattr(motion, "dt")):
             raise refusal(InvalidMotion, f"motion {number}", owner, "a Record or Motion", brief(motion))
-    return given
+    return listed
 
 
 def held(motion: GroundMotion, number: int) -> _kernel.Motion:
@@ -83,9 +83,9 @@ def response_spectrum(
         One motion counts as a suite of one.
     periods : array_like, shape (periods,)
         Natural periods (s), from a thousandth of the time step; each is solved for, none is interpolated.
-    damping : float or sequence of float
+    damping : float or sequence of float, default 0.05
         Ratios of critical damping, at least 0 and below 1.
-    kind : {"pseudo_acceleration", "displacement", "pseudo_velocity", "acceleration"}
+    kind : {"pseudo_acceleration", "displacement", "pseudo_velocity", "acceleration"}, default "pseudo_acceleration"
         Ordinate, in m/s2, m, m/s or m/s2. The last is the largest absolute acceleration of the mass, spring and damper
         together; without damping it is the pseudo-acceleration.
     threads : int, optional
@@ -118,19 +118,19 @@ def response_spectrum(
     """
     if not is_one_of(kind, get_args(Kind)):
         raise refusal(InvalidOption, "kind", "spectrum", "one of " + ", ".join(get_args(Kind)), brief(kind))
-    at = as_array(periods, "periods", "spectrum", InvalidOption)
-    if len(at) == 0:
+    values = as_array(periods, "periods", "spectrum", InvalidOption)
+    if len(values) == 0:
         raise refusal(InvalidOption, "periods", "spectrum", "a list of at least one period", "none")
     ratios = as_array(damping, "damping", "spectrum", InvalidOption, or_number=True)
     if ratios.size == 0:
         raise refusal(InvalidOption, "damping", "spectrum", "a number or a list of at least one ratio", "none")
     workers = None if threads is None else as_count(threads, "threads", "spectrum", InvalidOption, least=1)
-    given = [held(motion, number) for number, motion in enumerate(as_motions(motions, "spectrum"), start=1)]
+    listed = [held(motion, number) for number, motion in enumerate(as_motions(motions, "spectrum"), start=1)]
     if kind == "acceleration":
-        ordinates = np.asarray(_kernel.oscillator_peaks(given, at, np.atleast_1d(ratios), workers)[2])
+        ordinates = np.asarray(_kernel.oscillator_peaks(listed, values, np.atleast_1d(ratios), workers)[2])
     else:
-        peaks = np.asarray(_kernel.response_spectra(given, at, np.atleast_1d(ratios), workers))
-        ordinates = peaks * (2.0 * np.pi / at) ** _POWER_OF_FREQUENCY[kind]
+        peaks = np.asarray(_kernel.response_spectra(listed, values, np.atleast_1d(ratios), workers))
+        ordinates = peaks * (2.0 * np.pi / values) ** _POWER_OF_FREQUENCY[kind]
     return ordinates[:, 0, :] if ratios.ndim == 0 else ordinates
 
 
@@ -152,7 +152,7 @@ def mean_spectrum(
         Factor of each motion.
     periods : array_like, shape (periods,)
         Natural periods (s).
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping.
     threads : int, optional
         As in `response_spectrum`.

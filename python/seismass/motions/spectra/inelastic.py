@@ -76,13 +76,11 @@ class Oscillators:
         self._threads = threads
         for number, motion in enumerate(motions, start=1):
             rest = max(oscillator.rest(motion, largest) for oscillator in oscillators)
-            given = held(motion, number)
-            self._motions.append(given.with_duration((len(given.acceleration) - 1) * given.dt + rest))
+            motion_held = held(motion, number)
+            self._motions.append(motion_held.with_duration((len(motion_held.acceleration) - 1) * motion_held.dt + rest))
 
     def peaks(self, oscillator: IndexArray, motion: IndexArray, factor: FloatArray) -> FloatArray:
-        """Return the peak displacement (m) of each run, by indices of oscillator and motion (from 0) and the factor of
-        the motion.
-        """
+        """Return peak displacements (m) of runs by oscillator and motion (from 0) and factor of the motion."""
         runs = np.stack([oscillator, motion], axis=1).astype(np.int64)
         scale = np.ascontiguousarray(factor, dtype=np.float64)
         batch = _kernel.simulate_columns(
@@ -190,9 +188,9 @@ def inelastic_spectrum(
         C_y = V_y/W, positive; infinite: elastic. Either it or the next is needed.
     ductility : float or array_like of shape (levels,), optional
         Ductility demand, at least 1.
-    damping : float
+    damping : float, default 0.05
         Ratio of critical damping of the initial stiffness; the coefficient stays constant.
-    overstrength, second_slope, third_slope : float
+    overstrength, second_slope, third_slope : float, optional
         Omega, r2 and r3 of the spring, as for `Building`; Omega = 1 and r3 = 0 is elastoplastic.
     threads : int, optional
         Number of threads; default all cores. The result does not depend on it.
@@ -238,32 +236,32 @@ def inelastic_spectrum(
         got = "neither" if strength is None else "both"
         raise refusal(InvalidOption, "strength", owner, "given, or ductility, not both", got)
     suite = as_motions(motions, owner)
-    at = as_array(periods, "periods", owner, InvalidOption)
+    period_values = as_array(periods, "periods", owner, InvalidOption)
     damping_ratio = as_number(damping, "damping", owner, InvalidOption)
     workers = None if threads is None else as_count(threads, "threads", owner, InvalidOption, least=1)
-    elastic = response_spectrum(suite, at, damping_ratio, "displacement", threads=workers)
+    elastic = response_spectrum(suite, period_values, damping_ratio, "displacement", threads=workers)
     oscillators = [
         Oscillator(period, STANDARD_GRAVITY, damping_ratio, overstrength, second_slope, third_slope)
-        for period in at.tolist()
+        for period in period_values.tolist()
     ]
-    unit = STANDARD_GRAVITY * (at / (2.0 * np.pi)) ** 2  # yield displacement of C_y = 1
-    given, name = (strength, "strength") if ductility is None else (ductility, "ductility")
-    levels = _levels(given, name, owner)
+    unit = STANDARD_GRAVITY * (period_values / (2.0 * np.pi)) ** 2  # yield displacement of C_y = 1
+    value, name = (strength, "strength") if ductility is None else (ductility, "ductility")
+    levels = _levels(value, name, owner)
     if ductility is None:
         finite = levels[np.isfinite(levels)]
         runner = Oscillators(oscillators, suite, float(1.0 / finite.min()) if len(finite) else 1.0, workers)
-        found = _of_strengths(runner, np.atleast_1d(levels), elastic, unit)
+        values_of = _of_strengths(runner, np.atleast_1d(levels), elastic, unit)
     else:
         check_not_zero(elastic)
         largest = float(levels.max() / (elastic / unit).min())
         runner = Oscillators(oscillators, suite, largest, workers)
-        found = _of_ductilities(runner, np.atleast_1d(levels), elastic / unit, unit)
+        values_of = _of_ductilities(runner, np.atleast_1d(levels), elastic / unit, unit)
     if levels.ndim == 0:
-        found = [values[:, 0, :] for values in found]
-    at_yield, peaks, demands = (frozen(values) for values in found)
+        values_of = [values[:, 0, :] for values in values_of]
+    at_yield, peaks, demands = (frozen(values) for values in values_of)
     return InelasticSpectrum(
         names=tuple(motion_names(suite)),
-        periods=frozen(at),
+        periods=frozen(period_values),
         strength=at_yield,
         displacement=peaks,
         ductility=demands,
@@ -275,8 +273,8 @@ def inelastic_spectrum(
     )
 
 
-def _levels(given: Any, name: str, owner: str) -> FloatArray:
-    levels = as_array(given, name, owner, InvalidOption, or_number=True)
+def _levels(value: Any, name: str, owner: str) -> FloatArray:
+    levels = as_array(value, name, owner, InvalidOption, or_number=True)
     if levels.size == 0:
         raise refusal(InvalidOption, name, owner, "a number or a list of at least one", "none")
     if name == "ductility":
@@ -349,8 +347,8 @@ def _brackets(demand: Any, levels: FloatArray, count: int) -> tuple[Any, Any, An
         demands = demand(many, np.exp(SCAN_STEP * np.tile(steps, len(active)))).reshape(len(active), _CHUNK)
         for index, ductility in enumerate(levels):
             reached = demands >= ductility
-            at = np.where(reached.any(axis=1), steps[reached.argmax(axis=1)], 0)
-            first[active, index] = np.where(first[active, index] == 0, at, first[active, index])
+            start = np.where(reached.any(axis=1), steps[reached.argmax(axis=1)], 0)
+            first[active, index] = np.where(first[active, index] == 0, start, first[active, index])
         active = active[(first[active] == 0).any(axis=1)]
         done += _CHUNK
     pairs, level = np.nonzero(first > 0)

@@ -54,8 +54,8 @@ class CsvTable(PeriodTable):
         first = int(self.periods[0] == 0.0)
         start = self.periods[first]
         log_ordinates = np.interp(log(np.maximum(periods, start)), log(self.periods[first:]), log(self.sa_g[first:]))
-        beyond = np.interp(periods, self.periods[: first + 1], self.sa_g[: first + 1])
-        return STANDARD_GRAVITY * np.where(np.asarray(periods) < start, beyond, exp(log_ordinates))
+        below = np.interp(periods, self.periods[: first + 1], self.sa_g[: first + 1])
+        return STANDARD_GRAVITY * np.where(np.asarray(periods) < start, below, exp(log_ordinates))
 
 
 def csv_shape(path: str | os.PathLike[str], unit: str | None = None, column: str | None = None) -> CsvTable:
@@ -82,7 +82,7 @@ class _Spectrum:
     name: str
     points: list[tuple[str, str]]
     unit: str = ""
-    of: str = "Sa"
+    quantity: str = "Sa"
 
 
 _PERIODS: Final = re.compile(
@@ -108,8 +108,8 @@ def read_table(
 ) -> tuple[FloatArray, FloatArray]:
     """Return the periods (s) and Sa (g) of a file; see `TargetSpectrum.from_csv`."""
     source = as_path(path, OWNER, RecordFormatError)
-    given = unit_by_name(unit) if isinstance(unit, str) else None
-    if unit is not None and given is None:
+    unit_name = unit_by_name(unit) if isinstance(unit, str) else None
+    if unit is not None and unit_name is None:
         raise refusal(RecordFormatError, "unit", source.name, f"one of {', '.join(ACCELERATION_UNITS)}", brief(unit))
     if column is not None and not isinstance(column, str):
         raise refusal(RecordFormatError, "column", source.name, "a name", brief(column))
@@ -125,26 +125,26 @@ def read_table(
     if "\0" in text:
         got = f"{source} (not text)"
         raise refusal(RecordFormatError, "path", OWNER, "a file of text that can be read", got)
-    found = _json_spectra(text, source.name) if text.lstrip().startswith("{") else _table_spectra(text, source.name)
-    return _chosen(found, given, column, source.name)
+    spectra = _json_spectra(text, source.name) if text.lstrip().startswith("{") else _table_spectra(text, source.name)
+    return _one_of(spectra, unit_name, column, source.name)
 
 
-def _chosen(found: list[_Spectrum], unit: str | None, column: str | None, file: str) -> tuple[FloatArray, FloatArray]:
+def _one_of(spectra: list[_Spectrum], unit: str | None, column: str | None, file: str) -> tuple[FloatArray, FloatArray]:
     """Return the one spectrum of a file that is asked for, in g."""
-    named = [one for one in found if column is not None and one.name.lower() == column.lower()]
-    named = named or [one for one in found if column is not None and column.lower() in one.name.lower()]
+    named = [one for one in spectra if column is not None and one.name.lower() == column.lower()]
+    named = named or [one for one in spectra if column is not None and column.lower() in one.name.lower()]
     if column is None:
-        named = [one for one in found if len(found) == 1 or "target" in one.name.lower()]
-        of_sa = [one for one in found if unit_by_name(one.unit)]
+        named = [one for one in spectra if len(spectra) == 1 or "target" in one.name.lower()]
+        of_sa = [one for one in spectra if unit_by_name(one.unit)]
         named = named or (of_sa if len(of_sa) == 1 else [])  # beside displacements and velocities
     if len(named) != 1:
-        names = ", ".join(one.name for one in found)
-        requirement = f"one, or named behind the file as {file}:{found[0].name}"
+        names = ", ".join(one.name for one in spectra)
+        requirement = f"one, or named behind the file as {file}:{spectra[0].name}"
         raise refusal(RecordFormatError, "spectra", file, requirement, short(printable(names)) if names else "none")
     one = named[0]
     points = []
     for number, point in enumerate(one.points, start=1):
-        for name, cell in zip(("period", one.of), point, strict=True):
+        for name, cell in zip(("period", one.quantity), point, strict=True):
             at_zero = number == 1 and name == "period" and _is_number(cell) and float(cell) == 0.0
             if not (at_zero or (_is_number(cell) and 0.0 < float(cell) < np.inf)):
                 raise refusal(RecordFormatError, name, f"{file}, point {number},", "a positive number", brief(cell))
@@ -163,20 +163,20 @@ def _chosen(found: list[_Spectrum], unit: str | None, column: str | None, file: 
 def _in_g(periods: FloatArray, ordinates: FloatArray, one: _Spectrum, unit: str | None, file: str) -> FloatArray:
     """Return ordinates as Sa (g): of displacements and pseudo-velocities by omega."""
     length = re.sub(r"/s(?:ec)?$", "", one.unit.lower())
-    if one.of != "Sa" and length in _METRES and (one.unit.lower() != length) is (one.of == "PSV"):
+    if one.quantity != "Sa" and length in _METRES and (one.unit.lower() != length) is (one.quantity == "PSV"):
         omega = 2.0 * np.pi / np.where(periods > 0.0, periods, np.nan)
         metres = ordinates * _METRES[length]
         if periods[0] == 0.0:
-            raise refusal(RecordFormatError, "period", f"{file}, point 1,", f"positive beside {one.of}", "0")
-        return metres * omega ** (1 if one.of == "PSV" else 2) / STANDARD_GRAVITY
+            raise refusal(RecordFormatError, "period", f"{file}, point 1,", f"positive beside {one.quantity}", "0")
+        return metres * omega ** (1 if one.quantity == "PSV" else 2) / STANDARD_GRAVITY
     stated = unit_by_name(one.unit)
     if unit and stated and ACCELERATION_UNITS[unit] != ACCELERATION_UNITS[stated]:
-        raise refusal(RecordFormatError, f"unit of {one.of}", file, f"that of its head, {stated}", unit)
+        raise refusal(RecordFormatError, f"unit of {one.quantity}", file, f"that of its head, {stated}", unit)
     if not (unit or stated):
-        behind = f"or behind the name as {file}:g or {file}:m/s2" if one.of == "Sa" else "a length or velocity"
-        requirement = f"stated by the head as {one.of} ({_UNIT_OF[one.of]}), {behind}"
+        otherwise = f"or behind the name as {file}:g or {file}:m/s2" if one.quantity == "Sa" else "a length or velocity"
+        requirement = f"stated by the head as {one.quantity} ({_UNIT_OF[one.quantity]}), {otherwise}"
         raise refusal(
-            RecordFormatError, f"unit of {one.of}", file, requirement, brief(one.unit) if one.unit else "none"
+            RecordFormatError, f"unit of {one.quantity}", file, requirement, brief(one.unit) if one.unit else "none"
         )
     factor = ACCELERATION_UNITS[stated or unit or ""] / STANDARD_GRAVITY
     return ordinates if factor == 1.0 else ordinates * factor
@@ -188,23 +188,23 @@ def _json_spectra(text: str, file: str) -> list[_Spectrum]:
         document = json.loads(text)
     except ValueError as error:
         raise refusal(RecordFormatError, "content", file, "sound JSON", str(error)) from None
-    found: list[_Spectrum] = []
+    spectra: list[_Spectrum] = []
 
     def look(name: str, value: Any) -> None:
         if isinstance(value, dict):
             pairs = zip(value.get("periods", ()), value.get("ordinates", ()), strict=False)
             points = [(str(period), str(ordinate)) for period, ordinate in pairs]
             if points:
-                found.append(_Spectrum(name, points, "g"))
+                spectra.append(_Spectrum(name, points, "g"))
             for key, inner in value.items():
                 look(str(key), inner)
         elif isinstance(value, list) and "spectrum" in name.lower() and all(isinstance(one, list) for one in value):
-            found.append(_Spectrum(name, [(str(one[0]), str(one[1])) for one in value if len(one) == 2], "g"))
+            spectra.append(_Spectrum(name, [(str(one[0]), str(one[1])) for one in value if len(one) == 2], "g"))
 
     look(file, document)
-    if not found:
+    if not spectra:
         raise refusal(RecordFormatError, "content", file, "a spectrum of periods and ordinates", "none")
-    return found
+    return spectra
 
 
 def _table_spectra(text: str, file: str) -> list[_Spectrum]:
@@ -216,25 +216,27 @@ def _table_spectra(text: str, file: str) -> list[_Spectrum]:
     cells = [_cells(line, separator, file) for line in lines]
     if separator != "," and (last := cells[-1:]) and any("," in one for one in last[0]) and "." not in "".join(last[0]):
         cells = [[one.replace(",", ".") for one in row] for row in cells]
-    found: list[_Spectrum] = []
-    for at, heads in enumerate(cells):
+    spectra: list[_Spectrum] = []
+    for index, heads in enumerate(cells):
         uniform = [_UNIFORM.fullmatch(head.strip()) for head in heads]
         if sum(match is not None for match in uniform) > 1:
-            return _uniform_hazard(uniform, cells[at + 1 :], file)
+            return _uniform_hazard(uniform, cells[index + 1 :], file)
         period, ordinates = _columns_named(heads, file)
         if period is None or not ordinates:
             continue
-        rows = [row for row, mark in zip(cells[at + 1 :], marked[at + 1 :], strict=True) if not mark.startswith("#")]
+        rows = [
+            row for row, mark in zip(cells[index + 1 :], marked[index + 1 :], strict=True) if not mark.startswith("#")
+        ]
         end = next((row for row, one in enumerate(rows) if row and not _is_number(one[0]) and len(one) < 2), len(rows))
-        found += _of_columns(heads, period, ordinates, rows[:end], "\n".join(lines[:at]), file)
-    if not found:
+        spectra += _of_columns(heads, period, ordinates, rows[:end], "\n".join(lines[:index]), file)
+    if not spectra:
         rows = [row for row, mark in zip(cells, marked, strict=True) if not mark.lstrip().startswith("#")]
         if rows and not _is_number(rows[0][0]):
             got = short(", ".join(rows[0]))
             raise refusal(RecordFormatError, "columns", file, "one period or T and one Sa", got)
         unit = stated_unit("\n".join(lines)) or ""
-        found = [_Spectrum("Sa", [(row[0], row[1] if len(row) > 1 else "") for row in rows], unit)]
-    return found
+        spectra = [_Spectrum("Sa", [(row[0], row[1] if len(row) > 1 else "") for row in rows], unit)]
+    return spectra
 
 
 def _cells(line: str, separator: str, file: str) -> list[str]:
@@ -265,16 +267,16 @@ def _name_and_unit(head: str) -> tuple[str, str]:
 def _columns_named(heads: list[str], file: str) -> tuple[int | None, list[int]]:
     """Return the column of periods, and those of ordinates."""
     named = [_name_and_unit(head) for head in heads]
-    periods = [at for at, (name, _) in enumerate(named) if _PERIODS.fullmatch(name)]
+    periods = [index for index, (name, _) in enumerate(named) if _PERIODS.fullmatch(name)]
     if len(periods) != 1:
         return None, []
     unit = named[periods[0]][1]
     if unit not in ("", "s", "sec", "seconds", "second", "seg"):
         raise refusal(RecordFormatError, "unit of period", file, "s", unit)
     return periods[0], [
-        at
-        for at, (name, unit) in enumerate(named)
-        if at != periods[0] and (_ORDINATES.search(name) or unit_by_name(unit))
+        index
+        for index, (name, unit) in enumerate(named)
+        if index != periods[0] and (_ORDINATES.search(name) or unit_by_name(unit))
     ]
 
 
@@ -285,23 +287,32 @@ def _of_columns(
     units = [""] * len(heads)
     if rows and len(rows[0]) == len(heads) and all(re.fullmatch(r"[(\[]?[a-z%][\w/^%]*[)\]]?", one) for one in rows[0]):
         units, rows = [one.strip("()[]") for one in rows[0]], rows[1:]  # a line of units
-    others = [at for at, head in enumerate(heads) if head.lower().strip() in _ROWS_OF]
-    keys = list(dict.fromkeys(tuple(row[at] for at in others) for row in rows if len(row) > max([*others, -1])))
-    found = []
+    others = [index for index, head in enumerate(heads) if head.lower().strip() in _ROWS_OF]
+    keys = list(dict.fromkeys(tuple(row[index] for index in others) for row in rows if len(row) > max([*others, -1])))
+    spectra = []
     for key in keys or [()]:
-        own = [row for row in rows if not others or tuple(row[at] for at in others if at < len(row)) == key]
-        for at in ordinates:
-            name, unit = _name_and_unit(heads[at])
-            of = next((kind for kind, pattern in _OF.items() if pattern.search(name) and not unit_by_name(unit)), "Sa")
-            points = [(row[period] if period < len(row) else "", row[at] if at < len(row) else "") for row in own]
+        rows_of_key = [
+            row for row in rows if not others or tuple(row[index] for index in others if index < len(row)) == key
+        ]
+        for index in ordinates:
+            name, unit = _name_and_unit(heads[index])
+            quantity = next(
+                (kind for kind, pattern in _OF.items() if pattern.search(name) and not unit_by_name(unit)), "Sa"
+            )
+            points = [
+                (row[period] if period < len(row) else "", row[index] if index < len(row) else "")
+                for row in rows_of_key
+            ]
             named = (
                 ", ".join((*key[1:2], *(f"{100.0 * float(one):g} %" for one in key[2:])))
                 if len(keys) > 1
-                else heads[at]
+                else heads[index]
             )
             printed = _PRINTED.get(name, "") if len(others) == len(_ROWS_OF) else ""
-            found.append(_Spectrum(named, points, unit or units[at] or printed or stated_unit(above) or "", of))
-    return found
+            spectra.append(
+                _Spectrum(named, points, unit or units[index] or printed or stated_unit(above) or "", quantity)
+            )
+    return spectra
 
 
 def _uniform_hazard(heads: list[re.Match[str] | None], rows: list[list[str]], file: str) -> list[_Spectrum]:
@@ -309,10 +320,10 @@ def _uniform_hazard(heads: list[re.Match[str] | None], rows: list[list[str]], fi
     if len(rows) != 1:
         raise refusal(RecordFormatError, "sites", file, "one: leave the row of yours in a copy", str(len(rows)))
     spectra: dict[str, list[tuple[str, str]]] = {}
-    for at, head in enumerate(heads):
+    for index, head in enumerate(heads):
         if head is not None:
             probability = head["before"] or head["after"] or "hazard"
-            spectra.setdefault(probability, []).append((head["period"] or "0", rows[0][at]))
+            spectra.setdefault(probability, []).append((head["period"] or "0", rows[0][index]))
     by_period = {name: sorted(points, key=lambda one: float(one[0])) for name, points in spectra.items()}
     return [_Spectrum(name, points, "g") for name, points in by_period.items()]
 
@@ -368,14 +379,14 @@ class SuiteMean:
     names: tuple[str, ...]
     factors: FloatArray
     damping: float
-    given_label: str
+    own_label: str
     longest: float = np.inf
 
     @property
     def label(self) -> str:
         """Name with the number of motions."""
         return (
-            self.given_label
+            self.own_label
             or f"mean spectrum of {counted(len(self.motions), 'motion')}, {100.0 * self.damping:g} % damping"
         )
 

@@ -40,7 +40,7 @@ class Shape(Protocol):
 
     @property
     def parameters(self) -> dict[str, Any]:
-        """What it was made from, with its kind as `shape`; a digest of it tells two spectra apart."""
+        """What it was made from, with its kind as `shape`; a digest of it distinguishes two spectra."""
         ...
 
     @property
@@ -69,7 +69,7 @@ class TargetSpectrum:
     ----------
     shape : Shape
         The kind of spectrum with its numbers.
-    tilt : float
+    tilt : float, default 0.0
         Power p of (T/1 s)^p by which it is multiplied; see `tilted`.
 
     Attributes
@@ -116,9 +116,9 @@ class TargetSpectrum:
 
         Parameters
         ----------
-        sds_g, sd1_g : float
+        sds_g, sd1_g : float, optional
             Design spectral accelerations at short periods and at 1 s (g); for MCE_R those times 1.5.
-        tl : float
+        tl : float, optional
             Long-period transition (s).
 
         Examples
@@ -162,15 +162,15 @@ class TargetSpectrum:
 
         Parameters
         ----------
-        kind : {1, 2}
+        kind : {1, 2}, default 1
             Type of the spectrum: 1 for earthquakes of surface-wave magnitude above 5.5 (table 3.2), 2 up to it (3.3).
-        ground : {"A", "B", "C", "D", "E"}
+        ground : {"A", "B", "C", "D", "E"}, default "A"
             Ground type. The recommended S, T_B, T_C and T_D are used; a National Annex may have others.
         agr_g : float
             Reference peak ground acceleration a_gR on ground type A (g).
-        importance : float
+        importance : float, default 1.0
             Importance factor gamma_I: a_g = gamma_I a_gR.
-        damping : float
+        damping : float, default 0.05
             Ratio of critical damping xi: eta = sqrt(10/(5 + 100 xi)), at least 0.55.
 
         Notes
@@ -195,11 +195,11 @@ class TargetSpectrum:
 
         Parameters
         ----------
-        site_class : {"A", "B", "C", "D", "E"}
+        site_class : {"A", "B", "C", "D", "E"}, default "C"
             Site subsoil class.
         z : float
             Hazard factor Z.
-        r : float
+        r : float, default 1.0
             Return period factor R of the limit state; 1 for 500 years. Z R counts as 0.7 at most.
         fault_distance_km : float, optional
             Shortest distance D to a major fault (km); N = 1 without it, beyond 20 km, and for R up to 0.75.
@@ -263,9 +263,9 @@ class TargetSpectrum:
             The suite.
         factors : array_like, optional
             Factor of each motion; 1 by default.
-        damping : float
+        damping : float, default 0.05
             Ratio of critical damping.
-        label : str
+        label : str, optional
             What it is called; by default the mean of the motions by number.
 
         Notes
@@ -343,19 +343,19 @@ class TargetSpectrum:
         [0.8625, 0.43125]
         """
         if periods is None:
-            at = geomspace(max(self.shortest, 0.01), min(self.longest, 10.0), 200)
+            values = geomspace(max(self.shortest, 0.01), min(self.longest, 10.0), 200)
             names = ("tb", "tc", "td", "tl", "sds_g", "sd1_g")
             known = {name: float(self.parameters[name]) for name in names if name in self.parameters}
             if "sds_g" in known:
                 corner = known.pop("sd1_g") / known.pop("sds_g")
                 known |= {"t0": 0.2 * corner, "ts": corner}
-            points = [*at, *known.values(), *self.parameters.get("period", ())]
-            at = np.unique([point for point in points if at[0] <= point <= at[-1]])
+            points = [*values, *known.values(), *self.parameters.get("period", ())]
+            values = np.unique([point for point in points if values[0] <= point <= values[-1]])
         else:
-            at = as_array(periods, "periods", "target spectrum", InvalidOption)
-            if not (at > 0.0).all():
-                raise refusal(InvalidOption, "periods", "target spectrum", "positive", f"{at.min():g}")
-        return pl.DataFrame({"period (s)": at, "Sa (g)": self(at) / STANDARD_GRAVITY})
+            values = as_array(periods, "periods", "target spectrum", InvalidOption)
+            if not (values > 0.0).all():
+                raise refusal(InvalidOption, "periods", "target spectrum", "positive", f"{values.min():g}")
+        return pl.DataFrame({"period (s)": values, "Sa (g)": self(values) / STANDARD_GRAVITY})
 
     @view
     def _repr_html_(self) -> str:
@@ -378,45 +378,45 @@ class TargetSpectrum:
         InvalidOption
             A period is outside the range of the spectrum or not a number, or 0 where a negative power tilts it.
         """
-        at = as_array(periods, "period", "target spectrum", InvalidOption, or_number=True)
-        inside = (self.shortest <= at) & (at <= self.longest) & np.isfinite(at)
+        values = as_array(periods, "period", "target spectrum", InvalidOption, or_number=True)
+        inside = (self.shortest <= values) & (values <= self.longest) & np.isfinite(values)
         if not inside.all():
             upper = "up" if np.isinf(self.longest) else f"to {self.longest:g} s"
-            wrong = np.atleast_1d(at)[~np.atleast_1d(inside)][0]
+            wrong = np.atleast_1d(values)[~np.atleast_1d(inside)][0]
             requirement = f"from {self.shortest:g} s {upper}, the range of {self.label}"
             raise refusal(InvalidOption, "period", "target spectrum", requirement, f"{wrong:g}")
-        if self.tilt < 0.0 and (at == 0.0).any():
+        if self.tilt < 0.0 and (values == 0.0).any():
             requirement = "positive where the spectrum is tilted by a negative power"
             raise refusal(InvalidOption, "period", "target spectrum", requirement, "0")
-        ordinates = self.shape(at)
-        return ordinates if self.tilt == 0.0 else ordinates * power(at, self.tilt)
+        ordinates = self.shape(values)
+        return ordinates if self.tilt == 0.0 else ordinates * power(values, self.tilt)
 
 
 def target_of_parameters(parameters: dict[str, Any]) -> TargetSpectrum:
     """Return the target spectrum whose `TargetSpectrum.parameters` these are; refused is the mean of motions, whose
     samples they do not hold.
     """
-    given = dict(parameters)
-    tilt = given.pop("tilt", 0.0)
-    match given.get("shape"):
+    data = dict(parameters)
+    tilt = data.pop("tilt", 0.0)
+    match data.get("shape"):
         case "asce7":
-            target = TargetSpectrum.asce7(given["sds_g"], given["sd1_g"], given["tl"])
+            target = TargetSpectrum.asce7(data["sds_g"], data["sd1_g"], data["tl"])
         case "asce7_multi_period":
-            target = TargetSpectrum.asce7_multi_period(given["period"], given["sa_g"])
+            target = TargetSpectrum.asce7_multi_period(data["period"], data["sa_g"])
         case "eurocode8":
             target = TargetSpectrum.eurocode8(
-                given["type"],
-                given["ground"],
-                agr_g=given["agr_g"],
-                importance=given["importance"],
-                damping=given["damping"],
+                data["type"],
+                data["ground"],
+                agr_g=data["agr_g"],
+                importance=data["importance"],
+                damping=data["damping"],
             )
         case "nzs1170":
-            distance = given["fault_distance_km"]
-            target = TargetSpectrum.nzs1170(given["site_class"], z=given["z"], r=given["r"], fault_distance_km=distance)
+            distance = data["fault_distance_km"]
+            target = TargetSpectrum.nzs1170(data["site_class"], z=data["z"], r=data["r"], fault_distance_km=distance)
         case "csv":
-            label = given["file"].rpartition(".")[0] or given["file"]
-            target = TargetSpectrum(CsvTable(frozen(given["period"]), frozen(given["sa_g"]), label, given["file"]))
+            label = data["file"].rpartition(".")[0] or data["file"]
+            target = TargetSpectrum(CsvTable(frozen(data["period"]), frozen(data["sa_g"]), label, data["file"]))
         case "suite_mean":
             requirement = "made of numbers (TargetSpectrum.from_csv reads a table of a mean spectrum)"
             raise refusal(InvalidOption, "target", "stored spectrum", requirement, "the mean of motions")
@@ -464,15 +464,15 @@ def target_remarks(target: TargetSpectrum) -> tuple[str, ...]:
         for name, (least, most, unit, doubt) in ranges.items()
         if not least <= parameters[name] <= most
     )
-    found = [
+    remarks = [
         f"{name} of the target spectrum is {value:.4g} g, above {MAX_ORDINATE:g} g: "
         "spectral accelerations are in g, not m/s2 or per cent"
         for name, value in ordinates.items()
         if value > MAX_ORDINATE
     ]
     if "sd1_g" in parameters and parameters["sd1_g"] > parameters["sds_g"]:
-        found.append(
+        remarks.append(
             f"S_D1 of the target spectrum is {parameters['sd1_g']:.4g} g, above S_DS = {parameters['sds_g']:.4g} g: "
             "are they exchanged?"
         )
-    return (*found, *outside)
+    return (*remarks, *outside)

@@ -31,8 +31,8 @@ class Column(Generic[_T]):
 
     def of(self, scenes: IndexArray) -> NDArray[_T]:
         """Return the value of each scene."""
-        found: NDArray[_T] = self.values[scenes // self.each % len(self.values)]
-        return found
+        values: NDArray[_T] = self.values[scenes // self.each % len(self.values)]
+        return values
 
 
 _RANGES: Final[dict[str, tuple[type[SeismassError], str, Callable[[FloatArray], NDArray[np.bool_]]]]] = {
@@ -59,10 +59,10 @@ AXES: Final = {
 """Axes of a product beside the building, and what each of them holds."""
 
 
-def number_values(given: dict[str, ArrayLike | None]) -> dict[str, FloatArray]:
+def number_values(parameters: dict[str, ArrayLike | None]) -> dict[str, FloatArray]:
     """Return columns of one number per scene, by name; those that are None are left out."""
-    found = {}
-    for name, value in given.items():
+    arrays = {}
+    for name, value in parameters.items():
         if value is None:
             continue
         kind, requirement, is_right = _RANGES[name]
@@ -72,20 +72,20 @@ def number_values(given: dict[str, ArrayLike | None]) -> dict[str, FloatArray]:
         wrong = np.flatnonzero(~is_right(values))
         if len(wrong):
             raise refusal(kind, name, "grid", requirement, f"{values[wrong[0]]:g} as value {wrong[0] + 1}")
-        found[name] = values
-    return found
+        arrays[name] = values
+    return arrays
 
 
-def index_values(value: Any, name: str, kind: type[SeismassError], *, of: str = "a list of them") -> IndexArray:
+def index_values(value: Any, name: str, kind: type[SeismassError], *, expected: str = "a list of them") -> IndexArray:
     """Return one number counted from 1, or a list of them, as indices from 0; the first where nothing is given."""
-    requirement = f"a whole number counted from 1, or {of}"
+    requirement = f"a whole number counted from 1, or {expected}"
     try:
-        given = np.asarray(1 if value is None else value)
+        array = np.asarray(1 if value is None else value)
     except (TypeError, ValueError):
         raise refusal(kind, name, "grid", requirement, brief(value)) from None
-    if given.dtype.kind not in "iu" or given.ndim > 1 or not given.size or np.ma.is_masked(value):
+    if array.dtype.kind not in "iu" or array.ndim > 1 or not array.size or np.ma.is_masked(value):
         raise refusal(kind, name, "grid", requirement, brief(value))
-    numbers = given.reshape(-1)
+    numbers = array.reshape(-1)
     wrong = np.flatnonzero((numbers < 1) | (numbers > 2**32))
     if len(wrong):
         raise refusal(kind, name, "grid", requirement, f"{numbers[wrong[0]]} as value {wrong[0] + 1}")
@@ -137,9 +137,9 @@ def _first(value: Any) -> Any:
 
 def block_values(blocks: int, mass_ratio: Any, mu: Any, mu_s: Any, mu_k: Any) -> dict[str, FloatArray]:
     """Return what blocks have, as tables of values by blocks; a width of one stands for all blocks."""
-    given = {"mu": mu, "mu_s": mu_s, "mu_k": mu_k}
+    parameters = {"mu": mu, "mu_s": mu_s, "mu_k": mu_k}
     if mass_ratio is None:
-        for name, value in given.items():
+        for name, value in parameters.items():
             if value is not None:
                 raise refusal(InvalidScene, name, "grid", "left out where mass_ratio is", brief(value))
         return {}
@@ -178,17 +178,17 @@ def axis_lengths(values: dict[str, FloatArray], mu: Any) -> dict[str, int]:
     """Return the number of values of each axis of a product; 1 where it has none."""
     lengths = {}
     for axis, names in AXES.items():
-        given = {name: len(values[name]) for name in names if name in values}
-        lengths[axis] = next((length for length in given.values() if length > 1), 1)
-        for name, length in given.items():
+        known = {name: len(values[name]) for name in names if name in values}
+        lengths[axis] = next((length for length in known.values() if length > 1), 1)
+        for name, length in known.items():
             if length not in (1, lengths[axis]):
                 other = next(other for other in names if other != name)
                 requirement = f"one value, or as many as {other} has, {lengths[axis]}"
-                raise refusal(InvalidScene, as_given(name, mu), "grid", requirement, f"{length} values")
+                raise refusal(InvalidScene, as_stated(name, mu), "grid", requirement, f"{length} values")
     return lengths
 
 
-def as_given(name: str, mu: Any) -> str:
+def as_stated(name: str, mu: Any) -> str:
     """Return the name under which the user gave a column."""
     names = {"building": "building_index"}
     return "mu" if name in ("mu_s", "mu_k") and mu is not None else names.get(name, name)
@@ -254,46 +254,46 @@ def described(
     """Return columns by the names of `Grid.table`: numbers from 1, and storeys and periods of buildings."""
     index = indices["building"]
     storeys = np.array([building.storeys for building in buildings])[index.values]
-    found: dict[str, Column[Any]] = {
+    columns_by_name: dict[str, Column[Any]] = {
         "building": Column(index.values + 1, index.each),
         "storeys": Column(storeys, index.each),
         "period": Column(periods[index.values], index.each),
     }
     for name, column in columns.items():
         narrow = column.values.ndim == 2 and column.values.shape[1] == 1
-        found[name] = Column(column.values.reshape(-1) if narrow else column.values, column.each)
+        columns_by_name[name] = Column(column.values.reshape(-1) if narrow else column.values, column.each)
     if "motion" in indices:
-        found["motion"] = Column(indices["motion"].values + 1)
-    return found
+        columns_by_name["motion"] = Column(indices["motion"].values + 1)
+    return columns_by_name
 
 
 def axes_of(columns: dict[str, Column[Any]], scenes: int) -> list[GridAxis]:
     """Return the axes of columns by their names in `Grid.table`; what all scenes share is the axis "constant"."""
-    found: dict[tuple[int, int], GridAxis] = {}
+    axes: dict[tuple[int, int], GridAxis] = {}
     for name, column in columns.items():
         length = len(column.values)
         key = (1, 1) if length == 1 else (column.each, length)
-        if key not in found:
-            own = "constant" if length == 1 else "scene" if key == (1, scenes) else AXIS_OF[name]
-            found[key] = GridAxis(own, *key, {})
-        found[key].columns[name] = column.values
-    return sorted(found.values(), key=lambda axis: (axis.length > 1, -axis.each))
+        if key not in axes:
+            axis_name = "constant" if length == 1 else "scene" if key == (1, scenes) else AXIS_OF[name]
+            axes[key] = GridAxis(axis_name, *key, {})
+        axes[key].columns[name] = column.values
+    return sorted(axes.values(), key=lambda axis: (axis.length > 1, -axis.each))
 
 
 def table_of(columns: dict[str, Column[Any]], scenes: IndexArray) -> pl.DataFrame:
     """Return columns by their names in `Grid.table` as a frame, a row for each of these scenes, numbered from 0."""
-    found: dict[str, pl.Series] = {"scene": pl.Series((scenes + 1).astype(np.uint64))}
+    series: dict[str, pl.Series] = {"scene": pl.Series((scenes + 1).astype(np.uint64))}
     for name in TABLE_COLUMNS:
         if name not in columns:
             continue
         values = columns[name].of(scenes)
         if values.ndim == 1:
-            found[name] = pl.Series(values.astype(np.uint32) if name in _NUMBERS else values)
+            series[name] = pl.Series(values.astype(np.uint32) if name in _NUMBERS else values)
         else:
             lists = pl.Series(values, dtype=pl.Array(pl.Float64, values.shape[1])).arr.to_list()
             unused = np.isnan(values).any()
-            found[name] = lists.list.eval(pl.element().filter(pl.element().is_not_nan())) if unused else lists
-    return pl.DataFrame(found)
+            series[name] = lists.list.eval(pl.element().filter(pl.element().is_not_nan())) if unused else lists
+    return pl.DataFrame(series)
 
 
 AttachedDamping: TypeAlias = Literal["same", "ratio"]
@@ -322,7 +322,7 @@ class BuildingColumns:
     columns of `CHANGING`, `attached` and `sliding`; `design` gives V_y by the column R.
     """
 
-    given: tuple[Building, ...]
+    buildings: tuple[Building, ...]
     periods: FloatArray
     floors: tuple[int, ...]
     columns: dict[str, Column[np.float64]]
@@ -339,7 +339,7 @@ class BuildingColumns:
         blocks = present if sliding is None else present * sliding[:, None]
         changing = [self.columns[name].of(scenes).reshape(len(scenes), -1) for name in CHANGING if name in self.columns]
         if attached is None and not changing:
-            return Formed(list(self.given), index, blocks)
+            return Formed(list(self.buildings), index, blocks)
         loads = np.zeros((len(scenes), 2, len(self.floors)))
         if attached is not None and sliding is not None:
             loads[:, 0] = attached[:, None] * (present if self.attached_of == "present" else design_load)
@@ -386,7 +386,7 @@ class BuildingColumns:
         self, scene: IndexArray, index: int, design_load: FloatArray, designed: dict[Hashable, FloatArray]
     ) -> Building:
         """The building of a scene without live load; V_e of each design is computed once."""
-        building = self.given[index]
+        building = self.buildings[index]
         value = {name: self.columns[name].of(scene)[0] for name in CHANGING if name in self.columns}
         changes: dict[str, Any] = {name: value[name] for name in SHAPE_FIELDS if name in value}
         if "period" in value:
@@ -431,27 +431,27 @@ class BuildingColumns:
 
     def _on_floors(self, load: FloatArray, storeys: int) -> FloatArray:
         """What blocks have, summed on their floors."""
-        found = np.zeros(storeys)
+        sums = np.zeros(storeys)
         for floor, value in zip(self.floors, load.tolist(), strict=True):
             if value != 0.0:
                 if floor > storeys:
                     requirement = f"a floor of the building, 1 to {storeys}"
                     raise refusal(InvalidScene, "floor", "live load", requirement, str(floor))
-                found[floor - 1] += value
-        return found
+                sums[floor - 1] += value
+        return sums
 
 
 def _strengths(over_weight: FloatArray, storeys: int) -> FloatArray:
     """V_y over the weight of each storey, from a row that may be longer than the building is high."""
     values = np.full(storeys, over_weight[0]) if len(over_weight) == 1 else over_weight[:storeys]
     if len(values) < storeys or np.isnan(values).any():
-        given = int((~np.isnan(over_weight)).sum())
+        count = int((~np.isnan(over_weight)).sum())
         requirement = f"one number or {storeys} values, one per storey"
-        raise refusal(InvalidScene, "yield_shear_over_weight", "building", requirement, f"{given} values")
+        raise refusal(InvalidScene, "yield_shear_over_weight", "building", requirement, f"{count} values")
     return values
 
 
-def given_buildings(building: Any, storeys: Any, period: Any) -> tuple[tuple[Building, ...], IndexArray, FloatArray]:
+def listed_buildings(building: Any, storeys: Any, period: Any) -> tuple[tuple[Building, ...], IndexArray, FloatArray]:
     """Return the buildings of a grid, which of them each value of storeys and periods has, and their periods."""
     if (building is None) == (storeys is None):
         got = "neither" if building is None else "both"
@@ -462,11 +462,11 @@ def given_buildings(building: Any, storeys: Any, period: Any) -> tuple[tuple[Bui
             raise refusal(InvalidScene, "building", "grid", "a Building or a list of Buildings", brief(building))
         for item in listed:
             of_storeys_alone(item, "grids")
-        of_given = np.array([float(item.periods[0]) for item in listed])
-        return tuple(listed), np.zeros(1, dtype=np.int64), of_given
+        periods_of_list = np.array([float(item.periods[0]) for item in listed])
+        return tuple(listed), np.zeros(1, dtype=np.int64), periods_of_list
     if period is None:
         raise refusal(InvalidScene, "period", "grid", "given where storeys is", "none")
-    heights = index_values(storeys, "storeys", InvalidScene, of="a list of such numbers") + 1
+    heights = index_values(storeys, "storeys", InvalidScene, expected="a list of such numbers") + 1
     periods = number_values({"period": period})["period"]
     if len(heights) != len(periods) and 1 not in (len(heights), len(periods)):
         requirement = f"one value, or as many as storeys has, {len(heights)}"
@@ -538,15 +538,15 @@ DEFAULTS: Final[dict[str, Any]] = {
     **{name: _STATED.get(name) for name in GridOptions.__annotations__ if name not in _SHAPE},
     **dict.fromkeys(SHAPE_FIELDS),
 }
-"""Default of each option, None but for three."""
+"""Default of each option, None except for three."""
 
 
-def grid_options(given: dict[str, Any], owner: str) -> dict[str, Any]:
+def grid_options(options: dict[str, Any], owner: str) -> dict[str, Any]:
     """Return all options, with defaults for those that are not given; an unknown one is a TypeError."""
-    for name in given:
+    for name in options:
         if name not in DEFAULTS:
             raise TypeError(f"{owner}() got an unexpected keyword argument {name!r}")
-    return DEFAULTS | given
+    return DEFAULTS | options
 
 
 def takes_grid_options(function: _Function) -> _Function:

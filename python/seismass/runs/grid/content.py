@@ -102,19 +102,19 @@ def building_document(building: Building) -> dict[str, Any]:
     """Return the arguments of a building for JSON; springs with the defaults are left out, infinity is "inf"."""
     arguments = building._arguments()
     backbone = arguments["backbone"]
-    found: dict[str, Any] = {}
+    document: dict[str, Any] = {}
     for name, value in arguments.items():
         if value is None or is_default(value, name):
             continue
         if isinstance(value, Rayleigh):
-            found[name] = {"ratio": value.ratio, "modes": list(value.modes)}
+            document[name] = {"ratio": value.ratio, "modes": list(value.modes)}
         elif name == "backbone":
-            found[name] = [None if points is None else _listed(np.array(points)) for points in backbone]
+            document[name] = [None if points is None else _listed(np.array(points)) for points in backbone]
         elif isinstance(value, np.ndarray):
-            found[name] = _listed(value)
+            document[name] = _listed(value)
         else:
-            found[name] = list(value) if isinstance(value, tuple) else value
-    return found
+            document[name] = list(value) if isinstance(value, tuple) else value
+    return document
 
 
 def building_of(document: dict[str, Any]) -> Building:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from seismass import _kernel
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.forks import require_polars
+from seismass.base.fork_check import require_polars
 from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, is_one_of, refusal, same_content
 from seismass.base.views import Card
 from seismass.model.block import Block
@@ -31,15 +31,15 @@ from seismass.runs.grid.columns import (
     GridOptions,
     IndexArray,
     Roof,
-    as_given,
+    as_stated,
     axes_of,
     axis_lengths,
     block_values,
     changing_values,
     described,
-    given_buildings,
     grid_options,
     index_values,
+    listed_buildings,
     number_values,
     share_values,
     table_of,
@@ -98,8 +98,8 @@ class Grid(Card):
         Share of the live load that is present, 0 to 1, that is a block; what is not attached by default. A code's
         model, which counts a quarter of the load and lets nothing slide, has `attached=0.25, sliding=0`.
     damping : {"same", "ratio"}, default "same"
-        Where live load is attached: the damping matrix of the building without it, or that which the building's damping
-        ratio gives with it.
+        Where live load is attached: the damping matrix of the building without it, or that of the building's damping
+        ratio with it.
     mu : array_like, optional
         Friction coefficient, static and kinetic. Where there are blocks, either it or `mu_s` is needed.
     mu_s, mu_k : array_like, optional
@@ -188,9 +188,9 @@ class Grid(Card):
         motion: ArrayLike | None = None,
         **options: Unpack[GridOptions],
     ) -> None:
-        chosen = grid_options(dict(options), "Grid")
-        storeys = chosen["storeys"]
-        index, periods = self._set_common(building, chosen)
+        settings = grid_options(dict(options), "Grid")
+        storeys = settings["storeys"]
+        index, periods = self._set_common(building, settings)
         if storeys is not None:
             if building_index is not None:
                 raise refusal(InvalidScene, "building_index", "grid", "left out where storeys is given", "both")
@@ -198,7 +198,7 @@ class Grid(Card):
             raise refusal(InvalidScene, "building_index", "grid", "given where there are several buildings", "none")
         else:
             index = index_values(building_index, "building_index", InvalidScene)
-        values = self._values(chosen)
+        values = self._values(settings)
         indices = {"building": index}
         if motion is not None:
             indices["motion"] = index_values(motion, "motion", InvalidOption)
@@ -207,11 +207,11 @@ class Grid(Card):
         for name, length in lengths.items():
             if length not in (1, self._length):
                 requirement = f"one value, or as many as the longest column has, {self._length}"
-                given = "storeys" if name == "building" and storeys is not None else as_given(name, chosen["mu"])
-                raise refusal(InvalidScene, given, "grid", requirement, f"{length} values")
+                what = "storeys" if name == "building" and storeys is not None else as_stated(name, settings["mu"])
+                raise refusal(InvalidScene, what, "grid", requirement, f"{length} values")
         self._columns = {name: Column(column) for name, column in values.items()}
         self._indices = {name: Column(column) for name, column in indices.items()}
-        self._set_formed(periods, chosen["damping"], chosen["attached_of"], chosen["design"])
+        self._set_formed(periods, settings["damping"], settings["attached_of"], settings["design"])
         self._check(range(self._length))
 
     @classmethod
@@ -257,13 +257,13 @@ class Grid(Card):
         >>> grid.table(4, 5)["mu_s"].to_list()
         [0.3, 0.3]
         """
-        chosen = grid_options(dict(options), "Grid.product")
+        settings = grid_options(dict(options), "Grid.product")
         grid = cls.__new__(cls)
-        index, periods = grid._set_common(building, chosen)
-        if chosen["storeys"] is None:
+        index, periods = grid._set_common(building, settings)
+        if settings["storeys"] is None:
             index = np.arange(len(grid.buildings))
-        values = grid._values(chosen)
-        lengths = {"building": len(index), **axis_lengths(values, chosen["mu"])}
+        values = grid._values(settings)
+        lengths = {"building": len(index), **axis_lengths(values, settings["mu"])}
         each, total = {}, 1
         for axis in reversed(lengths):
             each[axis] = total
@@ -273,7 +273,7 @@ class Grid(Card):
         grid._length = total
         grid._columns = {name: Column(column, each[AXIS_OF[name]]) for name, column in values.items()}
         grid._indices = {"building": Column(index, each["building"])}
-        grid._set_formed(periods, chosen["damping"], chosen["attached_of"], chosen["design"])
+        grid._set_formed(periods, settings["damping"], settings["attached_of"], settings["design"])
         # Friction is judged by itself, all else with the first value of friction and scale.
         grid._check(range(0, total, each["attached"]))
         grid._check(range(0, each["attached"], each["friction"]))
@@ -305,10 +305,10 @@ class Grid(Card):
             The building, or several of which each is equally likely.
         samples : int
             Number of scenes.
-        method : {"sobol", "latin_hypercube", "random"}
+        method : {"sobol", "latin_hypercube", "random"}, default "sobol"
             Scrambled points of Sobol's sequence, balanced where their number is a power of 2; a Latin hypercube; or
             independent points. One dimension for each axis that is drawn (`scipy.stats.qmc`).
-        seed : int
+        seed : int, default 0
             The same seed gives the same sample.
         motions : int, optional
             Number of the motions of which each scene has one, equally likely; by default each scene has every motion.
@@ -426,16 +426,16 @@ class Grid(Card):
         def counted(number: int, noun: str) -> str:
             return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
-        given = [name for name in self._columns if name != "mu_k"]
-        columns = f", columns {', '.join(given)}" if given else ""
-        of = f"{counted(len(self.buildings), 'building')}, {counted(len(self.floors), 'block')} each"
-        return f"Grid({counted(self._length, 'scene')}, {of}{columns})"
+        names = [name for name in self._columns if name != "mu_k"]
+        columns = f", columns {', '.join(names)}" if names else ""
+        parts = f"{counted(len(self.buildings), 'building')}, {counted(len(self.floors), 'block')} each"
+        return f"Grid({counted(self._length, 'scene')}, {parts}{columns})"
 
-    def _set_common(self, building: Any, chosen: dict[str, Any]) -> tuple[IndexArray, FloatArray]:
+    def _set_common(self, building: Any, settings: dict[str, Any]) -> tuple[IndexArray, FloatArray]:
         """Keep buildings, floors and collapse drift; return which building each value of storeys has, and periods."""
-        floors, roof, mass_ratio = (chosen[name] for name in ("floors", "roof", "mass_ratio"))
-        collapse_drift = chosen["collapse_drift"]
-        self.buildings, index, periods = given_buildings(building, chosen["storeys"], chosen["period"])
+        floors, roof, mass_ratio = (settings[name] for name in ("floors", "roof", "mass_ratio"))
+        collapse_drift = settings["collapse_drift"]
+        self.buildings, index, periods = listed_buildings(building, settings["storeys"], settings["period"])
         self._everywhere = floors is None
         if not is_one_of(roof, get_args(Roof)):
             raise refusal(InvalidScene, "roof", "grid", "loaded or bare", brief(roof))
@@ -456,15 +456,15 @@ class Grid(Card):
         )
         return index, periods
 
-    def _values(self, chosen: dict[str, Any]) -> dict[str, Any]:
+    def _values(self, settings: dict[str, Any]) -> dict[str, Any]:
         """Return the values of every column: of blocks, of buildings, of shares and of motions."""
-        values = block_values(len(self.floors), *(chosen[name] for name in ("mass_ratio", "mu", "mu_s", "mu_k")))
-        changing = {name: chosen[name] for name in ("strength", "R", "yield_shear_over_weight", *SHAPE_FIELDS)}
-        period = None if chosen["storeys"] is not None else chosen["period"]
+        values = block_values(len(self.floors), *(settings[name] for name in ("mass_ratio", "mu", "mu_s", "mu_k")))
+        changing = {name: settings[name] for name in ("strength", "R", "yield_shear_over_weight", *SHAPE_FIELDS)}
+        period = None if settings["storeys"] is not None else settings["period"]
         values |= changing_values(self.buildings, period=period, **changing)
-        shares = (chosen[name] for name in ("attached", "sliding", "occupancy", "mass_ratio"))
-        values |= share_values(*shares, of_design=chosen["attached_of"] == "design")
-        return values | number_values({"scale": chosen["scale"]})
+        shares = (settings[name] for name in ("attached", "sliding", "occupancy", "mass_ratio"))
+        values |= share_values(*shares, of_design=settings["attached_of"] == "design")
+        return values | number_values({"scale": settings["scale"]})
 
     def _set_formed(self, periods: FloatArray, damping: Any, attached_of: Any, design: Any) -> None:
         """Keep what forms the buildings of scenes, of columns that are known by now."""

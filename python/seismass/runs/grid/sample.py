@@ -60,8 +60,8 @@ def points(samples: int, dimensions: int, method: Any, seed: Any) -> FloatArray:
     from scipy.stats import qmc  # slow to import
 
     if method == "latin_hypercube":
-        found: FloatArray = qmc.LatinHypercube(dimensions, rng=rng).random(samples)
-        return found
+        values: FloatArray = qmc.LatinHypercube(dimensions, rng=rng).random(samples)
+        return values
     exponent = (samples - 1).bit_length()
     first: FloatArray = qmc.Sobol(dimensions, rng=rng).random_base2(exponent)[:samples]
     return first
@@ -72,7 +72,7 @@ class _Drawn:
     """Values of an axis at coordinates of the unit cube, of which it takes some."""
 
     dimensions: int
-    at: Callable[[FloatArray], Any]
+    values_at: Callable[[FloatArray], Any]
 
 
 def drawn_columns(
@@ -88,15 +88,15 @@ def drawn_columns(
     if _length(axes.get("storeys")) > 1 and _length(axes.get("period")) == _length(axes.get("storeys")):
         both = [np.asarray(axes[name]) for name in ("storeys", "period")]
         del drawn["period"]
-        drawn["storeys"] = _Drawn(1, lambda u: tuple(values[_chosen(u, len(values))] for values in both))
+        drawn["storeys"] = _Drawn(1, lambda u: tuple(values[_index_of(u, len(values))] for values in both))
     if motions is not None:
         count = as_count(motions, "motions", "sample", InvalidOption, least=1)
-        drawn["motion"] = _Drawn(1, lambda u: _chosen(u, count) + 1)
-    at = points(number, sum(item.dimensions for item in drawn.values()), method, seed)
+        drawn["motion"] = _Drawn(1, lambda u: _index_of(u, count) + 1)
+    cube = points(number, sum(item.dimensions for item in drawn.values()), method, seed)
     columns: dict[str, Any] = {}
     first = 0
     for name, item in drawn.items():
-        columns[name] = item.at(at[:, first : first + item.dimensions])
+        columns[name] = item.values_at(cube[:, first : first + item.dimensions])
         first += item.dimensions
     if isinstance(columns.get("storeys"), tuple):
         columns["storeys"], columns["period"] = columns["storeys"]
@@ -121,7 +121,7 @@ def _axis(name: str, value: Any) -> _Drawn:
         raise refusal(InvalidScene, name, "sample", "a number, a distribution or a list of values", brief(value))
     if values.ndim == 0 or len(values) == 1:
         return _Drawn(0, lambda _: value)
-    return _Drawn(1, lambda u: values[_chosen(u, len(values))])
+    return _Drawn(1, lambda u: values[_index_of(u, len(values))])
 
 
 def _per_block(name: str, value: Sequence[Any]) -> _Drawn:
@@ -134,14 +134,14 @@ def _per_block(name: str, value: Sequence[Any]) -> _Drawn:
     def at(u: FloatArray) -> FloatArray:
         columns, first = [], 0
         for item in items:
-            columns.append(np.broadcast_to(item.at(u[:, first : first + item.dimensions]), len(u)))
+            columns.append(np.broadcast_to(item.values_at(u[:, first : first + item.dimensions]), len(u)))
             first += item.dimensions
         return np.stack(columns, axis=1)
 
     return _Drawn(sum(item.dimensions for item in items), at)
 
 
-def _chosen(u: FloatArray, values: int) -> Any:
+def _index_of(u: FloatArray, values: int) -> Any:
     """Index of the value at a coordinate, each equally likely."""
     return np.minimum((u[:, 0] * values).astype(np.int64), values - 1)
 

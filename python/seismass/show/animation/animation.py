@@ -161,13 +161,13 @@ def shown(scenes: list[tuple[str, float | None, Scene]], motion: Motion) -> Show
         moved = np.hstack([response.drift, response.slip, *response.rack_drift])
         rows = int(np.isfinite(moved).all(axis=1).sum())
         runs.append(Run(label, attached, response, max(rows, 1)))
-    real, building = runs[0].response, scenes[0][2].building
-    rows = len(real.drift)
+    sliding, building = runs[0].response, scenes[0][2].building
+    rows = len(sliding.drift)
     heights = np.full(scenes[0][2].storeys, DRAWN_STOREY)
     if building is not None and building.heights is not None:
         heights = np.array(building.heights)
     low, high = _ranges(motion.acceleration / STANDARD_GRAVITY, every, rows)
-    ratio = real.peak_drift / heights
+    ratio = sliding.peak_drift / heights
     storey = int(np.argmax(ratio)) if len(ratio) else 0
     room = LARGEST_SWAY * float(heights.sum()) if len(heights) else LARGEST_SLIDE * GROUND_HEIGHT
     factor = _factor(runs, room)
@@ -236,7 +236,7 @@ class Animation:
 
     @view
     def html(self) -> str:
-        """Return a page that needs nothing but itself: play, pause, scrub, speed, and the same by keys."""
+        """Return a page that needs no other file: play, pause, scrub, speed, and the same by keys."""
         raise NotImplementedError
 
     @view
@@ -305,7 +305,7 @@ def animate(
         Ground motion.
     code : str, default "asce7-10"
         Code whose share of the live load the model has, as `code_fraction` takes it.
-    use : {"storage", "ordinary", "archive", "shop", "garage"}
+    use : {"storage", "ordinary", "archive", "shop", "garage"}, default "storage"
         Use of the floors, for the code.
     fraction : float, optional
         A share in place of the code's, from 0 to 1. Blocks are taken as the whole live load.
@@ -330,7 +330,7 @@ def animate(
     """
     if not isinstance(scene, Scene):
         raise refusal(InvalidScene, "scene", "animation", "a Scene", brief(scene))
-    chosen = as_motion(motion, "motion", "animation")
+    motion_shown = as_motion(motion, "motion", "animation")
     scene.on_ground("animation")
     scenes: list[tuple[str, float | None, Scene]] = [(_label(scene), None, scene)]
     if any(floor > 0 for floor in (*scene.block_floor, *(rack.floor for rack in scene.racks if rack.blocks))):
@@ -347,7 +347,7 @@ def animate(
         title=title if title is not None else scene.name or "Animation of a building",
         note=note if note is not None else ", ".join(part for part in (scene.note, str(source)) if part),
         scene=scene,
-        shown=shown(scenes, chosen),
+        shown=shown(scenes, motion_shown),
     )
 
 
@@ -496,9 +496,9 @@ def animate_plane(
     both = motions_in_plane(motions, "motions", OWNER)
     every = max(1, round(1.0 / (ROWS_PER_SECOND * both[0].dt)))
     response = simulate(scene, both, histories=every, displacements_only=True, events=False)
-    chosen = _floor(response) if floor is None else as_count(floor, "floor", OWNER, InvalidOption)
-    if chosen > scene.storeys:
-        raise refusal(InvalidOption, "floor", OWNER, f"at most {scene.storeys}", str(chosen))
+    level = _floor(response) if floor is None else as_count(floor, "floor", OWNER, InvalidOption)
+    if level > scene.storeys:
+        raise refusal(InvalidOption, "floor", OWNER, f"at most {scene.storeys}", str(level))
     moved = np.concatenate([response.drift, response.slip], axis=1)
     rows = max(1, int(np.isfinite(moved).all(axis=(1, 2)).sum()))
     sway = np.cumsum(response.drift[:rows], axis=1)
@@ -509,7 +509,7 @@ def animate_plane(
         title=scene.name or "Two directions" if title is None else title,
         note=note or ", ".join(part for part in (scene.note, str(source)) if part),
         response=response,
-        floor=chosen,
+        floor=level,
         step=every * both[0].dt,
         rows=rows,
         factor=float(fitting[-1] if fitting else FACTORS[0]),
@@ -539,15 +539,15 @@ class Good:
 
 def standing_goods(scene: Scene) -> tuple[Good, ...]:
     """Return all goods: those that may slide in the order of results, and fixed ones among those of their rack."""
-    found = []
+    goods = []
     for block, mass in zip(scene.blocks, scene.block_mass.tolist(), strict=True):
         stops = None if block.stops is None else block.stops.clearance
-        found.append((0, block.floor, mass, False, stops))
+        goods.append((0, block.floor, mass, False, stops))
     for number, rack in enumerate(scene.racks, start=1):
         for good, mass in zip(rack.blocks, rack.masses(scene.building), strict=True):
             stops = None if good.fixed or good.block.stops is None else good.block.stops.clearance
-            found.append((number, good.level, mass, good.fixed, stops))
-    largest = max((mass for _, _, mass, _, _ in found), default=1.0)
+            goods.append((number, good.level, mass, good.fixed, stops))
+    largest = max((mass for _, _, mass, _, _ in goods), default=1.0)
     return tuple(
-        Good(rack, level, float(np.sqrt(mass / largest)), fixed, stops) for rack, level, mass, fixed, stops in found
+        Good(rack, level, float(np.sqrt(mass / largest)), fixed, stops) for rack, level, mass, fixed, stops in goods
     )

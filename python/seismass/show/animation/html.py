@@ -75,13 +75,13 @@ def element_html(
     """
     times = "\N{MULTIPLICATION SIGN}"
     choices = factors or [(factor, f"{factor:g} {times}") for factor in sorted({content["factor"], *FACTORS})]
-    said = dict.fromkeys(("racks", "walls", "fixed", "stops"), False) | content
+    flags = dict.fromkeys(("racks", "walls", "fixed", "stops"), False) | content
     data = json.dumps(content["data"], separators=(",", ":")).replace("<", "\\u003c")
     html: str = (
         templates()
         .get_template("animation.html.jinja")
         .render(
-            **{name: value for name, value in said.items() if name != "data"},
+            **{name: value for name, value in flags.items() if name != "data"},
             identifier="animation-" + hashlib.sha256(data.encode()).hexdigest()[:10],
             data=Markup(data),
             autoplay=autoplay,
@@ -178,8 +178,8 @@ def _events(run: Run, step: float) -> dict[str, str]:
     kind = np.array([EVENT_KINDS.index(name) for name in log["kind"]], dtype=np.uint8)
     number = log["number"].astype(np.uint16)
     backwards = np.rec.fromarrays([part[::-1] for part in (row, kind, number)])
-    kept = np.sort(len(log) - 1 - np.unique(backwards, return_index=True)[1]) if len(log) else np.arange(0)
-    return {"row": _base64(row[kept], "<u4"), "kind": _base64(kind[kept], "u1"), "number": _base64(number[kept], "<u2")}
+    rows = np.sort(len(log) - 1 - np.unique(backwards, return_index=True)[1]) if len(log) else np.arange(0)
+    return {"row": _base64(row[rows], "<u4"), "kind": _base64(kind[rows], "u1"), "number": _base64(number[rows], "<u2")}
 
 
 def _packed(values: FloatArray, peak: float) -> str:

@@ -43,10 +43,10 @@ class Canvas:
         self._bold = _font(14 * FINER, bold=True)
 
     def _text(
-        self, draw: ImageDraw.ImageDraw, at: Point, words: str, colour: str, size: int = 12, anchor: str = "la"
+        self, draw: ImageDraw.ImageDraw, place: Point, words: str, colour: str, size: int = 12, anchor: str = "la"
     ) -> None:
         font = self._bold if size > 12 else self._fonts[size]
-        draw.text((at[0] * FINER, at[1] * FINER), words, fill=colour, font=font, anchor=anchor)
+        draw.text((place[0] * FINER, place[1] * FINER), words, fill=colour, font=font, anchor=anchor)
 
     def _line(self, draw: ImageDraw.ImageDraw, points: list[Point], colour: str, width: float) -> None:
         draw.line([(FINER * x, FINER * y) for x, y in points], fill=colour, width=round(FINER * width), joint="curve")
@@ -108,8 +108,8 @@ class Frames(Canvas, ABC):
     def _time_axis(self, draw: ImageDraw.ImageDraw) -> None:
         seconds = next((one for one in (1, 2, 5, 10, 20, 50, 100) if self.duration / one <= 14.0), 200)
         for second in range(0, int(self.duration) + 1, seconds):
-            at = (self._time_at(second), self.size[1] - FOOT + 2)
-            self._text(draw, at, f"{second}", SOFT, 11, "ma")
+            place = (self._time_at(second), self.size[1] - FOOT + 2)
+            self._text(draw, place, f"{second}", SOFT, 11, "ma")
         self._text(draw, (WIDTH - 6, self.size[1] - 2), "time (s)", SOFT, 11, "rs")
 
 
@@ -187,9 +187,7 @@ class Picture(Frames):
         return (PAPER, INK, SOFT, LINE, *(role.text for role in ROLES), SLAB, PALE_YIELD, PALE_SLIDE, *CURVES)
 
     def frame(self, time: float, lasting: float = 0.0) -> Image.Image:
-        """Return the frame at a time of the run (s), `lasting` (s) until the next; an event shows in one frame at
-        least.
-        """
+        """Return the frame at a time (s) that lasts `lasting` (s); an event shows in at least one frame."""
         image = self._still.copy()
         draw = ImageDraw.Draw(image)
         width = WIDTH / len(self._shown.runs)
@@ -203,8 +201,8 @@ class Picture(Frames):
         place = min(time / self._shown.step, run.rows - 1.0)
         row = int(place)
         part = place - row
-        between: FloatArray = (1.0 - part) * values[row] + part * values[min(row + 1, run.rows - 1)]
-        return between
+        interpolated: FloatArray = (1.0 - part) * values[row] + part * values[min(row + 1, run.rows - 1)]
+        return interpolated
 
     def _state(self, number: int, what: tuple[str, int], time: float) -> tuple[bool, float]:
         """Whether a storey yields or a block slides, and for how long it has."""
@@ -407,7 +405,7 @@ class Picture(Frames):
     def _curves(self) -> list[tuple[str, list[Curve]]]:
         """Each history's title and curves; of the ground the larger end of its range."""
         shown, scene = self._shown, self._animation.scene
-        real = shown.runs[0]
+        sliding = shown.runs[0]
         larger = np.where(np.abs(shown.ground_low) > np.abs(shown.ground_high), shown.ground_low, shown.ground_high)
         panels: list[tuple[str, list[Curve]]] = [("ground acceleration (g)", [(larger, INK, "")])]
         if scene.storeys:
@@ -421,18 +419,18 @@ class Picture(Frames):
             ]
             panels.append((f"drift of storey {shown.storey + 1} (mm)", drifts))
         if scene.racks:
-            peaks = np.concatenate(real.response.peak_rack_drift)
+            peaks = np.concatenate(sliding.response.peak_rack_drift)
             places = rack_levels(scene)
             swaying = np.sort(np.argsort(-peaks, kind="stable")[:MOST_CURVES])
             racks = [
-                (1e3 * real.level_drift[:, level], colour, f"rack {places[level][0]} level {places[level][1]}")
+                (1e3 * sliding.level_drift[:, level], colour, f"rack {places[level][0]} level {places[level][1]}")
                 for level, colour in zip(swaying.tolist(), CURVES, strict=False)
             ]
             panels.append(("drift (mm)", racks))
         if scene.goods:
-            most = np.sort(np.argsort(-real.response.peak_slip, kind="stable")[:MOST_CURVES])
+            most = np.sort(np.argsort(-sliding.response.peak_slip, kind="stable")[:MOST_CURVES])
             slips = [
-                (1e3 * real.response.slip[: real.rows, block], colour, f"block {block + 1}")
+                (1e3 * sliding.response.slip[: sliding.rows, block], colour, f"block {block + 1}")
                 for block, colour in zip(most.tolist(), CURVES, strict=False)
             ]
             panels.append(("slip (mm)", slips))
@@ -449,11 +447,11 @@ def _column(foot: Point, head: Point) -> list[Point]:
 
 def _changes(run: Run) -> dict[tuple[str, int], tuple[list[float], list[bool]]]:
     """Times at which storeys begin and cease to yield, and blocks to slide."""
-    found: dict[tuple[str, int], tuple[list[float], list[bool]]] = defaultdict(lambda: ([], []))
+    changes: dict[tuple[str, int], tuple[list[float], list[bool]]] = defaultdict(lambda: ([], []))
     log = run.response.event_log
     for time, kind, number in zip(log["time"].tolist(), log["kind"].tolist(), log["number"].tolist(), strict=True):
         if kind in _STATES:
-            times, states = found["storey" if kind in _OF_STOREY else "block", number]
+            times, states = changes["storey" if kind in _OF_STOREY else "block", number]
             times.append(time)
             states.append(_STATES[kind])
-    return dict(found)
+    return dict(changes)

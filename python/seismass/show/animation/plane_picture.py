@@ -81,7 +81,7 @@ class PlanePicture(Frames):
 
     def _goods(self, floor: int) -> list[tuple[int, float, float]]:
         """Index, place along x and along y (m, from the middle of the floor) of the goods on a floor."""
-        on_floor = [index for index, of in enumerate(self._animation.response.scene.block_floor) if of == floor]
+        on_floor = [index for index, level in enumerate(self._animation.response.scene.block_floor) if level == floor]
         columns = max(1, int(np.ceil(np.sqrt(len(on_floor)))))
         rows = max(1, -(-len(on_floor) // columns))
         return [
@@ -131,9 +131,9 @@ class PlanePicture(Frames):
             colour = CURVES[index % len(CURVES)]
             path = animation.factor * scale * self._slip[: row + 1, index] * [1.0, -1.0]
             home = np.array([x + scale * along, y - scale * across])
-            at = home + animation.factor * scale * slip[index] * [1.0, -1.0]
-            self._box(draw, (*(at - 0.5 * size), *(at + 0.5 * size)), PALE_SLIDE, colour)
-            points = [(float(one), float(other)) for one, other in [*(home + path), at]]
+            centre = home + animation.factor * scale * slip[index] * [1.0, -1.0]
+            self._box(draw, (*(centre - 0.5 * size), *(centre + 0.5 * size)), PALE_SLIDE, colour)
+            points = [(float(one), float(other)) for one, other in [*(home + path), centre]]
             self._line(draw, points, colour, 1.5)
         self._text(draw, (x0 + half + 14.0, y0 + half + 6.0), "x", SOFT, 12, "mm")
         self._text(draw, (x0 - half - 12.0, y0 - half - 4.0), "y", SOFT, 12, "mm")
@@ -199,8 +199,8 @@ def write_film(picture: Pictured, path: Path, frames_per_second: float | None, s
     """Write a GIF or an MP4, by the suffix of the path; see `Animation.write`."""
     gif = path.suffix.lower() == ".gif"
     default = GIF_FRAMES if gif else FILM_FRAMES
-    given = default if frames_per_second is None else frames_per_second
-    rate = as_positive(given, "frames_per_second", "animation", InvalidOption)
+    frame_rate = default if frames_per_second is None else frames_per_second
+    rate = as_positive(frame_rate, "frames_per_second", "animation", InvalidOption)
     if rate > MOST_FRAMES:
         raise refusal(InvalidOption, "frames_per_second", "animation", f"at most {MOST_FRAMES:g}", f"{rate:g}")
     pace = as_positive(speed, "speed", "animation", InvalidOption)
@@ -252,9 +252,9 @@ def _write_mp4(picture: Pictured, path: Path, rate: float, speed: float, ffmpeg:
         except BaseException:
             process.kill()
             raise
-        said = process.stderr.read().decode(errors="replace").strip()
+        message = process.stderr.read().decode(errors="replace").strip()
     if process.returncode != 0:
-        raise OSError(f"ffmpeg of a film must end well; got {said or process.returncode}")
+        raise OSError(f"ffmpeg of a film must end well; got {message or process.returncode}")
 
 
 SUFFIXES: Final = (".html", ".gif", ".mp4")

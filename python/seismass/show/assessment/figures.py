@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from seismass.assessment.models import ADVISED, ATTACHED, BARE, CODE, NAMES, REAL, REAL_HIGH, REAL_LOW
+from seismass.assessment.models import ADVISED, ATTACHED, BARE, CODE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
 from seismass.assessment.result import Assessment, shown_figures
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, counted
@@ -41,9 +41,9 @@ from seismass.model.codes import AS_STATED, MARK, NOT_CHECKED, VERIFIED
 from seismass.show.assessment.tables import AssessmentTables, Fraction, assessment_tables
 from seismass.show.effective_mass import STORAGE_CODES, marked_legend
 
-FRICTION_NAMES: Final = {REAL: "as stated", REAL_HIGH: "upper bound", REAL_LOW: "lower bound"}
+FRICTION_NAMES: Final = {SLIDING: "as stated", SLIDING_HIGH: "upper bound", SLIDING_LOW: "lower bound"}
 """What each friction is called, in the order of drawing."""
-DRAWN_MODELS: Final = (REAL, ADVISED, CODE, ATTACHED, BARE)
+DRAWN_MODELS: Final = (SLIDING, ADVISED, CODE, ATTACHED, BARE)
 """Models of the figure of drifts, in the order of drawing."""
 
 
@@ -94,7 +94,7 @@ def fraction_figure(result: AssessmentTables, size: Size) -> Figure:
     figure = Figure(figsize=(size.width, 5.9), layout="constrained")
     axes = figure.add_subplot()
     low, high = result.mu_factors
-    factors = {REAL: "", REAL_HIGH: f", {high:g} {MU}", REAL_LOW: f", {low:g} {MU}"}
+    factors = {SLIDING: "", SLIDING_HIGH: f", {high:g} {MU}", SLIDING_LOW: f", {low:g} {MU}"}
     for model, effective in result.effective.items():
         if not np.isfinite(effective.value):
             continue
@@ -106,16 +106,16 @@ def fraction_figure(result: AssessmentTables, size: Size) -> Figure:
             np.where(curve["ratio"].to_numpy() > 0.0, curve[name].to_numpy(), np.nan)
             for name in ("ratio", "ratio_low", "ratio_high")
         )
-        if model == REAL and curve["ratio_low"].null_count() == 0:
+        if model == SLIDING and curve["ratio_low"].null_count() == 0:
             label = f"{100.0 * effective.confidence:g} % interval over the motions, friction as stated"
             axes.fill_between(
                 share, lowest, highest, color=role.colour, alpha=0.15, linewidth=0.0, label=_wrapped(label, size)
             )
         label = _wrapped(f"friction {friction}{factors[model]}: {EFFECTIVE} {_value(effective)}", size)
         axes.plot(share, ratio, **role.look, linewidth=1.7, label=label, marker=role.marker, markevery=[])
-        at = effective.real / effective.model
+        level = effective.real / effective.model
         axes.plot(
-            [effective.value], [at], color=role.colour, marker=role.marker, markersize=7.5, clip_on=False, zorder=5
+            [effective.value], [level], color=role.colour, marker=role.marker, markersize=7.5, clip_on=False, zorder=5
         )
     axes.axhline(1.0, color=INK, linewidth=0.9)
     axes.set_xlim(0.0, 1.0)
@@ -146,8 +146,8 @@ def _mark_shares(axes: Axes, result: AssessmentTables, size: Size) -> None:
             f"{plain(code['code'])}: {code['share_of_design_live_load'] / present:.2f} of the goods present "
             f"({code['share_of_design_live_load']:.3g} of the design live load{_unchecked(code)})"
         )
-        at = code["share_of_design_live_load"] / present
-        axes.axvline(at, **MODELS[CODE].look, linewidth=1.4, label=_wrapped(label, size))
+        place = code["share_of_design_live_load"] / present
+        axes.axvline(place, **MODELS[CODE].look, linewidth=1.4, label=_wrapped(label, size))
     if code["use"] != "storage":
         return
     marks = {name: share / present for name, share in STORAGE_CODES.items() if share <= present}
@@ -231,8 +231,8 @@ def slip_figure(result: AssessmentTables, size: Size) -> Figure:
         offset = 0.22 * (0.5 * (len(models) - 1) - number)
         height = np.array([places[kind] + offset for kind in rows.select("floor", "goods").iter_rows()])
 
-        def column(of: str, table: pl.DataFrame = rows) -> FloatArray:
-            values: FloatArray = 1e3 * table[of].cast(pl.Float64).to_numpy()
+        def column(key: str, table: pl.DataFrame = rows) -> FloatArray:
+            values: FloatArray = 1e3 * table[key].cast(pl.Float64).to_numpy()
             return values
 
         axes.hlines(height, column("peak_p16"), column("peak_p84"), color=colour, linewidth=1.5)
@@ -258,7 +258,7 @@ def slip_figure(result: AssessmentTables, size: Size) -> Figure:
         Line2D([], [], color=GREY, linestyle="", marker="o", markerfacecolor="white", label="residual: mean"),
     ]
     names = result.storey_names
-    labels = [" ".join(part for part in (str(floor), names[floor - 1], goods) if part) for floor, goods in kinds]
+    labels = [" ".join(part for part in (str(floor), names[floor - 1], text) if part) for floor, text in kinds]
     axes.set_yticks(range(1, len(kinds) + 1), [shortened(plain(label), size.name) for label in labels])
     axes.set_ylim(0.5, len(kinds) + 0.5)
     axes.set_xlim(left=0.0)
@@ -289,8 +289,8 @@ def spectrum_figure(result: AssessmentTables, size: Size) -> Figure:
     if table["target"].null_count() < table.height:
         wanted = table["target"].cast(pl.Float64).fill_null(np.nan).to_numpy() / STANDARD_GRAVITY
         axes.plot(period, wanted, **TARGET.look, linewidth=1.8, label=_wrapped("site spectrum", size))
-    given = result.document["input"]
-    bare, attached = given["period_bare"], given["period_attached"]
+    data = result.document["input"]
+    bare, attached = data["period_bare"], data["period_attached"]
     axes.axvline(bare, **BARE_ROLE.look, linewidth=1.1, label=f"first period {bare:.3g} s, {BARE_ROLE.name}")
     role = MODELS[ATTACHED]
     axes.axvline(attached, **role.look, linewidth=1.3, label=f"first period {attached:.3g} s, {role.name}")
@@ -323,7 +323,7 @@ def _model_label(result: AssessmentTables, model: str) -> str:
     if model == CODE:
         code = result.code
         return f"{plain(code['code'])}, {code['share_of_design_live_load']:.3g} of the live load{_unchecked(code)}"
-    added = {REAL: ", friction as stated", BARE: " (analysis 2)"}.get(model, "")
+    added = {SLIDING: ", friction as stated", BARE: " (analysis 2)"}.get(model, "")
     return f"{NAMES[model]}{added}"
 
 
@@ -353,8 +353,8 @@ NAME: Final = 15
 
 def building_drawing(result: AssessmentTables) -> Markup:
     """Return the drawing as SVG in the colour of the text; goods are as large as their mass over that of a floor."""
-    given = result.document["input"]
-    storeys: list[dict[str, Any]] = given["storeys"]
+    data = result.document["input"]
+    storeys: list[dict[str, Any]] = data["storeys"]
     heights = np.array([1.0 if row["height"] is None else row["height"] for row in storeys])
     tall = float(np.clip(58.0 * len(storeys), 90.0, 330.0))
     levels = 34.0 + tall * (1.0 - np.append(0.0, np.cumsum(heights)) / heights.sum())
@@ -373,23 +373,23 @@ def building_drawing(result: AssessmentTables) -> Markup:
         if row["height"] is not None and every == 1:
             parts.append(_text(LEFT + BAY + 10.0, 0.5 * (bottom + top) + 4.0, f"{row['height']:.3g} m", soft=True))
     parts += _goods(result, levels, every)
-    if given["walls"]:
+    if data["walls"]:
         x = LEFT + BAY - 20.0
         parts.append(
             Markup(
                 '<rect x="{}" y="{:.1f}" width="7" height="{:.1f}" fill="currentColor" fill-opacity="0.35"/>'
             ).format(x, levels[-1], levels[0] - levels[-1])
         )
-    said = f"{counted(len(storeys), 'storey')}; {_said(result)}"
+    text = f"{counted(len(storeys), 'storey')}; {_goods_text(result)}"
     return Markup(
         '<svg class="adapts" viewBox="0 0 {:g} {:.0f}" width="{:g}" role="img"><title>{}</title>{}</svg>'
-    ).format(WIDTH, levels[0] + 14.0, WIDTH, said, Markup("").join(parts))
+    ).format(WIDTH, levels[0] + 14.0, WIDTH, text, Markup("").join(parts))
 
 
 def floor_words(result: AssessmentTables) -> dict[int, str]:
     """Return the goods of each loaded floor in a few words: what is present of the design live load, and friction."""
     rows = {row["storey"]: row for row in result.document["input"]["storeys"]}
-    found: dict[int, list[str]] = {}
+    kinds: dict[int, list[str]] = {}
     for kind in result.document["input"]["goods"]:
         area = rows[kind["floor"]]["area"]
         present, load = (STANDARD_GRAVITY * kind[name] for name in ("mass", "live_load"))
@@ -400,22 +400,22 @@ def floor_words(result: AssessmentTables) -> dict[int, str]:
         )
         friction = f"{kind['mu_s']:.3g}" + (f"/{kind['mu_k']:.3g}" if kind["mu_k"] != kind["mu_s"] else "")
         how = "bolted" if kind["attached"] else f"{MU} {friction}" if kind["mass"] > 0.0 else "none present"
-        found.setdefault(kind["floor"], []).append(f"{amount}, {how}")
-    return {floor: words[0] if len(words) == 1 else f"{words[0]} +{len(words) - 1}" for floor, words in found.items()}
+        kinds.setdefault(kind["floor"], []).append(f"{amount}, {how}")
+    return {floor: words[0] if len(words) == 1 else f"{words[0]} +{len(words) - 1}" for floor, words in kinds.items()}
 
 
-def _said(result: AssessmentTables) -> str:
+def _goods_text(result: AssessmentTables) -> str:
     words = floor_words(result)
-    return "; ".join(f"floor {floor}: goods {said}" for floor, said in words.items()) or "no goods"
+    return "; ".join(f"floor {floor}: goods {what}" for floor, what in words.items()) or "no goods"
 
 
 def _goods(result: AssessmentTables, levels: np.ndarray[Any, np.dtype[np.float64]], every: int) -> list[Markup]:
     """Goods of each floor as boxes, and their words beside the floor."""
-    given = result.document["input"]
-    mass = {row["storey"]: row["mass"] for row in given["storeys"]}
+    data = result.document["input"]
+    mass = {row["storey"]: row["mass"] for row in data["storeys"]}
     parts = []
-    for floor in sorted({kind["floor"] for kind in given["goods"]}):
-        kinds = [kind for kind in given["goods"] if kind["floor"] == floor and kind["mass"] > 0.0]
+    for floor in sorted({kind["floor"] for kind in data["goods"]}):
+        kinds = [kind for kind in data["goods"] if kind["floor"] == floor and kind["mass"] > 0.0]
         above = levels[floor] - levels[floor + 1] if floor + 1 < len(levels) else 34.0
         room = BAY - 34.0
         for place, kind in enumerate(kinds):
@@ -429,9 +429,9 @@ def _goods(result: AssessmentTables, levels: np.ndarray[Any, np.dtype[np.float64
                     'stroke="{}"/>'
                 ).format(middle - 0.5 * wide, levels[floor] - high - 2.0, wide, high, role.colour, role.colour)
             )
-    for floor, said in floor_words(result).items():
+    for floor, words in floor_words(result).items():
         if (floor - 1) % every == 0:
-            parts.append(_text(LEFT + BAY + 10.0, levels[floor] + 4.0, said))
+            parts.append(_text(LEFT + BAY + 10.0, levels[floor] + 4.0, words))
     return parts
 
 
@@ -441,10 +441,10 @@ def _line(x1: float, y1: float, x2: float, y2: float, width: float) -> Markup:
     )
 
 
-def _text(x: float, y: float, said: str, anchor: str = "start", *, soft: bool = False) -> Markup:
+def _text(x: float, y: float, words: str, anchor: str = "start", *, soft: bool = False) -> Markup:
     return Markup(
         '<text x="{:.1f}" y="{:.1f}" text-anchor="{}" font-size="11.5" fill="currentColor"{}>{}</text>'
-    ).format(x, y, anchor, Markup(' fill-opacity="0.75"') if soft else "", escape(said))
+    ).format(x, y, anchor, Markup(' fill-opacity="0.75"') if soft else "", escape(words))
 
 
 def box_class(result: AssessmentTables) -> str:
@@ -465,8 +465,8 @@ def answer_lines(result: AssessmentTables) -> list[Markup]:
             Markup("<strong>{}</strong>").format(sentence_html(f"Analysis {one['number']}: {words}."))
             for one, words in pair
         ]
-        said = (f"Governs: {'; '.join(answer['governs'])}.", f"Why: {answer['why']}.", _sentence(answer["design"]))
-        lines += [sentence_html(line, names) for line in (said[0], f"Goods present: {answer['goods']}.", *said[1:])]
+        parts = (f"Governs: {'; '.join(answer['governs'])}.", f"Why: {answer['why']}.", _sentence(answer["design"]))
+        lines += [sentence_html(line, names) for line in (parts[0], f"Goods present: {answer['goods']}.", *parts[1:])]
     lines.append(sentence_html(_sentence(document["on_motions"])))
     if result.effective:
         lines.append(sentence_html(_code_sentence(result)))
@@ -504,6 +504,6 @@ def _verdicts(result: AssessmentTables) -> Markup:
         return Markup('<span class="good">All {} checks are met, in the mean over the motions{}.</span>').format(
             count, _single_motions(result)
         )
-    said = [f"{failed} of {count} checks are not met"] * bool(failed)
-    said += [f"{missing} of {count} have no value, since runs collapse"] * bool(missing)
-    return Markup('<span class="warn">{}.</span>').format("; ".join(said))
+    sentences = [f"{failed} of {count} checks are not met"] * bool(failed)
+    sentences += [f"{missing} of {count} have no value, since runs collapse"] * bool(missing)
+    return Markup('<span class="warn">{}.</span>').format("; ".join(sentences))

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import math
-import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -12,10 +10,8 @@ from typing import TYPE_CHECKING, Final
 import polars as pl
 from markupsafe import Markup
 
-from seismass.assessment.models import ADVISED, BARE, NAMES, REAL, REAL_HIGH, REAL_LOW
-from seismass.base.errors import InvalidOption
+from seismass.assessment.models import ADVISED, BARE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
 from seismass.base.files import written_whole
-from seismass.base.values import as_path
 from seismass.effective_mass.estimate import BY_HAND, RULE, RULE_IN_WORDS, SAFE_RULE
 from seismass.effective_mass.result import KIND_TEXTS
 from seismass.media.page import (
@@ -28,7 +24,7 @@ from seismass.media.page import (
     table_html,
     text_html,
 )
-from seismass.media.result import PAGE, as_written, check_out, edited_files, write_folder
+from seismass.media.result import as_written, edited_files
 from seismass.media.roles import EFFECTIVE, ETA, LAMBDA, MU, OMEGA, OVER_MODEL, lettered, sentence_html
 from seismass.media.text_table import number_text
 from seismass.show.assessment.page_input import Pictures, in_motion_html, input_html, motions_html, names_of
@@ -36,16 +32,15 @@ from seismass.show.assessment.sheet import NOT_COVERED, sheet_html, signed_perce
 from seismass.show.assessment.tables import (
     ANIMATION,
     DOCUMENT,
+    TABLES,
     AssessmentTables,
     Fraction,
-    assessment_tables,
     read_assessment_tables,
 )
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from seismass.assessment.result import Assessment
     from seismass.runs.batch import Progress
 
 
@@ -160,7 +155,7 @@ def _fractions(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     if not result.effective:
         return [text_html("There are no goods on the floors.")]
     low, high = result.mu_factors
-    words = {REAL: "as stated", REAL_HIGH: f"{high:g} times", REAL_LOW: f"{low:g} times"}
+    words = {SLIDING: "as stated", SLIDING_HIGH: f"{high:g} times", SLIDING_LOW: f"{low:g} times"}
     rows = [
         {
             "friction": words[model],
@@ -174,19 +169,19 @@ def _fractions(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
         }
         for model, one in result.effective.items()
     ]
-    real = result.effective[REAL]
-    rule = real.by_hand
+    share = result.effective[SLIDING]
+    rule = share.by_hand
     return [
         pictures.figure(
             "effective_fraction",
             f"Mean largest drift, {OVER_MODEL}, against the share {LAMBDA} of the goods attached.",
-            f"The curve for friction as stated crosses one at a share of {_number(real.value)}."
-            if math.isfinite(real.value)
+            f"The curve for friction as stated crosses one at a share of {_number(share.value)}."
+            if math.isfinite(share.value)
             else "For friction as stated there is no share.",
         ),
         table_html(
             pl.DataFrame(rows),
-            f"Effective fraction of the goods present by friction; C1 = {real.base_shear_coefficient:.4f} is the mean "
+            f"Effective fraction of the goods present by friction; C1 = {share.base_shear_coefficient:.4f} is the mean "
             f"peak base shear of the runs with all goods attached over the weight of all, {ETA} = {MU}_k/C1; without "
             f"a run C1 = {rule.base_shear_coefficient:.4f} and {ETA} = {rule.eta:.3f}. {lettered(RULE_IN_WORDS)}: here "
             f"p = {rule.exponent:.2f}, T = {rule.period:.3g} s, T_c = {rule.corner_period:.3g} s, h_g/h_m = "
@@ -194,7 +189,7 @@ def _fractions(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
             headers={
                 "value": EFFECTIVE,
                 "kind": "what that is",
-                "interval": f"{100.0 * real.confidence:g} % interval",
+                "interval": f"{100.0 * share.confidence:g} % interval",
                 "eta": ETA,
                 "estimate": lettered(RULE),
                 "conservative": f"{lettered(SAFE_RULE)}, conservative",
@@ -223,17 +218,17 @@ def _drifts(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     if ratio:
         headers |= {"motions_above_limit": "motions above the limit", "theta": "stability coefficient"}
     worst = result.storeys.drop_nulls("mean").sort("mean", descending=True)
-    said = "No model has a mean."
+    note = "No model has a mean."
     if worst.height:
         row = worst.row(0, named=True)
-        said = f"The largest mean is {scale * row['mean']:.2f} {unit}, storey {row['storey']}, {NAMES[row['model']]}."
+        note = f"The largest mean is {scale * row['mean']:.2f} {unit}, storey {row['storey']}, {NAMES[row['model']]}."
     return [
         *([_governing(result, scale, unit)] if result.answer is not None else []),
         pictures.figure(
             "drift",
             "Mean peak drift of each storey by model, with 16 to 84 % of the motions"
             + (", beside the limit." if ratio else "."),
-            said,
+            note,
         ),
         table_html(
             table,
@@ -253,9 +248,9 @@ def _governing(result: AssessmentTables, scale: float, unit: str) -> Markup:
     headers = {
         ADVISED: f"analysis 1 ({unit})",
         BARE: f"analysis 2 ({unit})",
-        REAL: f"goods slide, {MU} as stated ({unit})",
-        REAL_HIGH: f"{high:g} {MU} ({unit})",
-        REAL_LOW: f"{low:g} {MU} ({unit})",
+        SLIDING: f"goods slide, {MU} as stated ({unit})",
+        SLIDING_HIGH: f"{high:g} {MU} ({unit})",
+        SLIDING_LOW: f"{low:g} {MU} ({unit})",
         "governing": f"governs ({unit})",
         "limit": f"limit ({unit})",
         "governed_by": "governed by",
@@ -339,56 +334,23 @@ def _slip(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
 
 
 def _provenance(result: AssessmentTables) -> list[Markup]:
-    about = result.document["metadata"]
+    facts = result.document["metadata"]
     runs, models = result.runs.filter(storey=1).height, len(result.document["collapses"])
     return [
         facts_html(
             {
-                "Program": f"seismass {about['package_version']}",
-                "Runs": f"{runs}: {models} models under {about['motions']} motions each, beside those of the fractions",
-                "Intervals": f"{100.0 * about['confidence']:g} %, by {about['resamples']} resamples of the motions "
-                f"(bootstrap, random seed {about['seed']})",
-                "Damping of the models": str(about["damping"]),
-                "Inputs, SHA-256": about["inputs_sha256"],
-                "Processor instructions": f"{about['instructions']}; with the same ones numbers are the same bits on "
+                "Program": f"seismass {facts['package_version']}",
+                "Runs": f"{runs}: {models} models under {facts['motions']} motions each, beside those of the fractions",
+                "Intervals": f"{100.0 * facts['confidence']:g} %, by {facts['resamples']} resamples of the motions "
+                f"(bootstrap, random seed {facts['seed']})",
+                "Damping of the models": str(facts["damping"]),
+                "Inputs, SHA-256": facts["inputs_sha256"],
+                "Processor instructions": f"{facts['instructions']}; with the same ones numbers are the same bits on "
                 "every machine",
-                "Format of the tables": f"version {about['schema_version']}",
+                "Format of the tables": f"version {facts['schema_version']}",
             }
         )
     ]
-
-
-FIGURES: Final = ("effective_fraction", "drift", "slip", "spectrum")
-"""Names of all figures; those of an earlier assessment that are not written again are removed."""
-TABLES: Final = ("storeys", "governing", "analysis", "slip", "runs", "checks", "spectra", "curve", "scaling")
-"""Names of all tables, likewise."""
-
-
-def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
-    """Write text, tables (Parquet and CSV), assessment.json, figures (PNG and SVG) and the page to a folder; return the
-    files in that order. On an error no file is changed.
-    """
-    out = as_path(folder, "assessment", InvalidOption)
-    check_out(out, "assessment")
-    documents = {"assessment.txt": result.text + "\n", DOCUMENT: result.to_json() + "\n"}
-    drawn: dict[str, Figure] = {}
-    if figures:
-        tables = assessment_tables(result, animated=True)
-        if tables.animation is not None:
-            documents[ANIMATION] = json.dumps(tables.animation) + "\n"
-        drawn, drawings = _drawn(tables)
-        documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
-        documents[PAGE] = _page(tables, drawings)
-    ours = {PAGE, ANIMATION} | {f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")}
-    ours |= {f"{name}.{kind}" for name in TABLES for kind in ("parquet", "csv")}
-    return write_folder(
-        out,
-        tables=result.tables,
-        documents=documents,
-        figures=drawn,
-        kinds=("png",),
-        earlier=ours.__contains__,
-    )
 
 
 def write_assessment_page(
@@ -401,14 +363,16 @@ def write_assessment_page(
     edited = edited_files(folder, read, force=force)
     with as_written(folder):
         tables = read_assessment_tables(folder)
-        _, drawings = _drawn(tables, progress)
-        page = _page(tables, drawings, edited)
+        _, drawings = drawn_figures(tables, progress)
+        page = page_with(tables, drawings, edited)
     with written_whole(target) as temporary:
         temporary.write_text(page, encoding="utf-8")
     return edited
 
 
-def _drawn(tables: AssessmentTables, progress: Progress | None = None) -> tuple[dict[str, Figure], dict[str, str]]:
+def drawn_figures(
+    tables: AssessmentTables, progress: Progress | None = None
+) -> tuple[dict[str, Figure], dict[str, str]]:
     """Figures and their SVG texts, each drawn once for its file and for the page."""
     from seismass.media.svg import figure_svgs
     from seismass.show.assessment.figures import assessment_figures
@@ -417,7 +381,8 @@ def _drawn(tables: AssessmentTables, progress: Progress | None = None) -> tuple[
     return figures, figure_svgs(figures, progress)
 
 
-def _page(tables: AssessmentTables, drawings: dict[str, str], edited: tuple[str, ...] = ()) -> str:
+def page_with(tables: AssessmentTables, drawings: dict[str, str], edited: tuple[str, ...] = ()) -> str:
+    """Return the page with the SVG texts of its figures; those for phones are drawn."""
     from seismass.media.svg import figure_svgs
     from seismass.show.assessment.figures import PHONE_SIZE, assessment_figures
 

@@ -38,45 +38,45 @@ def input_html(result: AssessmentTables) -> list[Markup]:
 
 
 def _facts(result: AssessmentTables) -> dict[str, str]:
-    given, code, document = result.document["input"], result.code, result.document
+    data, code, document = result.document["input"], result.code, result.document
     facts: dict[str, str] = {}
-    if given["file"]:
-        facts["File"] = isolated(given["file"])
+    if data["file"]:
+        facts["File"] = isolated(data["file"])
     facts |= {
-        "Weight without loose goods": f"{1e-3 * given['weight']:.0f} kN",
-        "Weight of the goods present": f"{1e-3 * given['weight_of_goods']:.0f} kN, "
+        "Weight without loose goods": f"{1e-3 * data['weight']:.0f} kN",
+        "Weight of the goods present": f"{1e-3 * data['weight_of_goods']:.0f} kN, "
         f"{100.0 * result.present_share:.0f} % of the design live load",
-        "First period": f"{given['period_bare']:.3f} s without goods, {given['period_attached']:.3f} s with all",
-        "Stiffness": _with_source(_stiffness_words(given), given, "stiffness", "period"),
-        "Strength": _with_source(_strength_words(given), given, "strength", "design", "reduction"),
+        "First period": f"{data['period_bare']:.3f} s without goods, {data['period_attached']:.3f} s with all",
+        "Stiffness": _with_source(_stiffness_words(data), data, "stiffness", "period"),
+        "Strength": _with_source(_strength_words(data), data, "strength", "design", "reduction"),
         f"Springs: {OMEGA}, r2, r3": _with_source(
-            "; ".join(_values(given["storeys"], name) for name in ("overstrength", "second_slope", "third_slope"))
+            "; ".join(_values(data["storeys"], name) for name in ("overstrength", "second_slope", "third_slope"))
             + " (second yield over the first, slopes after both over the initial one)",
-            given,
+            data,
             "overstrength",
             "second_slope",
             "third_slope",
         ),
         "Damping": _with_source(
-            f"{100.0 * given['damping']:g} % of critical in the modes of the building without goods", given, "damping"
+            f"{100.0 * data['damping']:g} % of critical in the modes of the building without goods", data, "damping"
         ),
-        **_further(given),
+        **_further(data),
         "P-Delta": _with_source(
-            "with the weight of building and goods" if given["p_delta"] else "none", given, "p_delta"
+            "with the weight of building and goods" if data["p_delta"] else "none", data, "p_delta"
         ),
         "Bounds of friction": _with_source(
-            f"{result.mu_factors[0]:g} and {result.mu_factors[1]:g} times {MU}", given, "mu_factors"
+            f"{result.mu_factors[0]:g} and {result.mu_factors[1]:g} times {MU}", data, "mu_factors"
         ),
-        "Limits": _with_source(_limits(given), given, "drift_limit", "theta_limit"),
+        "Limits": _with_source(_limits(data), data, "drift_limit", "theta_limit"),
         "Code": _with_source(
             f"{code['code']}, {code['use']}: {code['share_of_design_live_load']:.3g} of the design live load"
             + "".join(f"; {code[name]}" for name in ("clause", "status", "note") if code[name])
             + ("" if code["status"] in (VERIFIED, AS_STATED) else f"; {NOT_CHECKED}"),
-            given,
+            data,
             "code",
         ),
         "Site spectrum": _with_source(
-            "none" if document["target"] is None else document["target"]["label"], given, "site"
+            "none" if document["target"] is None else document["target"]["label"], data, "site"
         ),
         "Motions": _motions(document["suite"]),
     }
@@ -90,18 +90,18 @@ def _motions(suite: dict[str, Any]) -> Markup:
     return Markup("{}: {}").format(isolated(suite["name"]), whole_html(map(isolated, names)))
 
 
-def _further(given: dict[str, Any]) -> dict[str, str]:
+def _further(data: dict[str, Any]) -> dict[str, str]:
     """What few buildings have: another direction, a sliding base."""
     facts: dict[str, str] = {}
-    other, base = given["other_direction"], given["base"]
+    other, base = data["other_direction"], data["base"]
     if other is not None:
         rule = "as stated" if other["R"] is None else f"by design with R = {other['R']:g}"
         strength = [1e-3 * value for value in other["yield_shear"] if value is not None]
-        said = f", V_y {min(strength):.0f} to {max(strength):.0f} kN" if strength else ", elastic"
+        tail = f", V_y {min(strength):.0f} to {max(strength):.0f} kN" if strength else ", elastic"
         stiffness = [1e-6 * value for value in other["stiffness"]]
         facts["Other direction, y"] = (
             f"first period {other['period_bare']:.3f} s without goods, {other['period_attached']:.3f} s with all; "
-            f"stiffness {min(stiffness):.1f} to {max(stiffness):.1f} kN/mm; strengths {rule}{said}; the table of "
+            f"stiffness {min(stiffness):.1f} to {max(stiffness):.1f} kN/mm; strengths {rule}{tail}; the table of "
             "storeys is that of x"
         )
     if base is not None:
@@ -110,24 +110,24 @@ def _further(given: dict[str, Any]) -> dict[str, str]:
     return facts
 
 
-def _with_source(text: str, given: dict[str, Any], *names: str) -> Markup:
+def _with_source(text: str, data: dict[str, Any], *names: str) -> Markup:
     """A value, and in small letters below it the keys of the file that state it."""
-    found = [given["sources"][name] for name in names if name in given["sources"]]
-    stated = [source for source in found if source != "default"]
-    said = "; ".join(dict.fromkeys(stated)) if stated else "default" if found else ""
-    small = Markup('<small class="source">{}</small>').format(said) if said else ""
+    sources = [data["sources"][name] for name in names if name in data["sources"]]
+    stated = [source for source in sources if source != "default"]
+    words = "; ".join(dict.fromkeys(stated)) if stated else "default" if sources else ""
+    small = Markup('<small class="source">{}</small>').format(words) if words else ""
     return Markup("{}{}").format(sentence_html(text), small)
 
 
-def _stiffness_words(given: dict[str, Any]) -> str:
-    if given["period_stated"] is None:
+def _stiffness_words(data: dict[str, Any]) -> str:
+    if data["period_stated"] is None:
         return "as stated, storey by storey"
-    mass = {"bare": "no goods", "code share": "the code's share of the goods", "all": "all goods"}[given["period_mass"]]
-    return f"from a first period of {given['period_stated']:.3g} s with {mass} as mass"
+    mass = {"bare": "no goods", "code share": "the code's share of the goods", "all": "all goods"}[data["period_mass"]]
+    return f"from a first period of {data['period_stated']:.3g} s with {mass} as mass"
 
 
-def _strength_words(given: dict[str, Any]) -> str:
-    rule = given["design"]
+def _strength_words(data: dict[str, Any]) -> str:
+    rule = data["design"]
     if rule is None:
         return "as stated"
     return (
@@ -136,10 +136,10 @@ def _strength_words(given: dict[str, Any]) -> str:
     )
 
 
-def _limits(given: dict[str, Any]) -> str:
-    if given["drift_limit"] is None:
+def _limits(data: dict[str, Any]) -> str:
+    if data["drift_limit"] is None:
         return "none, since heights are not known"
-    return f"drift {100.0 * given['drift_limit']:g} % of the height; stability coefficient {given['theta_limit']:g}"
+    return f"drift {100.0 * data['drift_limit']:g} % of the height; stability coefficient {data['theta_limit']:g}"
 
 
 def _values(storeys: list[dict[str, Any]], name: str) -> str:
@@ -149,8 +149,8 @@ def _values(storeys: list[dict[str, Any]], name: str) -> str:
 
 
 def _storeys(result: AssessmentTables) -> Markup:
-    given = result.document["input"]
-    rows, sources = given["storeys"], given["sources"]
+    data = result.document["input"]
+    rows, sources = data["storeys"], data["sources"]
     table = pl.DataFrame(rows, infer_schema_length=None).with_columns(
         dead_load=1e-3 * STANDARD_GRAVITY * (pl.col("mass") - pl.col("bolted")) / pl.col("area").cast(pl.Float64),
         load=1e-3
@@ -183,11 +183,11 @@ def _storeys(result: AssessmentTables) -> Markup:
         **dict.fromkeys(("dead_load", "load"), ".3g"),
     }
     known = {"height": "height", "area": "area", "dead_load": "dead load", "live_load": "live load"}
-    said = "; ".join(f"{words}: {sources[name]}" for name, words in known.items() if name in sources)
+    notes = "; ".join(f"{words}: {sources[name]}" for name, words in known.items() if name in sources)
     caption = (
         "Storeys, from the ground up. The mass is that of the floor without loose goods; the code's fraction is that "
-        f"of the design live load of the floor. From {said}."
-        if said
+        f"of the design live load of the floor. From {notes}."
+        if notes
         else "Storeys, from the ground up."
     )
     return table_html(
@@ -215,7 +215,7 @@ def _goods(result: AssessmentTables) -> list[Markup]:
         pl.Series("area", [np.nan if area[row["floor"]] is None else area[row["floor"]] for row in rows]),
         contact=pl.when("attached").then(pl.lit("bolted")).otherwise("contact"),
     )
-    goods = table.select(
+    table_of_goods = table.select(
         "floor",
         "name",
         load=1e-3 * STANDARD_GRAVITY * pl.col("live_load") / pl.col("area"),
@@ -226,8 +226,8 @@ def _goods(result: AssessmentTables) -> list[Markup]:
         mu_s="mu_s",
         mu_k="mu_k",
     ).with_columns(pl.col("load").fill_nan(None))
-    unused = [name for name in ("name", "contact") if not any(goods[name])]
-    unused += ["load"] if goods["load"].null_count() == goods.height else []
+    unused = [name for name in ("name", "contact") if not any(table_of_goods[name])]
+    unused += ["load"] if table_of_goods["load"].null_count() == table_of_goods.height else []
     headers = {
         "name": "goods",
         "load": "design live load (kPa)",
@@ -237,15 +237,15 @@ def _goods(result: AssessmentTables) -> list[Markup]:
         "mu_s": f"{MU}_s",
         "mu_k": f"{MU}_k",
     }
-    said = "".join(
+    parts = "".join(
         f" {words}: {sources[name]}."
         for name, words in (("present", "Present"), ("friction", "Friction"))
         if name in sources
     )
     return [
         table_html(
-            goods.drop(unused),
-            f"Goods, kind by kind. Bolted ones are part of the mass of their floor.{said}",
+            table_of_goods.drop(unused),
+            f"Goods, kind by kind. Bolted ones are part of the mass of their floor.{parts}",
             headers={name: words for name, words in headers.items() if name not in unused},
             formats={
                 **({} if "load" in unused else {"load": ".3g"}),
@@ -268,7 +268,7 @@ ALIKE = 1e-6
 """By how much numbers may differ, relatively, that the live page has as one."""
 
 
-class OwnCase(NamedTuple):
+class Outcome(NamedTuple):
     """What the live page opens: the building (None where it cannot be shown, with `reasons`), and what is different
     there, each a sentence without its stop.
     """
@@ -278,57 +278,59 @@ class OwnCase(NamedTuple):
     differences: tuple[str, ...]
 
 
-def own_case(result: AssessmentTables) -> OwnCase:
+def live_case(result: AssessmentTables) -> Outcome:
     """Return the case of an assessed building."""
-    given = result.document["input"]
-    storeys, goods = given["storeys"], [kind for kind in given["goods"] if not kind["attached"] and kind["mass"] > 0.0]
+    data = result.document["input"]
+    storeys, loose = data["storeys"], [kind for kind in data["goods"] if not kind["attached"] and kind["mass"] > 0.0]
     reasons = []
     if len(storeys) > MOST_STOREYS:
         reasons.append(f"it has {len(storeys)} storeys, and the live page solves up to {MOST_STOREYS}")
-    if given["other_direction"] is not None:
+    if data["other_direction"] is not None:
         reasons.append("it moves in two directions")
-    if given["base"] is not None:
+    if data["base"] is not None:
         reasons.append("it stands on a sliding base")
-    if given["walls"]:
+    if data["walls"]:
         reasons.append("it has walls")
-    if any(kind["rack"] is not None for kind in goods):
+    if any(kind["rack"] is not None for kind in loose):
         reasons.append("its goods stand on racks")
-    if any(kind["stops"] is not None for kind in goods):
+    if any(kind["stops"] is not None for kind in loose):
         reasons.append("its goods have stops")
-    if given["damping_from_storey"] > 1:
+    if data["damping_from_storey"] > 1:
         reasons.append("its lowest storeys are not damped")
     strength = [row["yield_shear"] for row in storeys]
     if any(value is None for value in strength) and any(value is not None for value in strength):
         reasons.append("some of its storeys yield and others stay elastic")
     if reasons:
-        return OwnCase(None, tuple(reasons), ())
-    case, differences = _case(result, storeys, goods), _differences(result, storeys, goods)
-    if case.beyond:
-        return OwnCase(None, (f"its numbers are out of the range of the live page ({', '.join(case.beyond)})",), ())
-    return OwnCase(case, (), differences)
+        return Outcome(None, tuple(reasons), ())
+    case, differences = _case(result, storeys, loose), _differences(result, storeys, loose)
+    if case.out_of_range:
+        return Outcome(
+            None, (f"its numbers are out of the range of the live page ({', '.join(case.out_of_range)})",), ()
+        )
+    return Outcome(case, (), differences)
 
 
-def _case(result: AssessmentTables, storeys: list[dict[str, Any]], goods: list[dict[str, Any]]) -> LiveCase:
-    given = result.document["input"]
+def _case(result: AssessmentTables, storeys: list[dict[str, Any]], loose: list[dict[str, Any]]) -> LiveCase:
+    data = result.document["input"]
     mass = np.array([row["mass"] for row in storeys])
     heights = [row["height"] for row in storeys if row["height"] is not None]
     weight = STANDARD_GRAVITY * float(mass.sum())
     ratio, static, kinetic = np.zeros(len(storeys)), np.zeros(len(storeys)), np.zeros(len(storeys))
-    for kind in goods:
+    for kind in loose:
         floor = kind["floor"] - 1
         ratio[floor] += kind["mass"] / mass.mean()
         # Several kinds become one with their mean friction.
         static[floor] += kind["mass"] / mass.mean() * kind["mu_s"]
         kinetic[floor] += kind["mass"] / mass.mean() * kind["mu_k"]
     loaded = ratio > 0.0
-    least = [float(one["mu_s"]) for one in goods[:1]] or [0.2]
+    least = [float(one["mu_s"]) for one in loose[:1]] or [0.2]
     mu_s = np.where(loaded, static / np.where(loaded, ratio, 1.0), least[0])
     mu_k = np.where(loaded, kinetic / np.where(loaded, ratio, 1.0), least[0])
     elastic = any(row["yield_shear"] is None for row in storeys)
     counted = result.code["share_of_design_live_load"] / result.present_share if result.present_share > 0.0 else 0.0
     return LiveCase(
-        period=given["period_bare"],
-        damping=given["damping"],
+        period=data["period_bare"],
+        damping=data["damping"],
         overstrength=float(np.mean([row["overstrength"] for row in storeys])),
         second_slope=float(np.mean([row["second_slope"] for row in storeys])),
         height=float(np.mean(heights)) if heights else 3.5,
@@ -341,10 +343,10 @@ def _case(result: AssessmentTables, storeys: list[dict[str, Any]], goods: list[d
 
 
 def _differences(
-    result: AssessmentTables, storeys: list[dict[str, Any]], goods: list[dict[str, Any]]
+    result: AssessmentTables, storeys: list[dict[str, Any]], loose: list[dict[str, Any]]
 ) -> tuple[str, ...]:
-    given = result.document["input"]
-    found = ["motions are the seven built-in ones, scaled to their own target, not those of this page"]
+    data = result.document["input"]
+    differences = ["motions are the seven built-in ones, scaled to their own target, not those of this page"]
     for name, words in (
         ("mass", "floor masses are equal: their mean"),
         ("stiffness", "storey stiffnesses are equal: those of the same first period"),
@@ -353,21 +355,21 @@ def _differences(
         ("second_slope", "r2 is one number: the mean"),
     ):
         if not _alike([row[name] for row in storeys]):
-            found.append(words)
+            differences.append(words)
     if any(row["height"] is None for row in storeys):
-        found.append("storeys are 3.5 m high, since heights are not known here")
+        differences.append("storeys are 3.5 m high, since heights are not known here")
     if any(row["third_slope"] for row in storeys):
-        found.append("the slope after the second yield, r3, is 0")
-    if given["p_delta"]:
-        found.append("there is no P-Delta")
-    floors = [kind["floor"] for kind in goods]
+        differences.append("the slope after the second yield, r3, is 0")
+    if data["p_delta"]:
+        differences.append("there is no P-Delta")
+    floors = [kind["floor"] for kind in loose]
     if len(set(floors)) < len(floors):
-        found.append("kinds of goods on a floor are one, with their mean friction")
-    if given["collapse_drift_ratio"] is not None:
-        found.append("no storey counts as collapsed")
+        differences.append("kinds of goods on a floor are one, with their mean friction")
+    if data["collapse_drift_ratio"] is not None:
+        differences.append("no storey counts as collapsed")
     if result.present_share > 0.0 and result.code["share_of_design_live_load"] > result.present_share:
-        found.append("the model of the code has all goods present attached, no more")
-    return tuple(found)
+        differences.append("the model of the code has all goods present attached, no more")
+    return tuple(differences)
 
 
 def _alike(values: list[float | None]) -> bool:
@@ -392,21 +394,21 @@ class Pictures:
 def names_of(result: AssessmentTables) -> list[str]:
     """Return the names of the user's that sentences may contain."""
     document = result.document
-    goods = [kind["name"] for kind in document["input"]["goods"]]
-    return [document["name"], document["suite"]["name"], *result.storey_names, *goods, *document["suite"]["motions"]]
+    kinds = [kind["name"] for kind in document["input"]["goods"]]
+    return [document["name"], document["suite"]["name"], *result.storey_names, *kinds, *document["suite"]["motions"]]
 
 
 def motions_html(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     """Return on which motions the answer stands, their spectra, and their factors."""
-    given, target = result.document["input"], result.document["target"]
+    data, target = result.document["input"], result.document["target"]
     site = "" if target is None else " beside the site spectrum"
     parts = [
         text_html(sentence_html(f"The answer stands {result.document['on_motions']}.")),
         pictures.figure(
             "spectrum",
             f"Spectra of the motions as they load the building{site}; first periods without goods and with all.",
-            f"Mean and scatter of the spectra of the motions{site}; first periods {given['period_bare']:.3g} and "
-            f"{given['period_attached']:.3g} s.",
+            f"Mean and scatter of the spectra of the motions{site}; first periods {data['period_bare']:.3g} and "
+            f"{data['period_attached']:.3g} s.",
         ),
     ]
     if result.scaling is not None:
@@ -430,16 +432,16 @@ def in_motion_html(result: AssessmentTables) -> list[Markup]:
     """Return the building under one motion, and the way to the live page."""
     parts = []
     if result.animation is not None:
-        about = result.animation["about"]
-        beside = (
-            f", beside a model with {100.0 * about['fraction']:.0f} % of the goods present attached, the code's share"
+        facts = result.animation["about"]
+        model_words = (
+            f", beside a model with {100.0 * facts['fraction']:.0f} % of the goods present attached, the code's share"
         )
         parts += [
             text_html(
                 sentence_html(
-                    f"Under {about['motion']}, motion {about['number']}, scaled by {about['factor']:.3g} to a peak of "
-                    f"{about['peak_g']:.2f} g: the motion with the median drift of those under which goods slide"
-                    f"{beside if result.effective else ''}.",
+                    f"Under {facts['motion']}, motion {facts['number']}, scaled by {facts['factor']:.3g} to a peak of "
+                    f"{facts['peak_g']:.2f} g: the motion with the median drift of those under which goods slide"
+                    f"{model_words if result.effective else ''}.",
                     names_of(result),
                 )
             ),
@@ -449,7 +451,7 @@ def in_motion_html(result: AssessmentTables) -> list[Markup]:
 
 
 def _live(result: AssessmentTables) -> list[Markup]:
-    case, reasons, differences = own_case(result)
+    case, reasons, differences = live_case(result)
     if case is None:
         return [text_html(f"The live page cannot show this building: {'; '.join(reasons)}.")]
     link = Markup(

@@ -63,9 +63,9 @@ def _drawing_caption(result: AssessmentTables) -> str:
 
 
 def _support(result: AssessmentTables) -> str:
-    given = result.document["input"]
-    base = "; it stands on a sliding base" if given["base"] is not None else ""
-    return base + ("; it moves in two directions" if given["other_direction"] is not None else "")
+    data = result.document["input"]
+    base = "; it stands on a sliding base" if data["base"] is not None else ""
+    return base + ("; it moves in two directions" if data["other_direction"] is not None else "")
 
 
 def _verdicts(result: AssessmentTables) -> Markup:
@@ -84,14 +84,14 @@ def _verdicts(result: AssessmentTables) -> Markup:
         }
     )
     for check, words in CHECKS.items():
-        of = result.checks.filter(check=check)
-        if not of.height:
+        rows_of_check = result.checks.filter(check=check)
+        if not rows_of_check.height:
             continue
-        known = of.drop_nulls("value").sort("value", descending=True)
+        known = rows_of_check.drop_nulls("value").sort("value", descending=True)
         scale, form, unit = (1e2, ".2f", " %") if check == "mean drift ratio" else (1.0, ".3f", "")
-        row = known.row(0, named=True) if known.height else of.row(0, named=True)
+        row = known.row(0, named=True) if known.height else rows_of_check.row(0, named=True)
         limit = f"{scale * row['limit']:g}{unit}"
-        if known.height < of.height:
+        if known.height < rows_of_check.height:
             rows.append(
                 {"what": words, "value": "no value", "limit": limit, "margin": "none", "where": "runs collapse"}
             )
@@ -148,10 +148,10 @@ def _storeys(result: AssessmentTables) -> list[Markup]:
         return []
     ratio = result.drift_limit is not None
     scale, unit = (1e2, "%") if ratio else (1e3, "mm")
-    said = "What governs each storey."
+    caption = "What governs each storey."
     if table.height > MOST_STOREYS:
         shown = table.sort("governing", descending=True).head(MOST_STOREYS).sort("storey")
-        said = f"What governs the {MOST_STOREYS} storeys that drift most; the others are in the table of drifts."
+        caption = f"What governs the {MOST_STOREYS} storeys that drift most; the others are in the table of drifts."
     else:
         shown = table
     shown = shown.sort("storey", descending=True)
@@ -166,10 +166,10 @@ def _storeys(result: AssessmentTables) -> list[Markup]:
             cells["margin"] = signed_percent(100.0 * (1.0 - row["governing_over_limit"]))
         rows.append(cells)
     formats = {"margin": _margin} if ratio else {}
-    return [table_html(pl.DataFrame(rows), f"{said} Mean peak drift.", formats={**formats, "governs": _said})]
+    return [table_html(pl.DataFrame(rows), f"{caption} Mean peak drift.", formats={**formats, "governs": _model_name})]
 
 
-def _said(text: str) -> Markup:
+def _model_name(text: str) -> Markup:
     return sentence_html(text)
 
 

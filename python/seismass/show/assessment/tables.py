@@ -19,14 +19,16 @@ from seismass.effective_mass import ByHand
 from seismass.effective_mass.models import Kind
 from seismass.media.result import as_written
 from seismass.model.scene import Scene
-from seismass.show.animation import animate
-from seismass.show.animation.html import element_content
 
 DOCUMENT: Final = "assessment.json"
 """File by which a folder is known as that of an assessment."""
 NEEDED: Final = ("storeys", "governing", "analysis", "slip", "runs", "checks", "spectra")
 ANIMATION: Final = "animation.json"
 """File of what the animation shows."""
+FIGURES: Final = ("effective_fraction", "drift", "slip", "spectrum")
+"""Names of all figures; those of an earlier assessment that are not written again are removed."""
+TABLES: Final = ("storeys", "governing", "analysis", "slip", "runs", "checks", "spectra", "curve", "scaling")
+"""Names of all tables, likewise."""
 
 
 @dataclass(frozen=True)
@@ -151,17 +153,20 @@ def _animation(result: Assessment) -> dict[str, Any] | None:
     shown, building = result.example, result.building
     if not _is_animated(shown.scene):
         return None
+    from seismass.show.animation import animate
+    from seismass.show.animation.html import element_content
+
     share = building.code_share / building.present_share if building.present_share > 0.0 else 0.0
     fraction = min(1.0, share)
     animation = animate(shown.scene, shown.motion, fraction=fraction, title=building.name)
-    about = {
+    facts = {
         "motion": result.suite["motions"][shown.number - 1],
         "number": shown.number,
         "factor": shown.factor,
         "peak_g": float(abs(shown.motion.acceleration).max()) / STANDARD_GRAVITY,
         "fraction": fraction,
     }
-    content: dict[str, Any] = json.loads(json.dumps({"about": about, "element": element_content(animation)}))
+    content: dict[str, Any] = json.loads(json.dumps({"about": facts, "element": element_content(animation)}))
     return content
 
 
@@ -187,7 +192,7 @@ def _made(
 
 
 def _fraction(values: dict[str, Any], curve: pl.DataFrame) -> Fraction:
-    """A fraction of its JSON, in which what is not finite is null."""
+    """A fraction of its JSON, in which non-finite values are null."""
 
     def number(value: float | None) -> float:
         return math.nan if value is None else float(value)

@@ -1,23 +1,35 @@
-"""The page that an assessment prints: the answer first, then drifts, stability, slip, advice and every assumption."""
+"""The page that an assessment prints: the answer first, then drifts, stability, slip, advice and every assumption; and
+the folder that it writes.
+"""
 
 from __future__ import annotations
 
+import json
+import os
 import textwrap
-from typing import Any, Final
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
 
 import polars as pl
 
 from seismass.assessment.answer import analysis_table
-from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, REAL, REAL_HIGH, REAL_LOW
+from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
 from seismass.assessment.result import Assessment
+from seismass.base.errors import InvalidOption
+from seismass.base.values import as_path
 from seismass.effective_mass import ByHand
 from seismass.effective_mass.estimate import RULE, RULE_UNKNOWN, SAFE_RULE
+from seismass.media.result import PAGE, check_out, write_folder
 from seismass.media.text_table import number_text, text_table
 from seismass.model.codes import NOT_CHECKED
+from seismass.show.assessment.tables import ANIMATION, DOCUMENT, FIGURES, TABLES, assessment_tables
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 WIDTH: Final = 108
 """Columns of the page."""
-_STABLE: Final = (ADVISED, BARE, REAL, REAL_HIGH, REAL_LOW, CODE)
+_STABLE: Final = (ADVISED, BARE, SLIDING, SLIDING_HIGH, SLIDING_LOW, CODE)
 """Models whose drifts and stability coefficients are printed, in this order; that with all goods is in the tables."""
 
 
@@ -41,40 +53,40 @@ def assessment_text(result: Assessment) -> str:
     return "\n".join(lines)
 
 
-def _told(label: str, text: str) -> list[str]:
+def _paragraph(label: str, text: str) -> list[str]:
     return textwrap.wrap(text, WIDTH, initial_indent=f"{label:10}", subsequent_indent=" " * 10)
 
 
 def _answer(result: Assessment) -> list[str]:
     answer = result.answer
     doubts = enumerate(answer.doubt_lines)
-    lines = [line for number, doubt in doubts for line in _told("ANSWER" if number == 0 else "", doubt)]
-    lines += _told("" if lines else "ANSWER", answer.statement)
+    lines = [line for number, doubt in doubts for line in _paragraph("ANSWER" if number == 0 else "", doubt)]
+    lines += _paragraph("" if lines else "ANSWER", answer.statement)
     for one, words in zip(answer.analyses, answer.pair, strict=True):
         lines += textwrap.wrap(f"{one.number}  {words}", WIDTH, initial_indent=" " * 10, subsequent_indent=" " * 13)
     for number, sentence in enumerate(answer.governs):
-        lines += _told("governs" if number == 0 else "", sentence)
+        lines += _paragraph("governs" if number == 0 else "", sentence)
     if answer.goods:
-        lines += _told("goods", f"present: {answer.goods}")
+        lines += _paragraph("goods", f"present: {answer.goods}")
     if answer.why:
-        lines += _told("why", answer.why)
+        lines += _paragraph("why", answer.why)
     if answer.design:
-        lines += _told("strength", answer.design)
-    lines += _told("motions", answer.motions)
+        lines += _paragraph("strength", answer.design)
+    lines += _paragraph("motions", answer.motions)
     if not result.effective:
         return lines
-    lines += _told("code", _code(result))
+    lines += _paragraph("code", _code(result))
     if answer.analyses:
-        real = result.effective[REAL]
-        unknown = [remark for remark in real.remarks if remark.startswith(RULE_UNKNOWN)]
+        share = result.effective[SLIDING]
+        unknown = [remark for remark in share.remarks if remark.startswith(RULE_UNKNOWN)]
         if unknown:
-            return [*lines, *_told("rule", f"not applied: {'; '.join(unknown)}")]
-        lines += _told(
+            return [*lines, *_paragraph("rule", f"not applied: {'; '.join(unknown)}")]
+        lines += _paragraph(
             "rule",
-            f"eta = mu_k/C1 = {real.eta:.3f}, C1 = {real.base_shear_coefficient:.4f}, mean peak base shear of the "
-            f"runs: {RULE} = {real.estimate:.2f} at best, {SAFE_RULE} = {real.conservative:.2f} to be safe",
+            f"eta = mu_k/C1 = {share.eta:.3f}, C1 = {share.base_shear_coefficient:.4f}, mean peak base shear of the "
+            f"runs: {RULE} = {share.estimate:.2f} at best, {SAFE_RULE} = {share.conservative:.2f} to be safe",
         )
-        lines += _rule(real.by_hand)
+        lines += _rule(share.by_hand)
     return lines
 
 
@@ -107,9 +119,9 @@ def _label(result: Assessment, model: str) -> str:
         ADVISED: "analysis 1",
         BARE: "analysis 2" if result.answer.analyses else "no goods",
         CODE: f"code {result.building.code_share:.3g}{result.building.code.mark}",
-        REAL: "slide, mu",
-        REAL_HIGH: f"mu x {high:g}",
-        REAL_LOW: f"mu x {low:g}",
+        SLIDING: "slide, mu",
+        SLIDING_HIGH: f"mu x {high:g}",
+        SLIDING_LOW: f"mu x {low:g}",
     }[model]
 
 
@@ -136,15 +148,15 @@ def _drifts(result: Assessment) -> list[str]:
     rows = [["storey", *(_label(result, model) for model in models), *(["governs"] if governed else [])]]
     scatter = [rows[0][: 1 + len(models)]]
     for row in result.governing.iter_rows(named=True):
-        of = [_of(result, row["storey"], model) for model in models]
+        values = [_of(result, row["storey"], model) for model in models]
         label = _storey_label(row)
-        cells = [_marked(one["mean"], one["mean_over_limit"], scale) for one in of]
+        cells = [_marked(one["mean"], one["mean_over_limit"], scale) for one in values]
         if governed:
-            by = (row["governed_by"] or "").replace("goods slide, ", "slide, ").replace("mu as stated", "mu")
+            model_words = (row["governed_by"] or "").replace("goods slide, ", "slide, ").replace("mu as stated", "mu")
             drift = _marked(row["governing"], row["governing_over_limit"], scale)
-            cells.append(f"{drift} {by}".rstrip())
+            cells.append(f"{drift} {model_words}".rstrip())
         rows.append([label, *cells])
-        scatter.append([label, *(_range(one["p16"], one["p84"], scale) for one in of)])
+        scatter.append([label, *(_range(one["p16"], one["p84"], scale) for one in values)])
     if building.heights is not None:
         above = [f"{_above(result, model)} of {motions}" for model in models]
         rows.append(["motions above limit", *above, *([""] if governed else [])])
@@ -188,9 +200,9 @@ def _analysis(result: Assessment) -> list[str]:
 
 def _above(result: Assessment, model: str) -> int:
     """Motions under which the drift of some storey is above the limit."""
-    of = result.runs.filter(pl.col("model") == model)
-    beyond = of.filter(pl.col("collapsed") | (pl.col("peak_drift_ratio") > result.building.drift_limit))
-    return beyond["motion"].n_unique()
+    rows = result.runs.filter(pl.col("model") == model)
+    above_limit = rows.filter(pl.col("collapsed") | (pl.col("peak_drift_ratio") > result.building.drift_limit))
+    return above_limit["motion"].n_unique()
 
 
 def _stability(result: Assessment) -> list[str]:
@@ -198,9 +210,9 @@ def _stability(result: Assessment) -> list[str]:
     lines = [f"Stability coefficient P d/(V h) at mean peaks; limit {result.building.theta_limit:g}"]
     rows = [["storey", *(_label(result, model) for model in models), "elastic P/(k h)"]]
     for storey in range(1, result.building.storeys + 1):
-        of = [_of(result, storey, model) for model in models]
-        values = [*(row["theta"] for row in of), of[0]["theta_elastic"]]
-        rows.append([_storey_label(of[0]), *("no value" if value is None else f"{value:.3f}" for value in values)])
+        cells = [_of(result, storey, model) for model in models]
+        values = [*(row["theta"] for row in cells), cells[0]["theta_elastic"]]
+        rows.append([_storey_label(cells[0]), *("no value" if value is None else f"{value:.3f}" for value in values)])
     return lines + text_table(rows)
 
 
@@ -209,7 +221,7 @@ def _slips(result: Assessment) -> list[str]:
     rows = [["floor", "mu", "slides in", "peak mean", "median", "84 %", "largest", "residual mean", "residual 84 %"]]
     names = ("peak_mean", "peak_median", "peak_p84", "peak_max", "residual_mean", "residual_p84")
     motions = len(result.suite["motions"])
-    for model in (REAL, REAL_LOW):
+    for model in (SLIDING, SLIDING_LOW):
         for row in result.slip.filter(pl.col("model") == model).iter_rows(named=True):
             rows.append(
                 [
@@ -240,3 +252,32 @@ def _bullets(sentences: tuple[str, ...]) -> list[str]:
     for sentence in sentences:
         lines += textwrap.wrap(sentence, WIDTH, initial_indent="  - ", subsequent_indent="    ")
     return lines
+
+
+def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
+    """Write text, tables (Parquet and CSV), assessment.json, figures (PNG and SVG) and the page to a folder; return the
+    files in that order. On an error no file is changed.
+    """
+    out = as_path(folder, "assessment", InvalidOption)
+    check_out(out, "assessment")
+    documents = {"assessment.txt": result.text + "\n", DOCUMENT: result.to_json() + "\n"}
+    drawn: dict[str, Figure] = {}
+    if figures:
+        from seismass.show.assessment.page import drawn_figures, page_with
+
+        tables = assessment_tables(result, animated=True)
+        if tables.animation is not None:
+            documents[ANIMATION] = json.dumps(tables.animation) + "\n"
+        drawn, drawings = drawn_figures(tables)
+        documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
+        documents[PAGE] = page_with(tables, drawings)
+    ours = {PAGE, ANIMATION} | {f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")}
+    ours |= {f"{name}.{kind}" for name in TABLES for kind in ("parquet", "csv")}
+    return write_folder(
+        out,
+        tables=result.tables,
+        documents=documents,
+        figures=drawn,
+        kinds=("png",),
+        earlier=ours.__contains__,
+    )

@@ -1,6 +1,6 @@
 """The live page: the exact kernel, compiled to WebAssembly, solves a building with sliding goods while a slider moves.
 
-`explorer_html` makes one file that needs nothing but itself: no network, no installation. It needs the compiled kernel,
+`explorer_html` makes one file that needs no other file: no network, no installation. It needs the compiled kernel,
 which a wheel of a release carries and `make explorer` builds.
 """
 

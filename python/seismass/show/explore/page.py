@@ -111,10 +111,10 @@ def still_answer() -> Markup:
     )
     strength = design.storey_shear / REDUCTION / bare.weight
     scene = Scene(bare.replace(yield_shear_over_weight=strength), blocks_on_floors(GOODS, FRICTION))
-    found = effective_mass(scene, [record.scaled(factor) for record, factor in zip(suite, factors, strict=True)])
-    low, high = found.interval or (found.value, found.value)
+    share = effective_mass(scene, [record.scaled(factor) for record, factor in zip(suite, factors, strict=True)])
+    low, high = share.interval or (share.value, share.value)
     words = (
-        f"{100 * found.value:.0f} % of the goods act as mass (90 % interval {100 * low:.0f} to {100 * high:.0f} %), in "
+        f"{100 * share.value:.0f} % of the goods act as mass (90 % interval {100 * low:.0f} to {100 * high:.0f} %), in "
         f"a building of three storeys with a first period of {PERIOD:g} s, designed with R = {REDUCTION:g}, goods as "
         f"heavy as the floor on floors 1 and 2, and friction {FRICTION:g}, over seven synthetic motions. "
         f"The code's model counts {100 * COUNTED:.0f} %."
@@ -132,7 +132,7 @@ def still_answer() -> Markup:
         counted=CODE.text,
         empty=EMPTY,
         words=words,
-        filled=400 * found.value,
+        filled=400 * share.value,
         low=400 * low,
         wide=400 * (high - low),
         code=400 * COUNTED,
@@ -212,7 +212,7 @@ def explorer_html(kernel: Path | None = None) -> str:
             still=still_answer(),
             chart={"cases": f"{CASES}"},
             assumptions=ASSUMPTIONS,
-            given=Markup(json.dumps(_given(), separators=(",", ":")).replace("<", "\\u003c")),
+            given=Markup(json.dumps(_page_data(), separators=(",", ":")).replace("<", "\\u003c")),
             wasm=_packed(wasm),
         )
     )
@@ -229,9 +229,9 @@ def explorer_html(kernel: Path | None = None) -> str:
 @cache
 def _templates() -> Environment:
     """The templates of the live page, with those of the other pages behind them."""
-    own = templates().overlay()
-    own.loader = ChoiceLoader([PackageLoader("seismass.show.explore"), PackageLoader("seismass.media")])
-    return own
+    environment = templates().overlay()
+    environment.loader = ChoiceLoader([PackageLoader("seismass.show.explore"), PackageLoader("seismass.media")])
+    return environment
 
 
 def _codes() -> list[tuple[float, str]]:
@@ -246,7 +246,7 @@ def _named_codes() -> list[tuple[str, float]]:
     return [(f"{name}{row.mark}", row.fraction) for name, row in rows]
 
 
-def _given() -> dict[str, Any]:
+def _page_data() -> dict[str, Any]:
     """What the script of the page is given beside the kernel."""
     suite = builtin_suite("seven")
     factors = scale_asce7_10(suite, TargetSpectrum.asce7(), between=False).factors

@@ -60,10 +60,10 @@ def checked_table(table: Any, columns: tuple[str, ...], owner: str) -> pl.DataFr
     for name in columns:
         if name not in table.columns:
             raise refusal(InvalidOption, "column", owner, f"one of {', '.join(table.columns)}", brief(name))
-    kept = table.filter(pl.col("status") != "failed") if "status" in table.columns else table
-    if kept.is_empty():
+    rows = table.filter(pl.col("status") != "failed") if "status" in table.columns else table
+    if rows.is_empty():
         raise refusal(InvalidOption, "table", owner, "one with runs that did not fail", f"{table.height} rows")
-    return kept
+    return rows
 
 
 def one_value(table: pl.DataFrame, name: str) -> pl.Expr:
@@ -110,7 +110,7 @@ def ida(
         Rows of `simulate_many` or `long_table` with a column of intensities: of a `Grid` with several `scale`, say,
         `long_table` has it. Of several rows with the same motion and intensity, such as storeys, the largest demand
         counts. A collapse counts as infinite demand.
-    intensity, demand : str
+    intensity, demand : str, optional
         Columns.
     limit : float, optional
         Demand (in the unit of the axis) that is marked.
@@ -181,7 +181,7 @@ def fragility(
         Rows as for `ida`.
     limit : float
         Demand that must not be exceeded, in the unit of the column (SI); a collapse exceeds it.
-    intensity, demand : str
+    intensity, demand : str, optional
         Columns.
     ax : Axes, optional
         Axes to draw into.
@@ -293,9 +293,9 @@ def scatter(table: pl.DataFrame, x: str, y: str, *, by: str | None = None, ax: A
     InvalidOption
         A column is missing or `by` has too many values, all runs failed, or `ax` is not an Axes.
     """
-    kept = checked_table(table, (x, y) if by is None else (x, y, by), "scatter figure")
-    fell = pl.col("status") == "collapsed" if "status" in kept.columns else pl.lit(False)
-    points = kept.select(x=one_value(kept, x), y=one_value(kept, y), by=pl.lit("") if by is None else by, fell=fell)
+    rows = checked_table(table, (x, y) if by is None else (x, y, by), "scatter figure")
+    fell = pl.col("status") == "collapsed" if "status" in rows.columns else pl.lit(False)
+    points = rows.select(x=one_value(rows, x), y=one_value(rows, y), by=pl.lit("") if by is None else by, fell=fell)
     points = points.drop_nulls(["x", "y"])
     groups = points["by"].unique().sort().to_list()
     if len(groups) > len(_POINTS):
@@ -319,8 +319,8 @@ def scatter(table: pl.DataFrame, x: str, y: str, *, by: str | None = None, ax: A
             )
         collapsed = points.filter("fell")
         if collapsed.height:
-            at = in_unit(x, collapsed["x"].to_numpy()), in_unit(y, collapsed["y"].to_numpy())
-            axes.plot(*at, **_CROSS, markersize=7.0, label="collapsed", gid="collapse")
+            point = in_unit(x, collapsed["x"].to_numpy()), in_unit(y, collapsed["y"].to_numpy())
+            axes.plot(*point, **_CROSS, markersize=7.0, label="collapsed", gid="collapse")
         axes.set_xlabel(label_of(x))
         axes.set_ylabel(label_of(y))
         grid_lines(axes)
@@ -330,15 +330,15 @@ def scatter(table: pl.DataFrame, x: str, y: str, *, by: str | None = None, ax: A
 
 def _by_motion(table: pl.DataFrame, intensity: str, demand: str, owner: str) -> tuple[FloatArray, FloatArray]:
     """Return intensities in order, and demands of shape (motions, intensities)."""
-    kept = checked_table(table, ("motion", intensity, demand), owner)
+    rows = checked_table(table, ("motion", intensity, demand), owner)
     largest = (
-        kept.select("motion", level=one_value(kept, intensity), demand=demand_of(kept, demand))
+        rows.select("motion", level=one_value(rows, intensity), demand=demand_of(rows, demand))
         .group_by("motion", "level")
         .agg(pl.col("demand").max())
         .pivot("level", index="motion", values="demand", sort_columns=False)
         .sort("motion")
     )
-    levels = kept.select(one_value(kept, intensity)).to_series().unique().sort().to_numpy().astype(float)
+    levels = rows.select(one_value(rows, intensity)).to_series().unique().sort().to_numpy().astype(float)
     names = {float(name): name for name in largest.columns[1:]}
     demands = largest.select(names[level] for level in levels).to_numpy().astype(float)
     if np.isnan(demands).any():

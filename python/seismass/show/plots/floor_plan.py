@@ -50,9 +50,9 @@ class Footprint:
         for name in ("width", "depth"):
             object.__setattr__(self, name, as_positive(getattr(self, name), name, "footprint", InvalidOption))
 
-    def moved(self, by: FloatArray) -> Box:
+    def moved(self, shift: FloatArray) -> Box:
         """Return its ends after a slip (m)."""
-        x, y = self.x + float(by[0]), self.y + float(by[1])
+        x, y = self.x + float(shift[0]), self.y + float(shift[1])
         return (x - 0.5 * self.width, y - 0.5 * self.depth, x + 0.5 * self.width, y + 0.5 * self.depth)
 
 
@@ -116,11 +116,11 @@ def floor_paths(
     """
     if not isinstance(response, PlaneResponse):
         raise refusal(InvalidOption, "response", OWNER, "a PlaneResponse", brief(response))
-    standing = [number for number, of in enumerate(response.scene.block_floor, start=1) if of == floor]
+    standing = [number for number, place in enumerate(response.scene.block_floor, start=1) if place == floor]
     if not standing:
         raise refusal(InvalidOption, "floor", OWNER, "one with goods on it", brief(floor))
-    chosen = FloorPlan.in_a_row(standing) if plan is None else plan
-    strange = sorted(set(chosen.goods) - set(standing))
+    floor_plan = FloorPlan.in_a_row(standing) if plan is None else plan
+    strange = sorted(set(floor_plan.goods) - set(standing))
     if strange:
         raise refusal(InvalidOption, "goods", OWNER, f"blocks of floor {floor}", f"block {strange[0]}")
     with mpl.rc_context(STYLE):
@@ -132,7 +132,7 @@ def floor_paths(
             if len(places) != 2:
                 raise refusal(InvalidOption, "ax", OWNER, "two Axes", str(len(places)))
             figure = places[0].get_figure(root=True) or Figure()
-        reached = _floor(places[0], response, chosen)
+        reached = _floor(places[0], response, floor_plan)
         places[0].set_title("the ground from above" if floor == 0 else f"floor {floor} from above, at scale")
         _orbit(places[1], response, floor)
         if ax is None:
@@ -148,13 +148,13 @@ def _floor(axes: Axes, response: PlaneResponse, plan: FloorPlan) -> bool:
         axes.add_patch(_rectangle(aisle, facecolor=ORANGE, alpha=0.18, linewidth=0.0))
         middle = (0.5 * (aisle[0] + aisle[2]), 0.5 * (aisle[1] + aisle[3]))
         axes.annotate("aisle", middle, ha="center", va="center", fontsize=8.0)
-    beyond = False
+    passes = False
     for number, place in plan.goods.items():
         slip = response.slip[:, number - 1]
         slip = slip[np.isfinite(slip).all(axis=1)]
         boxes = np.array([place.moved(each) for each in slip])
         passed = _passed(boxes, plan)
-        beyond |= passed
+        passes |= passed
         axes.add_patch(_rectangle(place.moved(np.zeros(2)), fill=False, edgecolor=GREY, linestyle="--", linewidth=1.0))
         axes.add_patch(_rectangle(place.moved(slip[-1]), facecolor=BLUE, alpha=0.18, edgecolor=BLUE, linewidth=1.2))
         swept = (*boxes[:, :2].min(axis=0), *boxes[:, 2:].max(axis=0))
@@ -179,16 +179,16 @@ def _floor(axes: Axes, response: PlaneResponse, plan: FloorPlan) -> bool:
     axes.set_ylim(lower - margin, upper + margin)
     axes.set_xlabel("x (m)")
     axes.set_ylabel("y (m)")
-    return beyond
+    return passes
 
 
 def _passed(boxes: FloatArray, plan: FloorPlan) -> bool:
     """Whether goods go beyond an edge, or into an aisle they do not stand in."""
     left, lower, right, upper = plan.edges
-    over = (boxes[:, 0] < left) | (boxes[:, 1] < lower) | (boxes[:, 2] > right) | (boxes[:, 3] > upper)
+    past_edge = (boxes[:, 0] < left) | (boxes[:, 1] < lower) | (boxes[:, 2] > right) | (boxes[:, 3] > upper)
     for x0, y0, x1, y1 in plan.aisles:
-        over |= (boxes[:, 0] < x1) & (boxes[:, 2] > x0) & (boxes[:, 1] < y1) & (boxes[:, 3] > y0)
-    return bool(over.any())
+        past_edge |= (boxes[:, 0] < x1) & (boxes[:, 2] > x0) & (boxes[:, 1] < y1) & (boxes[:, 3] > y0)
+    return bool(past_edge.any())
 
 
 def _orbit(axes: Axes, response: PlaneResponse, floor: int) -> None:
@@ -214,13 +214,13 @@ def _rectangle(box: Any, **look: Any) -> Rectangle:
     return Rectangle((left, lower), right - left, upper - lower, **look)
 
 
-def _handles(beyond: bool) -> list[Any]:
+def _handles(passes: bool) -> list[Any]:
     handles: list[Any] = [
         Rectangle((0, 0), 1, 1, fill=False, edgecolor=GREY, linestyle="--", label="goods before"),
         Rectangle((0, 0), 1, 1, facecolor=BLUE, alpha=0.3, edgecolor=BLUE, label="and after"),
         Line2D([], [], color=BLUE, linewidth=1.0, marker="o", markersize=4.0, label="path, farthest point"),
         Rectangle((0, 0), 1, 1, fill=False, edgecolor=BLUE, linestyle=":", label="room they take"),
     ]
-    if beyond:
+    if passes:
         handles[-1].set(edgecolor=VERMILION, label="room they take (red: beyond an edge or in an aisle)")
     return handles

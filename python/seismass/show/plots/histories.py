@@ -45,7 +45,7 @@ ALL_BLOCKS: Final = ("lift", "land")
 """Kinds that happen to all blocks at once."""
 
 
-def chosen_kinds(kinds: bool | Sequence[str], usual: tuple[str, ...], owner: str) -> tuple[str, ...]:
+def event_kinds(kinds: bool | Sequence[str], usual: tuple[str, ...], owner: str) -> tuple[str, ...]:
     """Return kinds of events: the usual ones for True, none for False, or those of a list."""
     if isinstance(kinds, bool):
         return usual if kinds else ()
@@ -61,10 +61,10 @@ def chosen_kinds(kinds: bool | Sequence[str], usual: tuple[str, ...], owner: str
 def event_times(response: Response, kind: str, number: int) -> FloatArray:
     """Return when a kind of event happened to a storey or block counted from 1; of all blocks to any of them."""
     log = response.event_log
-    chosen = log["kind"] == kind
+    rows = log["kind"] == kind
     if not is_one_of(kind, ALL_BLOCKS):
-        chosen &= log["number"] == number
-    times: FloatArray = log["time"][chosen]
+        rows &= log["number"] == number
+    times: FloatArray = log["time"][rows]
     return times
 
 
@@ -116,7 +116,7 @@ def events(response: Response, *, ax: Axes | None = None) -> Figure:
     with mpl.rc_context(STYLE):
         place = single(ax, "event timeline", size=(7.0, 1.3 + 0.32 * max(len(rows), 1)))
         axes = place.axes[0]
-        found = []
+        kinds = []
         for kind in EVENT_KINDS:
             times = log["time"][log["kind"] == kind]
             first = 0 if kind in STOREY_KINDS else springs
@@ -126,7 +126,7 @@ def events(response: Response, *, ax: Axes | None = None) -> Figure:
                 times = np.repeat(times, len(blocks))
             if len(times):
                 axes.plot(times, level, **MARKS[kind], linestyle="", markeredgewidth=0.8, zorder=3, gid=kind)
-                found.append(kind)
+                kinds.append(kind)
         for number in range(1, len(blocks) + 1):
             spans = sliding_spans(response, number)
             if len(spans):
@@ -140,7 +140,7 @@ def events(response: Response, *, ax: Axes | None = None) -> Figure:
         axes.set_xlim(0.0, response.end_time or 1.0)
         axes.set_xlabel("time (s)")
         grid_lines(axes)
-        place.legend(mark_handles(found), columns=6)
+        place.legend(mark_handles(kinds), columns=6)
     return place.figure
 
 
@@ -185,16 +185,16 @@ def drift(
     InvalidOption
         The run has no histories, there is no such storey or kind of events, or `ax` does not fit the panels.
     """
-    chosen = numbers(storeys, response.scene.storeys, "storeys", "drift figure")
+    numbers_drawn = numbers(storeys, response.scene.storeys, "storeys", "drift figure")
     with mpl.rc_context(STYLE):
-        place = panels(ax, len(chosen), "drift figure")
+        place = panels(ax, len(numbers_drawn), "drift figure")
         histories(
             place,
             response,
-            chosen,
+            numbers_drawn,
             lambda number: 1e3 * response.drift[:, number - 1],
             lambda number: (response.peak_drift_time[number - 1], 1e3 * response.peak_drift[number - 1]),
-            chosen_kinds(events, ("yield", "close"), "drift figure"),
+            event_kinds(events, ("yield", "close"), "drift figure"),
             ("drift (mm)", "storey {}".format, "does not drift"),
         )
     return place.figure
@@ -231,20 +231,20 @@ def slip(
         The run has no histories, there is no such block or kind of events, or `ax` does not fit the panels.
     """
     places = goods_names(response.scene)
-    chosen = numbers(blocks, len(places), "blocks", "slip figure")
+    numbers_drawn = numbers(blocks, len(places), "blocks", "slip figure")
     with mpl.rc_context(STYLE):
-        place = panels(ax, len(chosen), "slip figure")
+        place = panels(ax, len(numbers_drawn), "slip figure")
         histories(
             place,
             response,
-            chosen,
+            numbers_drawn,
             lambda number: 1e3 * response.slip[:, number - 1],
             lambda number: (response.peak_slip_time[number - 1], 1e3 * response.peak_slip[number - 1]),
-            chosen_kinds(events, ("slip", "stick", "touch_stop"), "slip figure"),
+            event_kinds(events, ("slip", "stick", "touch_stop"), "slip figure"),
             ("slip (mm)", lambda number: f"block {number}, {places[number - 1]}", "does not slide"),
         )
-        if len(chosen) == 1 or not place.shared:
-            for number, axes in zip(chosen, place.axes, strict=True):
+        if len(numbers_drawn) == 1 or not place.shared:
+            for number, axes in zip(numbers_drawn, place.axes, strict=True):
                 _stops(axes, response, number)
     return place.figure
 
@@ -280,35 +280,35 @@ def acceleration(
     InvalidOption
         The run has no such histories, there is no such floor or kind of events, or `ax` does not fit the panels.
     """
-    chosen = numbers(floors, response.scene.storeys, "floors", "acceleration figure")
+    numbers_drawn = numbers(floors, response.scene.storeys, "floors", "acceleration figure")
     with mpl.rc_context(STYLE):
-        place = panels(ax, len(chosen), "acceleration figure")
+        place = panels(ax, len(numbers_drawn), "acceleration figure")
         histories(
             place,
             response,
-            chosen,
+            numbers_drawn,
             lambda number: response.floor_acceleration[:, number - 1] / STANDARD_GRAVITY,
             lambda number: (
                 response.peak_floor_acceleration_time[number - 1],
                 response.peak_floor_acceleration[number - 1] / STANDARD_GRAVITY,
             ),
-            chosen_kinds(events, ("yield", "close"), "acceleration figure"),
+            event_kinds(events, ("yield", "close"), "acceleration figure"),
             ("acceleration (g)", "floor {}".format, "is not accelerated"),
         )
     return place.figure
 
 
-def numbers(given: int | Sequence[int] | None, count: int, parameter: str, owner: str) -> list[int]:
+def numbers(value: int | Sequence[int] | None, count: int, parameter: str, owner: str) -> list[int]:
     """Return numbers counted from 1, all of them by default."""
     if count == 0:
         raise refusal(InvalidOption, parameter, owner, "in a scene that has any", "a scene without")
-    if given is None:
+    if value is None:
         return list(range(1, count + 1))
-    listed = list(given) if isinstance(given, Sequence | np.ndarray) and not isinstance(given, str) else [given]
-    chosen = [as_count(one, parameter, owner, InvalidOption, least=1) for one in listed]
-    if not chosen or max(chosen) > count:
-        raise refusal(InvalidOption, parameter, owner, f"numbers counted from 1 to {count}", brief(given))
-    return chosen
+    listed = list(value) if isinstance(value, Sequence | np.ndarray) and not isinstance(value, str) else [value]
+    counts = [as_count(one, parameter, owner, InvalidOption, least=1) for one in listed]
+    if not counts or max(counts) > count:
+        raise refusal(InvalidOption, parameter, owner, f"numbers counted from 1 to {count}", brief(value))
+    return counts
 
 
 def _stops(axes: Axes, response: Response, block: int) -> None:
@@ -322,7 +322,7 @@ def _stops(axes: Axes, response: Response, block: int) -> None:
 def histories(
     place: Panels,
     response: Response,
-    chosen: list[int],
+    numbers_drawn: list[int],
     values_of: Callable[[int], FloatArray],
     peak_of: Callable[[int], tuple[float, float]],
     kinds: tuple[str, ...],
@@ -332,10 +332,10 @@ def histories(
     there is nothing but zero.
     """
     unit, called, nothing = labels
-    time, found = response.time, set[str]()
-    overlaid = place.shared and len(chosen) > 1
+    time, drawn_kinds = response.time, set[str]()
+    overlaid = place.shared and len(numbers_drawn) > 1
     lines, peaked, still = [], False, 0
-    for position, (number, axes) in enumerate(zip(chosen, place.axes, strict=True)):
+    for position, (number, axes) in enumerate(zip(numbers_drawn, place.axes, strict=True)):
         values = values_of(number)
         look = SERIES[position % len(SERIES)] if overlaid else {"color": BLUE}
         name = called(number)
@@ -343,15 +343,15 @@ def histories(
         if response.has_events:
             for kind in kinds:
                 if mark_events(axes, event_times(response, kind, number), kind, (time, values)):
-                    found.add(kind)
-        at, peak = peak_of(number)
-        if peak > 0.0 and np.isfinite(at):
+                    drawn_kinds.add(kind)
+        time_of_peak, peak = peak_of(number)
+        if peak > 0.0 and np.isfinite(time_of_peak):
             peaked = True
-            height = np.copysign(peak, np.interp(at, time, np.nan_to_num(values)))
-            axes.plot(at, height, **RING, linestyle="", zorder=4, gid="peak")
+            height = np.copysign(peak, np.interp(time_of_peak, time, np.nan_to_num(values)))
+            axes.plot(time_of_peak, height, **RING, linestyle="", zorder=4, gid="peak")
         still += not peak > 0.0
         if not overlaid:
-            text = f"{name}: peak {peak:.3g} {unit.partition('(')[2].rstrip(')')} at {at:.2f} s"
+            text = f"{name}: peak {peak:.3g} {unit.partition('(')[2].rstrip(')')} at {time_of_peak:.2f} s"
             if not peak > 0.0:
                 text = name
                 say(axes, nothing)
@@ -363,17 +363,17 @@ def histories(
         axes.set_xlim(0.0, response.end_time or 1.0)
         if response.status == "collapsed":
             axes.axvline(response.end_time, color=INK, linewidth=1.2)
-    if still == len(chosen):
+    if still == len(numbers_drawn):
         place.axes[0].set_ylim(-1.0, 1.0)
         if overlaid:
             say(place.axes[0], nothing)
     place.axes[0].set_xlabel("time (s)")
-    if not place.own and not place.shared:
+    if not place.is_new and not place.shared:
         for axes in place.axes:
             axes.set_xlabel("time (s)")
     called_lines = [Line2D([], [], **SERIES[n % len(SERIES)], label=line.get_label()) for n, line in enumerate(lines)]
     handles = [*(called_lines if overlaid else []), *([ring("peak")] if peaked else [])]
-    place.legend([*handles, *mark_handles([kind for kind in kinds if kind in found])])
+    place.legend([*handles, *mark_handles([kind for kind in kinds if kind in drawn_kinds])])
 
 
 _BANDS: Final = (
@@ -479,18 +479,18 @@ def slip_path(
         There is no such block, there are fewer than two points, or `ax` is not an Axes.
     """
     places = goods_names(response.scene)
-    chosen = numbers(blocks, len(places), "blocks", "figure of slip paths")
+    numbers_drawn = numbers(blocks, len(places), "blocks", "figure of slip paths")
     times, runs = _shortened(response, points, "figure of slip paths", energy=False)
     paths = 1e3 * np.array([run.slip_path for run in runs])
     with mpl.rc_context(STYLE):
         place = single(ax, "figure of slip paths", size=(7.0, 3.2))
         axes = place.axes[0]
-        for position, number in enumerate(chosen):
+        for position, number in enumerate(numbers_drawn):
             label = f"block {number}, {places[number - 1]}"
             axes.plot(times, paths[:, number - 1], **SERIES[position % len(SERIES)], linewidth=1.4, label=label)
         axes.set_xlim(0.0, times[-1] or 1.0)
         axes.set_ylim(0.0, None if paths.any() else 1.0)
-        if not paths[:, [number - 1 for number in chosen]].any():
+        if not paths[:, [number - 1 for number in numbers_drawn]].any():
             say(axes, "nothing slides")
         axes.set_xlabel("time (s)")
         axes.set_ylabel("path slipped (mm)")

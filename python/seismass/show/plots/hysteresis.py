@@ -23,7 +23,7 @@ from seismass.model.scene import floor_name, goods_levels, goods_names, rack_lev
 from seismass.runs.response import Response
 from seismass.show.plots.histories import (
     MARKS,
-    chosen_kinds,
+    event_kinds,
     event_times,
     histories,
     mark_events,
@@ -73,15 +73,15 @@ def loops(
         The run has no such histories, there is no such storey or kind of events, or `ax` does not fit the panels.
     """
     owner = "figure of loops"
-    chosen = numbers(storeys, response.scene.storeys, "storeys", owner)
-    kinds = chosen_kinds(events, ("yield", "unload", "reload", "close", "open"), owner)
+    numbers_drawn = numbers(storeys, response.scene.storeys, "storeys", owner)
+    kinds = event_kinds(events, ("yield", "unload", "reload", "close", "open"), owner)
     building = response.scene.building
     assert building is not None
     scale, unit = (1e-3, "kN") if building.mass_is_stated else (1.0 / building.weight, "V/W")
-    forces, found = scale * response.storey_force, set[str]()
+    forces, drawn_kinds = scale * response.storey_force, set[str]()
     with mpl.rc_context(STYLE):
-        place = columns(ax, len(chosen), owner, width=2.6, height=3.2, most=_ROW)
-        for number, axes in zip(chosen, place.axes, strict=True):
+        place = columns(ax, len(numbers_drawn), owner, width=2.6, height=3.2, most=_ROW)
+        for number, axes in zip(numbers_drawn, place.axes, strict=True):
             drift, force = 1e3 * response.drift[:, number - 1], forces[:, number - 1]
             if response.peak_drift[number - 1] > 0.0:
                 way, strength = backbone(building, number, float(response.peak_drift[number - 1]))
@@ -93,7 +93,7 @@ def loops(
                 for kind in kinds:
                     times = event_times(response, kind, number)
                     if mark_events(axes, times, kind, (response.time, force), (response.time, drift)):
-                        found.add(kind)
+                        drawn_kinds.add(kind)
             for line in (axes.axhline, axes.axvline):
                 line(0.0, color=GREY, linewidth=0.6)
             grid_lines(axes)
@@ -106,7 +106,7 @@ def loops(
             Line2D([], [], color=BLUE, linewidth=0.9, label="run"),
             Line2D([], [], **_BACKBONE, label="backbone"),
         ]
-        place.legend([*handles, *mark_handles([kind for kind in kinds if kind in found])], columns=4)
+        place.legend([*handles, *mark_handles([kind for kind in kinds if kind in drawn_kinds])], columns=4)
     return place.figure
 
 
@@ -159,11 +159,11 @@ def pushover(path: Pushover, *, labels: bool = True, ax: Axes | None = None) -> 
         place = single(ax, "pushover figure")
         axes = place.axes[0]
         roof, shear = 1e3 * path.roof_displacement, path.base_shear / path.weight
-        axes.plot(roof, shear, color=BLUE if place.own else None, linewidth=1.6)
+        axes.plot(roof, shear, color=BLUE if place.is_new else None, linewidth=1.6)
         events = path.events
         for kind, mark in _MARKS.items():
-            of = events.filter(kind=kind)
-            axes.plot(1e3 * of["roof_displacement"], of["base_shear"] / path.weight, **mark, linestyle="", zorder=3)
+            rows = events.filter(kind=kind)
+            axes.plot(1e3 * rows["roof_displacement"], rows["base_shear"] / path.weight, **mark, linestyle="", zorder=3)
         if labels:
             _label(axes, events, roof, shear)
         axes.set_xlabel("roof displacement (mm)")
@@ -171,7 +171,7 @@ def pushover(path: Pushover, *, labels: bool = True, ax: Axes | None = None) -> 
         grid_lines(axes)
         met = [kind for kind in _MARKS if kind in set(events["kind"])]
         handles = [Line2D([], [], **_MARKS[kind], linestyle="", label=_NAMES.get(kind, kind)) for kind in met]
-        if place.own and labels:
+        if place.is_new and labels:
             axes.set_title("numbers: storeys", loc="right", fontsize=7.5, color=INK)
         place.legend(handles, columns=min(len(handles), 4))
     return place.figure
@@ -230,28 +230,28 @@ def contacts(
     stopped = [number for number, block in enumerate(goods, start=1) if block.stops is not None]
     if not stopped:
         raise refusal(InvalidOption, "response", owner, "that of a scene in which a block has stops", "one without")
-    chosen = stopped if blocks is None else numbers(blocks, len(goods), "blocks", owner)
-    for number in chosen:
+    numbers_drawn = stopped if blocks is None else numbers(blocks, len(goods), "blocks", owner)
+    for number in numbers_drawn:
         if number not in stopped:
             raise refusal(InvalidOption, "blocks", owner, f"some of {', '.join(map(str, stopped))}", brief(number))
     log, places = response.event_log, goods_names(response.scene)
     velocities = response.events["velocity"].to_numpy()
     with mpl.rc_context(STYLE):
-        place = panels(ax, len(chosen), owner)
-        for number, axes in zip(chosen, place.axes, strict=True):
-            of = (log["kind"] == "touch_stop") & (log["number"] == number)
-            signed = log["sign"][of] * np.abs(velocities[of])
-            axes.vlines(log["time"][of], 0.0, signed, color=PURPLE, linewidth=1.0, gid="contacts")
-            axes.plot(log["time"][of], signed, **MARKS["touch_stop"], linestyle="")
-            count = int(of.sum())
-            said = f"block {number}, {places[number - 1]}: "
+        place = panels(ax, len(numbers_drawn), owner)
+        for number, axes in zip(numbers_drawn, place.axes, strict=True):
+            is_contact = (log["kind"] == "touch_stop") & (log["number"] == number)
+            signed = log["sign"][is_contact] * np.abs(velocities[is_contact])
+            axes.vlines(log["time"][is_contact], 0.0, signed, color=PURPLE, linewidth=1.0, gid="contacts")
+            axes.plot(log["time"][is_contact], signed, **MARKS["touch_stop"], linestyle="")
+            count = int(is_contact.sum())
+            caption = f"block {number}, {places[number - 1]}: "
             if count:
                 force = response.peak_contact_force[number - 1]
-                said += f"{count} contacts, at most {response.peak_contact_velocity[number - 1]:.3g} m/s and "
-                said += f"{1e-3 * force:.3g} kN"
+                caption += f"{count} contacts, at most {response.peak_contact_velocity[number - 1]:.3g} m/s and "
+                caption += f"{1e-3 * force:.3g} kN"
             else:
-                said += "no contact"
-            axes.set_title(said, loc="left", fontsize=8.0, pad=3.0)
+                caption += "no contact"
+            axes.set_title(caption, loc="left", fontsize=8.0, pad=3.0)
         for axes in dict.fromkeys(place.axes):
             zero_line(axes)
             grid_lines(axes)
@@ -261,7 +261,7 @@ def contacts(
             axes.set_ylim(-(reach or 1.0), reach or 1.0)
             if response.status == "collapsed":
                 axes.axvline(response.end_time, color=INK, linewidth=1.2)
-        for axes in place.axes[:1] if place.own else place.axes:
+        for axes in place.axes[:1] if place.is_new else place.axes:
             axes.set_xlabel("time (s)")
     return place.figure
 
@@ -301,7 +301,7 @@ def rack_drift(
     owner, scene = "rack drift figure", response.scene
     wanted = numbers(racks, len(scene.racks), "racks", owner)
     places, names = rack_levels(scene), spring_names(scene)
-    chosen = [scene.storeys + at for at, (rack, _) in enumerate(places, start=1) if rack in wanted]
+    numbers_drawn = [scene.storeys + position for position, (rack, _) in enumerate(places, start=1) if rack in wanted]
 
     def place_of(number: int) -> tuple[int, int]:
         rack, level = places[number - scene.storeys - 1]
@@ -315,11 +315,11 @@ def rack_drift(
         rack, level = place_of(number)
         return response.peak_rack_drift_time[rack][level], 1e3 * response.peak_rack_drift[rack][level]
 
-    kinds = chosen_kinds(events, ("yield", "close"), owner)
+    kinds = event_kinds(events, ("yield", "close"), owner)
     with mpl.rc_context(STYLE):
-        place = panels(ax, len(chosen), owner)
+        place = panels(ax, len(numbers_drawn), owner)
         labels = ("drift (mm)", lambda number: names[number - 1], "does not drift")
-        histories(place, response, chosen, history, peak, kinds, labels)
+        histories(place, response, numbers_drawn, history, peak, kinds, labels)
     return place.figure
 
 
@@ -348,22 +348,22 @@ def rack_profile(
         There is no such rack, or `ax` does not fit the panels.
     """
     owner, scene = "rack profile", response.scene
-    chosen = numbers(racks, len(scene.racks), "racks", owner)
+    numbers_drawn = numbers(racks, len(scene.racks), "racks", owner)
     building = scene.building
     stated = building is None or building.mass_is_stated
     force, unit = (1e3, "(kN)") if building is None or stated else (building.weight, "/ weight of the building")
-    goods = [(place, slip) for place, slip in zip(goods_levels(scene), response.peak_slip, strict=True)]
-    slides = any(rack in chosen for (rack, _), _ in goods)
+    slips = [(place, slip) for place, slip in zip(goods_levels(scene), response.peak_slip, strict=True)]
+    slides = any(rack in numbers_drawn for (rack, _), _ in slips)
     labels = ["peak drift (mm)", "peak acceleration (g)", f"peak spring force {unit}"]
     labels += ["peak slip (mm)"] if slides else []
-    levels = max(scene.racks[rack - 1].levels for rack in chosen)
+    levels = max(scene.racks[rack - 1].levels for rack in numbers_drawn)
     with mpl.rc_context(STYLE):
         place = columns(ax, len(labels), owner, width=2.1, height=1.5 + 0.4 * min(max(levels, 3), 12))
         handles = []
-        for position, rack in enumerate(chosen):
+        for position, rack in enumerate(numbers_drawn):
             look: dict[str, Any] = {**SERIES[position % len(SERIES)], "linewidth": 1.4}
             handles.append(Line2D([], [], **look, label=f"rack {rack}, {floor_name(scene.racks[rack - 1].floor)}"))
-            at = np.arange(1, scene.racks[rack - 1].levels + 1)
+            level_numbers = np.arange(1, scene.racks[rack - 1].levels + 1)
             for axes, values in zip(
                 place.axes,
                 (
@@ -373,11 +373,11 @@ def rack_profile(
                 ),
                 strict=False,
             ):
-                axes.plot(values, at, **look, marker="o", markersize=4.0)
+                axes.plot(values, level_numbers, **look, marker="o", markersize=4.0)
             if slides:
-                own = [(1e3 * slip, level) for (of, level), slip in goods if of == rack]
+                points = [(1e3 * slip, level) for (rack_of_level, level), slip in slips if rack_of_level == rack]
                 unjoined = look | {"linestyle": "", "marker": "s", "markersize": 4.5}
-                place.axes[3].plot([slip for slip, _ in own], [level for _, level in own], **unjoined)
+                place.axes[3].plot([slip for slip, _ in points], [level for _, level in points], **unjoined)
         for axes, label in zip(place.axes, labels, strict=True):
             axes.set_xlim(0.0, 1.12 * max(axes.dataLim.x1, 0.0) or 1.0)
             if not axes.dataLim.x1 > 0.0:
@@ -387,7 +387,7 @@ def rack_profile(
             axes.set_xlabel(label)
             axes.locator_params(axis="x", nbins=4)
             grid_lines(axes)
-        for axes in place.axes if not place.own else place.axes[:1]:
+        for axes in place.axes if not place.is_new else place.axes[:1]:
             axes.set_ylabel("level")
         place.legend(handles)
     return place.figure

@@ -55,7 +55,7 @@ def profile(
     ----------
     response : Response
         A run.
-    quantities : sequence of str
+    quantities : sequence of str, optional
         Panels: "drift" (over the storey height in % where heights are known, otherwise mm), "acceleration" of the
         ground and of floors (g), "shear" of storeys (kN, or over the weight where the mass is not stated), "slip" of
         blocks (mm; left out where there are none on floors; those on racks are in `rack_profile`).
@@ -75,12 +75,12 @@ def profile(
         There is no building or no such quantity, a limit is not a number or has no panel, or `ax` does not fit them.
     """
     owner = "profile"
-    chosen = [quantities] if isinstance(quantities, str) else list(quantities)
+    names = [quantities] if isinstance(quantities, str) else list(quantities)
     known = _quantities(response)
-    for name in chosen:
+    for name in names:
         if not is_one_of(name, ("drift", "acceleration", "shear", "slip")):
             raise refusal(InvalidOption, "quantities", owner, "some of drift, acceleration, shear, slip", brief(name))
-    shown = [name for name in chosen if name in known]
+    shown = [name for name in names if name in known]
     bounds = {name: as_number(value, "limit", owner, InvalidOption) for name, value in (limits or {}).items()}
     for name in bounds:
         if name not in shown:
@@ -92,7 +92,7 @@ def profile(
             _panel(axes, known[name], bounds.get(name))
             axes.set_ylim(0.0, storeys + 0.25)
             axes.set_yticks(range(storeys + 1) if storeys <= 12 else range(0, storeys + 1, storeys // 6))
-        for axes in place.axes if not place.own else place.axes[:1]:
+        for axes in place.axes if not place.is_new else place.axes[:1]:
             axes.set_ylabel("floor (0: ground)")
         handles = [
             Line2D([], [], color=BLUE, linewidth=1.6, label="of storeys"),
@@ -100,7 +100,7 @@ def profile(
         ]
         if bounds:
             handles.append(Line2D([], [], **_LIMIT, label="limit"))
-        if place.own:
+        if place.is_new:
             place.legend(handles, columns=3)
     return place.figure
 
@@ -118,7 +118,7 @@ def _quantities(response: Response) -> dict[str, _Quantity]:
     drift = 1e3 * response.peak_drift if ratio is None else 100.0 * ratio
     label = "peak drift (mm)" if ratio is None else "peak drift / height (%)"
     shear = response.peak_storey_shear
-    found = {
+    quantities = {
         "drift": _Quantity(label, True, "no drift", drift, storey),
         "acceleration": _Quantity(
             "peak acceleration (g)",
@@ -133,8 +133,8 @@ def _quantities(response: Response) -> dict[str, _Quantity]:
     }
     if any(floors):
         slip, levels = 1e3 * response.peak_slip[: len(floors)], np.array(floors, dtype=float)
-        found["slip"] = _Quantity("peak slip (mm)", False, "nothing slides", slip, levels)
-    return found
+        quantities["slip"] = _Quantity("peak slip (mm)", False, "nothing slides", slip, levels)
+    return quantities
 
 
 def _panel(axes: Axes, quantity: _Quantity, limit: float | None) -> None:
@@ -195,29 +195,29 @@ def floor_spectra(
         or `ax` is not an Axes.
     """
     owner = "floor spectra"
-    chosen = numbers(floors, response.scene.storeys, "floors", owner)
+    numbers_drawn = numbers(floors, response.scene.storeys, "floors", owner)
     every = response._asked("floor spectra", "histories", stored="every")
     if every != 1:
         raise refusal(InvalidOption, "histories", owner, "True, a row at every sample", str(every))
     if response.status != "completed":
         raise refusal(InvalidOption, "response", owner, "that of a completed run", response.status)
-    at = SPECTRUM_PERIODS if periods is None else np.asarray(periods, dtype=float)
+    period_values = SPECTRUM_PERIODS if periods is None else np.asarray(periods, dtype=float)
     ground = response.motion
-    motions = [Motion(response.floor_acceleration[:, number - 1], ground.dt) for number in chosen]
-    spectra = response_spectrum([ground, *motions], at, damping) / STANDARD_GRAVITY
+    motions = [Motion(response.floor_acceleration[:, number - 1], ground.dt) for number in numbers_drawn]
+    spectra = response_spectrum([ground, *motions], period_values, damping) / STANDARD_GRAVITY
     with mpl.rc_context(STYLE):
-        groups = _in_groups(len(chosen)) if ax is None else [range(len(chosen))]
+        groups = _in_groups(len(numbers_drawn)) if ax is None else [range(len(numbers_drawn))]
         place = columns(ax, len(groups), owner, width=5.6, height=4.2 if len(groups) == 1 else 3.4, most=1)
         building = response.scene.building
         assert building is not None
         for group, axes in zip(groups, place.axes, strict=True):
-            axes.plot(at, spectra[0], color=GREY, linewidth=2.2, label="ground")
+            axes.plot(period_values, spectra[0], color=GREY, linewidth=2.2, label="ground")
             for position, look in zip(group, _looks(len(group)), strict=True):
-                label = f"floor {chosen[position]}"
-                axes.plot(at, spectra[1 + position], **look, linewidth=1.4, label=label)
+                label = f"floor {numbers_drawn[position]}"
+                axes.plot(period_values, spectra[1 + position], **look, linewidth=1.4, label=label)
             axes.set_xscale("log")
-            axes.set_xlim(at[0], at[-1])
-            ticks = [tick for tick in PERIOD_TICKS if at[0] <= tick <= at[-1] * 1.0001]
+            axes.set_xlim(period_values[0], period_values[-1])
+            ticks = [tick for tick in PERIOD_TICKS if period_values[0] <= tick <= period_values[-1] * 1.0001]
             axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
             axes.minorticks_off()
             axes.set_ylim(0.0, 1.1 * float(spectra.max()) or 1.0)
@@ -279,18 +279,18 @@ def drift_profiles(table: pl.DataFrame, demand: str = "peak_drift", *, ax: Axes 
         Axes.
     """
     owner = "drift profiles"
-    kept = checked_table(table, (demand,), owner)
-    listed = isinstance(kept.schema[demand], pl.List)
+    rows = checked_table(table, (demand,), owner)
+    listed = isinstance(rows.schema[demand], pl.List)
     if not listed:
-        kept = checked_table(kept, ("run", "storey", demand), owner).sort("run", "storey", maintain_order=True)
-        kept = kept.group_by("run", maintain_order=True).agg(pl.col(demand), pl.col("status").first())
-    heights = kept[demand].list.len().unique().to_list()
+        rows = checked_table(rows, ("run", "storey", demand), owner).sort("run", "storey", maintain_order=True)
+        rows = rows.group_by("run", maintain_order=True).agg(pl.col(demand), pl.col("status").first())
+    heights = rows[demand].list.len().unique().to_list()
     if len(heights) != 1 or not heights[0]:
         raise refusal(InvalidOption, "table", owner, "runs of buildings with equally many storeys", f"{heights}")
-    values = in_unit(demand, np.array(kept[demand].to_list(), dtype=float))
+    values = in_unit(demand, np.array(rows[demand].to_list(), dtype=float))
     if np.isnan(values).any():
         raise refusal(InvalidOption, "demand", owner, "known for every storey of every run", demand)
-    fell = (kept["status"] == "collapsed").to_numpy()
+    fell = (rows["status"] == "collapsed").to_numpy()
     counted = np.where(fell[:, None], np.inf, values)
     level = np.arange(1, heights[0] + 1)
     with mpl.rc_context(STYLE):
@@ -298,10 +298,10 @@ def drift_profiles(table: pl.DataFrame, demand: str = "peak_drift", *, ax: Axes 
         axes = place.axes[0]
         for run in values:
             axes.plot(run, level, color=GREY, linewidth=0.7, alpha=0.7, gid="run")
-        found: list[FloatArray] = []
+        curves: list[FloatArray] = []
         for share, name, look in FRACTILES:
-            found.append(quantile(counted.T, share))
-            axes.plot(found[-1], level, **look, marker="o", markersize=3.5, label=name, gid=name)
+            curves.append(quantile(counted.T, share))
+            axes.plot(curves[-1], level, **look, marker="o", markersize=3.5, label=name, gid=name)
         finite = values[np.isfinite(values)]
         axes.set_xlim(0.0, 1.08 * float(np.max(finite, initial=0.0)) or 1.0)
         axes.set_ylim(0.6, heights[0] + 0.4)

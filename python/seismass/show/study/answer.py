@@ -53,21 +53,21 @@ def suite_caption(result: StudyFrames, mu: float | None = None, *, inches: float
     """Return a few lines, for a figure so many inches wide, on the motions, the parameters that decide the result (all
     frictions unless `mu`), and the target spectrum.
     """
-    suite, chosen = result.metadata["suite"], result.metadata["parameters"]
-    frictions = chosen["mu"] if mu is None else [mu]
+    suite, inputs = result.metadata["suite"], result.metadata["parameters"]
+    frictions = inputs["mu"] if mu is None else [mu]
     damped = {
         "bare": "modes of the bare building, one C for all models",
         "loaded": "modes of the building with all its goods, one C for all models",
         "own": "modes of each model",
-    }[chosen["damping_base"]]
+    }[inputs["damping_base"]]
     springs = (
-        f"{OMEGA} = {chosen['overstrength']:g}, r2 = {chosen['second_slope']:g}, r3 = {chosen['third_slope']:g}, "
-        f"{'P-Delta' if chosen['p_delta'] else 'no P-Delta'}"
+        f"{OMEGA} = {inputs['overstrength']:g}, r2 = {inputs['second_slope']:g}, r3 = {inputs['third_slope']:g}, "
+        f"{'P-Delta' if inputs['p_delta'] else 'no P-Delta'}"
     )
     text = (
-        f"{motions_text(suite)} ({plain(suite['name'])}), scaled for T = {chosen['scaling_period']:g} s; "
+        f"{motions_text(suite)} ({plain(suite['name'])}), scaled for T = {inputs['scaling_period']:g} s; "
         f"{MU} = {', '.join(f'{value:g}' for value in frictions)}; {springs}; "
-        f"damping {100.0 * chosen['damping']:g} % in the {damped}; target: {plain(result.metadata['target']['label'])}"
+        f"damping {100.0 * inputs['damping']:g} % in the {damped}; target: {plain(result.metadata['target']['label'])}"
     )
     return textwrap.fill(text, int(CAPTION_CHARACTERS * inches))
 
@@ -286,15 +286,15 @@ def _fraction_against_eta(fractions: pl.DataFrame) -> Markup:
                 f"{span(rows['effective'])} (mean {_number(rows['effective'].mean()):.2f}) in {name}, where eta is "
                 f"{span(rows['eta'])}"
             )
-    between = known.filter(pl.col("eta") < 1.0)
+    partial = known.filter(pl.col("eta") < 1.0)
     misses = ""
-    if between.height:
+    if partial.height:
         closed = {RULE: "estimate", SAFE_RULE: "conservative"}
-        said = " and ".join(
-            f"{name} by {_number((between[column] - between['effective']).mean()):+.2f}".replace("-", "\N{MINUS SIGN}")
+        words = " and ".join(
+            f"{name} by {_number((partial[column] - partial['effective']).mean()):+.2f}".replace("-", "\N{MINUS SIGN}")
             for name, column in closed.items()
         )
-        misses = f" In the {between.height} buildings with eta below 1 it is missed on average: {said}."
+        misses = f" In the {partial.height} buildings with eta below 1 it is missed on average: {words}."
     return head + Markup(
         "The share of the live load that acts as mass is {parts}; eta is the friction coefficient over the base shear "
         "coefficient C<sub>1</sub> of the building with all goods attached.{misses}"
@@ -413,7 +413,7 @@ def _growth_text(growth: dict[str, dict[str, int]], varied: str) -> str:
 def _first_storey_tables(rows: list[dict[str, Any]]) -> list[str]:
     """Underestimation, what sliding does, and estimate of lambda side by side, a row for each R."""
     alphas = sorted({row["alpha"] for row in rows})
-    at = {(row["R"], row["alpha"]): row for row in rows}
+    row_of = {(row["R"], row["alpha"]): row for row in rows}
     effective = any(row["effective"] is not None for row in rows)
     shown: list[tuple[str, str, Callable[[float | None], str]]] = [
         ("goods slide / code", "underestimation_percent", change_text),
@@ -429,7 +429,7 @@ def _first_storey_tables(rows: list[dict[str, Any]]) -> list[str]:
     for factor in sorted({row["R"] for row in rows}):
         cells = []
         for _, name, form in shown:
-            values = [at.get((factor, alpha), {}).get(name) for alpha in alphas]
+            values = [row_of.get((factor, alpha), {}).get(name) for alpha in alphas]
             cells.append("".join(f"{form(value):>7}" for value in values))
         lines.append(text_line([f"  R = {factor:g}", *cells], widths))
     return lines
@@ -445,28 +445,28 @@ DAMPING_TEXTS: Final = {
 
 def assumptions(metadata: dict[str, Any]) -> list[str]:
     """Return everything that a study assumes, sentence by sentence, from `StudyResult.metadata`."""
-    chosen, suite, scaling = metadata["parameters"], metadata["suite"], metadata["scaling"]
+    inputs, suite, scaling = metadata["parameters"], metadata["suite"], metadata["scaling"]
     shortest, longest, _ = scaling["periods"]
-    at_r1 = "yield at V_e" if chosen["yield_at_r1"] else "stay elastic"
+    at_r1 = "yield at V_e" if inputs["yield_at_r1"] else "stay elastic"
     lines = [
         "Shear buildings: rigid floors of equal mass, storeys of equal stiffness, one direction, no loss of strength.",
-        f"Springs: trilinear with Masing unloading, Omega = {chosen['overstrength']:g}, r2 = "
-        f"{chosen['second_slope']:g}, r3 = {chosen['third_slope']:g}. The paper states Omega = 2 for its section 4 "
+        f"Springs: trilinear with Masing unloading, Omega = {inputs['overstrength']:g}, r2 = "
+        f"{inputs['second_slope']:g}, r3 = {inputs['third_slope']:g}. The paper states Omega = 2 for its section 4 "
         "only, and neither slope.",
-        f"Strength: V_y = V_e/R by response spectrum analysis ({chosen['combination'].upper()}) under the mean scaled "
+        f"Strength: V_y = V_e/R by response spectrum analysis ({inputs['combination'].upper()}) under the mean scaled "
         f"spectrum, with the design's share of the live load as mass. Buildings of R = 1 {at_r1}.",
-        f"Damping: {100.0 * chosen['damping']:g} % {DAMPING_TEXTS[chosen['damping_base']]}.",
+        f"Damping: {100.0 * inputs['damping']:g} % {DAMPING_TEXTS[inputs['damping_base']]}.",
         "Goods: one rigid block on every floor but the roof, Coulomb friction with mu_s = mu_k; no rocking, no impact.",
         f"Motions: {motions_text(suite)} ({suite['name']}); one component each, all of equal weight in the means.",
-        f"Scaling: {scaling['method']}, for T = {chosen['scaling_period']:g} s: mean not below the target from "
+        f"Scaling: {scaling['method']}, for T = {inputs['scaling_period']:g} s: mean not below the target from "
         f"{shortest:.3g} to {longest:.3g} s.",
         f"Target: {metadata['target']['label']}.",
         "P-Delta: the whole weight of building and goods, in every model alike."
-        if chosen["p_delta"]
+        if inputs["p_delta"]
         else "P-Delta: none.",
     ]
-    if chosen["collapse_drift_ratio"] is not None:
-        lines.append(f"Collapse: a storey whose drift reaches {chosen['collapse_drift_ratio']:g} of its height.")
+    if inputs["collapse_drift_ratio"] is not None:
+        lines.append(f"Collapse: a storey whose drift reaches {inputs['collapse_drift_ratio']:g} of its height.")
     for name, row in metadata["code"]["fractions"].items():
         source = "; ".join(part for part in (row["clause"], row["status"]) if part)
         lines.append(f"Code: {metadata['code']['name']}, {name}: {row['fraction']:g} of the live load ({source}).")

@@ -463,13 +463,13 @@ def drawings(result: StudyFrames) -> dict[str, Callable[[], Figure]]:
     if result.fractions["effective"].null_count() < result.fractions.height:
         draw["effective"] = partial(effective_figure, result)
     for mu, name in frictions.items():
-        behind = f"_mu{name}" if len(frictions) > 1 else ""
-        draw[f"underestimation{behind}"] = partial(underestimation_figure, result, mu)
-        draw[f"heat{behind}"] = partial(heat_figure, result, mu)
+        suffix = f"_mu{name}" if len(frictions) > 1 else ""
+        draw[f"underestimation{suffix}"] = partial(underestimation_figure, result, mu)
+        draw[f"heat{suffix}"] = partial(heat_figure, result, mu)
         if _has_goods(result):
-            draw[f"slip{behind}"] = partial(slip_figure, result, mu)
+            draw[f"slip{suffix}"] = partial(slip_figure, result, mu)
         for factor, label in factors.items():
-            draw[f"drift_R{label}{behind}"] = partial(drift_figure, result, factor, mu)
+            draw[f"drift_R{label}{suffix}"] = partial(drift_figure, result, factor, mu)
     return draw
 
 
@@ -482,9 +482,9 @@ def phone_figures(result: StudyFrames) -> dict[str, Figure]:
     """Return figures for narrow screens, by the name of that in whose place they stand."""
     frictions = labels_of(result.summary["mu"])
     mu, name = next(iter(frictions.items()))
-    behind = f"_mu{name}" if len(frictions) > 1 else ""
+    suffix = f"_mu{name}" if len(frictions) > 1 else ""
     with mpl.rc_context(STYLE):
-        return {f"underestimation{behind}": lay_out(underestimation_figure(result, mu, narrow=True))}
+        return {f"underestimation{suffix}": lay_out(underestimation_figure(result, mu, narrow=True))}
 
 
 def page_figures(result: StudyTables) -> dict[str, Figure]:

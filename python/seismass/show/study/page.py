@@ -64,12 +64,12 @@ def validation_section(result: StudyTables, page: Pictures) -> Iterator[Section]
     """Section 4 of the paper by several programs, and its shaking table; nothing where they were not made."""
     if result.section4 is None or result.platform is None:
         return
-    about = result.metadata["validation"]
+    facts = result.metadata["validation"]
     differences = result.section4.differences.rename({"second_slope": "r2"})
     parts = [
         text_html(
             f"The three-storey building of the paper's section 4, its record scaled to {PEAK_G:g} g; motion: "
-            f"{about['section4_motion']}. The exact kernel stands beside OpenSees, whose results are kept with the "
+            f"{facts['section4_motion']}. The exact kernel stands beside OpenSees, whose results are kept with the "
             "package, and beside stiff springs in the place of friction."
         )
     ]
@@ -106,7 +106,7 @@ def validation_section(result: StudyTables, page: Pictures) -> Iterator[Section]
     robust = result.platform.robust
     table = [
         text_html(
-            f"The platform at 1:15 of the paper's Fig. 4; motion: {about['platform_motion']}, compressed in time. The "
+            f"The platform at 1:15 of the paper's Fig. 4; motion: {facts['platform_motion']}, compressed in time. The "
             "paper gives neither its period nor friction and damping: bands are over the ranges stated in the figure. "
             f"The block slides in {robust['slides']} of {robust['runs']} runs and lowers the drift in "
             f"{robust['below_attached']} of these."
@@ -142,7 +142,7 @@ def sensitivity_section(result: StudyTables, page: Pictures) -> Iterator[Section
     }
     as_is = table.filter(choice=table["choice"][0])["largest_percent"].drop_nulls()
     low, high = (table["largest_percent"].drop_nulls().to_numpy() for _ in range(2))
-    said = f"from {low.min():+.0f} to {high.max():+.0f} %" if as_is.len() else "without a number"
+    change = f"from {low.min():+.0f} to {high.max():+.0f} %" if as_is.len() else "without a number"
     yield Section(
         "Sensitivity",
         [
@@ -150,7 +150,7 @@ def sensitivity_section(result: StudyTables, page: Pictures) -> Iterator[Section
             page.figure(
                 "sensitivity",
                 "Largest underestimation of a first storey under each choice.",
-                f"The largest underestimation of a first storey goes {said} over the choices.",
+                f"The largest underestimation of a first storey goes {change} over the choices.",
             ),
             table_html(
                 table.select(*keys, *names),
@@ -167,15 +167,15 @@ def example_section(result: StudyTables) -> Iterator[Section]:
     """One building in motion, beside the model of the code."""
     if result.animation is None:
         return
-    about = result.animation["about"]
-    labels = about["labels"]
+    facts = result.animation["about"]
+    labels = facts["labels"]
     yield Section(
         "Example",
         [
             text_html(
                 f"A building of the study with goods that slide, beside the model of the code: {labels['occupancy']}, "
                 f"{labels['storeys']} storeys, R = {labels['R']:g}, {ALPHA} = {labels['alpha']:g}, {MU} = "
-                f"{labels['mu']:g}, under {about['motion']} scaled to {about['peak_g']:.2f} g. It is the building with "
+                f"{labels['mu']:g}, under {facts['motion']} scaled to {facts['peak_g']:.2f} g. It is the building with "
                 "the largest underestimation of a first storey among those whose goods slide, under the motion whose "
                 "underestimation is closest to that of the means."
             ),
@@ -190,13 +190,13 @@ def claims_section(result: StudyTables) -> Iterator[Section]:
     if table is None:
         return
     counts = table["verdict"].value_counts(sort=True).rows()
-    said = ", ".join(f"{count} {verdict}" for verdict, count in counts)
+    words = ", ".join(f"{count} {verdict}" for verdict, count in counts)
     yield Section(
         "Claims of the paper",
         [
             text_html(
                 "Claims of the paper's abstract, sections 4 and 5 and conclusions, with the numbers of this study: "
-                f"{said}. Verdicts follow from rules on the tables."
+                f"{words}. Verdicts follow from rules on the tables."
             ),
             table_html(
                 table.select("number", "claim", "verdict", "numbers", "depends_on", "source"),
@@ -334,10 +334,10 @@ def _drifts(result: StudyTables, page: Pictures) -> Iterator[Section]:
             rows = result.summary.filter(R=factor, mu=mu)
             missed = rows["underestimation_percent"].drop_nulls()
             span = f"{percent(float(missed.min()))} to {percent(float(missed.max()))}" if missed.len() else "none"  # type: ignore[arg-type]
-            behind = f"_mu{name}" if len(frictions) > 1 else ""
+            suffix = f"_mu{name}" if len(frictions) > 1 else ""
             figures.append(
                 page.figure(
-                    f"drift_R{label}{behind}",
+                    f"drift_R{label}{suffix}",
                     f"Mean peak drift of each storey, R = {label}, {MU} = {mu:g}{_PAPER_FIGURES.get(factor, '')}.",
                     f"Drift by storey with sliding goods and of both models at R = {label}: underestimation {span}.",
                 )

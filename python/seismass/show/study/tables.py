@@ -127,13 +127,13 @@ def read_study_tables(folder: Path) -> StudyTables:
 
 def _validated(read: StudyTables, tables: dict[str, pl.DataFrame]) -> StudyTables:
     """The same with the validations of the tables."""
-    about = read.metadata.get("validation")
-    if about is None or not set(_SECTION4 + _PLATFORM) <= set(tables):
+    validation = read.metadata.get("validation")
+    if validation is None or not set(_SECTION4 + _PLATFORM) <= set(tables):
         return read
     return replace(
         read,
-        section4=section4_of(tables, synthetic=about["section4_synthetic"]),
-        platform=platform_of(tables, synthetic=about["platform_synthetic"]),
+        section4=section4_of(tables, synthetic=validation["section4_synthetic"]),
+        platform=platform_of(tables, synthetic=validation["platform_synthetic"]),
     )
 
 
@@ -165,12 +165,12 @@ def _animation(example: Example) -> dict[str, Any]:
         fraction=labels["lambda_analysis"],
         title=f"{labels['storeys']} storeys, R = {labels['R']:g}",
     )
-    about = {
+    facts = {
         "labels": labels,
         "motion": name,
         "peak_g": float(abs(example.record.acceleration).max()) / STANDARD_GRAVITY,
     }
-    content: dict[str, Any] = json.loads(json.dumps({"about": about, "element": element_content(animation)}))
+    content: dict[str, Any] = json.loads(json.dumps({"about": facts, "element": element_content(animation)}))
     return content
 
 

@@ -232,7 +232,7 @@ def figure_of_sensitivity(result: Sensitivity, name: str | None = None) -> Figur
 
 def inputs_text(metadata: dict[str, Any]) -> str:
     """Return motions, target, runs, springs, damping, code and remarks as lines, from the metadata of a study."""
-    counts, chosen, suite = metadata["counts"], metadata["parameters"], metadata["suite"]
+    counts, parameters, suite = metadata["counts"], metadata["parameters"], metadata["suite"]
     none_recorded = ", none recorded" * (suite["synthetic"] == len(suite["motions"]))
     lines = [f"suite    {suite['name']}: {motions_text(suite)}{none_recorded}"]
     for motion in suite["motions"]:
@@ -242,9 +242,9 @@ def inputs_text(metadata: dict[str, Any]) -> str:
         f"target   {metadata['target']['label']}",
         f"runs     {counts['buildings']} buildings, {counts['analyses']} analyses, {counts['distinct']} distinct: "
         f"{counts['completed']} completed, {counts['collapsed']} collapsed, {counts['failed']} failed",
-        f"springs  Omega = {chosen['overstrength']:g}, r2 = {chosen['second_slope']:g}, "
-        f"r3 = {chosen['third_slope']:g} (r2, r3: not the paper's numbers)",
-        f"damping  {100.0 * chosen['damping']:g} %, {DAMPING_TEXTS[chosen['damping_base']]}",
+        f"springs  Omega = {parameters['overstrength']:g}, r2 = {parameters['second_slope']:g}, "
+        f"r3 = {parameters['third_slope']:g} (r2, r3: not the paper's numbers)",
+        f"damping  {100.0 * parameters['damping']:g} %, {DAMPING_TEXTS[parameters['damping_base']]}",
     ]
     for name, row in metadata["code"]["fractions"].items():
         where = ", ".join(part for part in (row["clause"], row["status"]) if part)

@@ -66,10 +66,8 @@ RESIDUALS: Final = ("residual_drift", "residual_slip")
 """Columns that runs of peaks only do not have."""
 
 
-def chosen_columns(columns: Iterable[str] | None, peaks_only: bool) -> tuple[str, ...]:
-    """Return the columns that parts have, in their order; unknown ones are refused, and those that runs of peaks only
-    lack.
-    """
+def stored_columns(columns: Iterable[str] | None, peaks_only: bool) -> tuple[str, ...]:
+    """Return the columns of parts, in order; unknown ones are refused, and those that runs of peaks alone lack."""
     known = [name for name in UNITS if not (peaks_only and name in RESIDUALS)]
     if columns is None:
         return tuple(known)
@@ -78,18 +76,18 @@ def chosen_columns(columns: Iterable[str] | None, peaks_only: bool) -> tuple[str
     wanted = list(columns)
     for name in wanted:
         if not is_one_of(name, known):
-            beside = " (left out where peaks_only is chosen)" if is_one_of(name, RESIDUALS) else ""
-            raise refusal(InvalidOption, "columns", "campaign", f"some of {', '.join(known)}{beside}", brief(name))
+            note = " (left out where peaks_only is chosen)" if is_one_of(name, RESIDUALS) else ""
+            raise refusal(InvalidOption, "columns", "campaign", f"some of {', '.join(known)}{note}", brief(name))
     return tuple(name for name in known if name in wanted or name in KEYS)
 
 
 def stored(frame: pl.DataFrame, columns: tuple[str, ...], single: bool) -> pl.DataFrame:
     """Return the columns of rows of `simulate_many`, in single precision where that is chosen."""
-    chosen = frame.select(columns)
+    rows = frame.select(columns)
     if not single:
-        return chosen
+        return rows
     shorter: dict[pl.DataType, Any] = {pl.Float64(): pl.Float32, pl.List(pl.Float64): pl.List(pl.Float32)}
-    return chosen.cast({name: shorter[dtype] for name, dtype in chosen.schema.items() if dtype in shorter})
+    return rows.cast({name: shorter[dtype] for name, dtype in rows.schema.items() if dtype in shorter})
 
 
 @dataclass(frozen=True)
@@ -119,17 +117,17 @@ class NamedMotion:
         return inputs_digest(self.motion)
 
 
-def named_motions(given: list[Any], motions: list[Motion], names: list[str]) -> tuple[NamedMotion, ...]:
+def named_motions(items: list[Any], motions: list[Motion], names: list[str]) -> tuple[NamedMotion, ...]:
     """Return motions with the names and the origin that what was given has."""
-    found = []
-    for item, motion, name in zip(given, motions, names, strict=True):
+    named = []
+    for item, motion, name in zip(items, motions, names, strict=True):
         if isinstance(item, NamedMotion):
-            found.append(item)
+            named.append(item)
             continue
         source = getattr(item, "source", None)
         file = None if source is None else printable(source.name)
-        found.append(NamedMotion(name, motion, file, getattr(item, "synthetic", None)))
-    return tuple(found)
+        named.append(NamedMotion(name, motion, file, getattr(item, "synthetic", None)))
+    return tuple(named)
 
 
 def motions_table(motions: tuple[NamedMotion, ...]) -> pl.DataFrame:
@@ -164,12 +162,12 @@ def motions_table(motions: tuple[NamedMotion, ...]) -> pl.DataFrame:
 
 def motions_of(table: pl.DataFrame) -> tuple[NamedMotion, ...]:
     """Return the motions of a table."""
-    found = []
+    motions = []
     for row in table.iter_rows(named=True):
         vertical = None if row["vertical"] is None else np.array(row["vertical"])
         motion = Motion(np.array(row["acceleration"]), row["dt"], vertical)
-        found.append(NamedMotion(row["record"], motion, row["file"], row["synthetic"]))
-    return tuple(found)
+        motions.append(NamedMotion(row["record"], motion, row["file"], row["synthetic"]))
+    return tuple(motions)
 
 
 SCHEMA_VERSION: Final = 3
@@ -214,20 +212,20 @@ class CampaignRuns:
         size = as_count(part_runs, "part_runs", "campaign", InvalidOption, least=1)
         if size > MOST_PART_RUNS:
             raise refusal(InvalidOption, "part_runs", "campaign", f"at most {MOST_PART_RUNS}", str(size))
-        given, found, names = checked_motions(motions)
-        if not found:
+        items, checked, names = checked_motions(motions)
+        if not checked:
             raise refusal(InvalidOption, "motions", "campaign", "at least one", "none")
-        grid._check_motions(len(found))
+        grid._check_motions(len(checked))
         flags = {
             name: as_flag(value, name, "campaign", InvalidOption)
             for name, value in (("peaks_only", peaks_only), ("single", single))
         }
         values = {
             "grid": grid,
-            "motions": named_motions(given, found, names),
+            "motions": named_motions(items, checked, names),
             "name": as_name(name, "name", "campaign", InvalidOption),
             "part_runs": size,
-            "columns": chosen_columns(columns, flags["peaks_only"]),
+            "columns": stored_columns(columns, flags["peaks_only"]),
             **flags,
         }
         for key, value in values.items():
@@ -387,12 +385,12 @@ def _distribution(table: Table) -> Any:
             return stats.norm(loc=first, scale=second)
         _positive(table, "high - low", second - first)
         return stats.uniform(loc=first, scale=second - first)
-    found = getattr(stats, name, None)
-    if not isinstance(found, stats.rv_continuous):
+    family = getattr(stats, name, None)
+    if not isinstance(family, stats.rv_continuous):
         words = ", ".join(f"{known} ({', '.join(keys)})" for known, keys in stated.items())
         table.refuse("distribution", f"{words}, or a continuous one of scipy.stats by its own parameters", brief(name))
     try:
-        frozen = found(**numbers)
+        frozen = family(**numbers)
         usable = bool(np.isfinite(frozen.ppf(0.5)))
     except TypeError as error:
         table.refuse("distribution", f"given with the parameters of scipy.stats.{name}", str(error))

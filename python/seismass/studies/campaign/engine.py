@@ -21,8 +21,8 @@ import polars as pl
 
 from seismass.base.errors import InvalidOption, MissingPackage, SeismassError, SimulationError
 from seismass.base.files import PREFIX, remove_left_behind, reported_as, written_whole
-from seismass.base.forks import require_polars
-from seismass.base.kept import damage, metadata_of, read_checked, write_checked
+from seismass.base.fork_check import require_polars
+from seismass.base.stored_results import damage, metadata_of, read_checked, write_checked
 from seismass.base.values import as_count, brief, printable, refusal
 from seismass.base.views import Card
 from seismass.studies.campaign.campaign import CampaignRuns
@@ -67,8 +67,8 @@ def dask_executor(*, workers: int | None = None, scheduler: str | None = None) -
         try:
             client = stack.enter_context(Client(address))
         except (OSError, ValueError) as error:
-            said = (str(error).strip() or type(error).__name__).splitlines()[0]
-            raise refusal(InvalidOption, "scheduler", "campaign", "one that answers", f"{address}: {said}") from error
+            text = (str(error).strip() or type(error).__name__).splitlines()[0]
+            raise refusal(InvalidOption, "scheduler", "campaign", "one that answers", f"{address}: {text}") from error
         yield client.get_executor(retries=RETRIES)
 
 
@@ -149,10 +149,10 @@ def part_problem(folder: Path, sha256: str, part: int) -> str | None:
 
 def check_parts(folder: Path, sha256: str, parts: Iterable[int]) -> None:
     """Refuse parts that are damaged, are not files, or belong to other inputs or other runs."""
-    found = [(part, problem) for part in parts if (problem := part_problem(folder, sha256, part)) is not None]
-    if found:
-        part, problem = found[0]
-        more = f", and {len(found) - 1} more that are not as they were written" if len(found) > 1 else ""
+    problems = [(part, problem) for part in parts if (problem := part_problem(folder, sha256, part)) is not None]
+    if problems:
+        part, problem = problems[0]
+        more = f", and {len(problems) - 1} more that are not as they were written" if len(problems) > 1 else ""
         requirement = "whole and of this campaign (remove a part that is not, and the same call solves it again)"
         got = f"{part_path(folder, part).name}, which {problem}{more}"
         raise refusal(InvalidOption, f"parts of {folder}", "campaign", requirement, got)
@@ -199,9 +199,7 @@ def solve_part(folder: str, sha256: str, part: int, threads: int | None) -> Done
 
 
 def write_part(frame: pl.DataFrame, folder: Path, sha256: str, part: int) -> None:
-    """Write the rows of a part under its name, whole and on the disk. The folder, which may have many parts, is not
-    listed.
-    """
+    """Write the rows of a part under its name, whole and on the disk, without listing the folder of many parts."""
     path = part_path(folder, part)
     with reported_as(path), written_whole(path, durable=True, tidy=False) as temporary:
         write_checked(frame, temporary, part_metadata(sha256, part))
@@ -240,10 +238,10 @@ def run_campaign(
     """Solve what is missing in the folder of a campaign; see `Campaign.run`. Parts that are there are checked first;
     files of killed workers are removed at the end, or when the folder is next prepared.
     """
-    given = {"executor": executor, "workers": workers, "scheduler": scheduler}
-    chosen = [name for name, value in given.items() if value is not None]
-    if len(chosen) > 1:
-        raise refusal(InvalidOption, chosen[1], "campaign", f"left out where {chosen[0]} is given", "both")
+    options = {"executor": executor, "workers": workers, "scheduler": scheduler}
+    names = [name for name, value in options.items() if value is not None]
+    if len(names) > 1:
+        raise refusal(InvalidOption, names[1], "campaign", f"left out where {names[0]} is given", "both")
     if executor is not None and not isinstance(executor, Executor):
         raise refusal(InvalidOption, "executor", "campaign", "a concurrent.futures.Executor", brief(executor))
     if progress is not None and not callable(progress):
@@ -258,12 +256,12 @@ def run_campaign(
     if clock.done == len(parts):
         clock.report(force=True)
         return
-    if chosen:
-        given_one: AbstractContextManager[Executor] = (
+    if names:
+        pool_context: AbstractContextManager[Executor] = (
             nullcontext(executor) if executor is not None else dask_executor(workers=workers, scheduler=scheduler)
         )
-        with given_one as found:
-            _by_executor(campaign, folder, missing, found, 1 if threads is None else threads, clock)
+        with pool_context as pool:
+            _by_executor(campaign, folder, missing, pool, 1 if threads is None else threads, clock)
     else:
         _by_threads(campaign, folder, missing, threads, clock)
     remove_left_behind(folder / PARTS)
@@ -376,8 +374,8 @@ def _by_executor(
 
 
 def _lost(folder: Path, error: Exception) -> SimulationError:
-    said = str(error).strip().splitlines()
-    reason = f"{type(error).__name__}{': ' + said[0] if said else ''}"
+    text = str(error).strip().splitlines()
+    reason = f"{type(error).__name__}{': ' + text[0] if text else ''}"
     requirement = f"able to keep its workers (the parts in {folder} stay, and the same call goes on)"
     failure = refusal(SimulationError, "executor", "campaign", requirement, reason)
     assert isinstance(failure, SimulationError)
@@ -449,9 +447,7 @@ SAMPLE: Final = 256
 
 
 class Estimate(NamedTuple):
-    """Estimate for all runs: seconds by the threads of this process, and bytes of the parts, which compress better as
-    they grow.
-    """
+    """Estimate for all runs: seconds by the threads of this process, and bytes of the compressed parts."""
 
     seconds: float
     bytes: float

@@ -465,12 +465,12 @@ def _grid(top: Table, folder: Path, motions: int) -> Grid:
     elif "storeys" not in table.values:
         table.refuse("storeys", "given, or building", "nothing")
     sampled = "sample" in top.values
-    given: dict[str, Any] = {key: axis_values(table, key, sampled=sampled) for key in SAMPLED if key in table.values}
-    given |= table.given(*_SETTINGS)
+    values: dict[str, Any] = {key: axis_values(table, key, sampled=sampled) for key in SAMPLED if key in table.values}
+    values |= table.subset(*_SETTINGS)
     if "design" in table.values:
-        given["design"] = _design(table.table("design"), folder)
+        values["design"] = _design(table.table("design"), folder)
     if not sampled:
-        return Grid.product(building, **given)
+        return Grid.product(building, **values)
     sample = top.table("sample")
     sample.known(TABLES["sample"])
     sample.needed("samples")
@@ -481,7 +481,7 @@ def _grid(top: Table, folder: Path, motions: int) -> Grid:
         options["seed"] = sample.count("seed")
     if sample.flag("one_motion", False):
         options["motions"] = motions
-    return Grid.sample(building, **options, **given)
+    return Grid.sample(building, **options, **values)
 
 
 def _design(table: Table, folder: Path) -> Any:
@@ -489,4 +489,4 @@ def _design(table: Table, folder: Path) -> Any:
 
     table.known(TABLES["grid.design"])
     table.needed("target")
-    return StrengthDesign(_target(table, folder), **table.given(*TABLES["grid.design"][1:]))
+    return StrengthDesign(_target(table, folder), **table.subset(*TABLES["grid.design"][1:]))

@@ -15,7 +15,7 @@ import polars as pl
 from seismass import _kernel
 from seismass.base.errors import InvalidOption, SeismassError
 from seismass.base.files import read_file, reported_as, written_whole
-from seismass.base.kept import damage, read_checked, write_checked
+from seismass.base.stored_results import damage, read_checked, write_checked
 from seismass.base.values import brief, refusal
 from seismass.runs.grid.content import grid_of
 from seismass.runs.simulate import instruction_set
@@ -95,7 +95,7 @@ def bits() -> str:
 
 def manifest_of(campaign: CampaignRuns) -> dict[str, Any]:
     """Return the manifest of a campaign that this process solves; its last key is a digest of all others."""
-    found = {
+    document = {
         "kind": KIND,
         "schema_version": SCHEMA_VERSION,
         "name": campaign.name,
@@ -110,14 +110,14 @@ def manifest_of(campaign: CampaignRuns) -> dict[str, Any]:
         "units": {name: UNITS[name] for name in campaign.columns},
         **campaign.document,
     }
-    return {**found, "sha256": _digest(found)}
+    return {**document, "sha256": _digest(document)}
 
 
 def read_manifest(folder: Path) -> dict[str, Any]:
     """Return the manifest of a folder; a missing or damaged one and one of another schema are refused."""
     path = folder / MANIFEST
     try:
-        found = json.loads(read_file(path))
+        document = json.loads(read_file(path))
     except FileNotFoundError:
         requirement = f"one of a campaign, with a {MANIFEST}"
         raise refusal(InvalidOption, "folder", "campaign", requirement, str(folder)) from None
@@ -126,21 +126,21 @@ def read_manifest(folder: Path) -> dict[str, Any]:
         raise refusal(InvalidOption, MANIFEST, "campaign", "a file that can be read", got) from None
     except (ValueError, RecursionError) as error:
         raise refusal(InvalidOption, MANIFEST, "campaign", "JSON", f"{path}: {error}") from None
-    if not isinstance(found, dict) or found.get("kind") != KIND:
+    if not isinstance(document, dict) or document.get("kind") != KIND:
         raise refusal(InvalidOption, MANIFEST, "campaign", f"of the kind {KIND!r}", str(path))
-    if found.get("schema_version") != SCHEMA_VERSION:
-        got = f"{brief(found.get('schema_version'))} in {path}"
+    if document.get("schema_version") != SCHEMA_VERSION:
+        got = f"{brief(document.get('schema_version'))} in {path}"
         raise refusal(InvalidOption, "schema_version", "campaign", str(SCHEMA_VERSION), got)
     for key, kind in _TYPES.items():
         # type() and not isinstance(), as true is an int.
-        if type(found.get(key)) is not kind:
+        if type(document.get(key)) is not kind:
             raise refusal(
                 InvalidOption, f"{key} of {MANIFEST}", "campaign", f"there, of the kind {kind.__name__}", str(path)
             )
-    if found.get("sha256") != _digest({key: value for key, value in found.items() if key != "sha256"}):
+    if document.get("sha256") != _digest({key: value for key, value in document.items() if key != "sha256"}):
         requirement = "as it was written, by the digest in it"
         raise refusal(InvalidOption, MANIFEST, "campaign", requirement, f"{path}, which was changed since")
-    return found
+    return document
 
 
 def _digest(manifest: dict[str, Any]) -> str:
@@ -179,13 +179,11 @@ _C = TypeVar("_C", bound=CampaignRuns)
 
 
 def campaign_in(folder: Path, kind: type[_C]) -> _C:
-    """Return the campaign of a folder, made again from its files; files that changed or do not belong together are
-    refused.
-    """
+    """Return the campaign of a folder from its files; files that changed or do not belong together are refused."""
     document = read_manifest(folder)
     axes, motions = (read_table(folder, name) for name in (AXES, MOTIONS))
     try:
-        found = kind(
+        campaign = kind(
             grid_of(document["grid"], axes),
             motions_of(motions),
             name=document["name"],
@@ -199,8 +197,8 @@ def campaign_in(folder: Path, kind: type[_C]) -> _C:
     except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, pl.exceptions.PolarsError) as error:
         got = f"{type(error).__name__}: {error}"
         raise refusal(InvalidOption, f"folder {folder}", "campaign", "one with a grid and motions", got) from None
-    check_same(document, manifest_of(found), folder)
-    return found
+    check_same(document, manifest_of(campaign), folder)
+    return campaign
 
 
 def read_table(folder: Path, name: str) -> pl.DataFrame:

@@ -66,19 +66,19 @@ def incremental_dynamic_analysis(
         The suite.
     limits : LimitState or iterable of them
         The limit states.
-    measure : {"scale", "pga", "sa_t1", "sa_avg"} or IntensityMeasure
+    measure : {"scale", "pga", "sa_t1", "sa_avg"} or IntensityMeasure, default "sa_t1"
         The intensity measure; see `IntensityMeasure`.
     period : float, optional
         T1 (s) of the measure; default the first period of the first model's building, for "real" that without live
         load. A motion has the same intensity for every model.
-    method : {"hunt_fill", "stripes"}
+    method : {"hunt_fill", "stripes"}, default "hunt_fill"
         "hunt_fill": each motion is scaled up by itself until it exceeds the limits, and its capacity is located; the
         fragility is fitted to capacities. "stripes": all motions are scaled to `intensities`; it is fitted to counts.
     intensities : array_like, optional
         Positive intensities of the stripes.
     hunt : HuntAndFill, optional
         How intensities are chosen, for "hunt_fill".
-    capacity : {"first", "last"}
+    capacity : {"first", "last"}, default "first"
         Which crossing of a limit is the capacity of a motion whose demand falls again at higher intensities. Motions
         with several are counted in the remarks.
     code_share, damping
@@ -134,17 +134,17 @@ def incremental_dynamic_analysis(
         raise refusal(InvalidOption, "intensities", owner, "left out where method is hunt_fill", brief(intensities))
     options = bootstrap_options(confidence, resamples, seed, owner)
     rule = _rule(capacity, owner)
-    named, chosen = _models(models, code_share, damping)
+    named, settings = _models(models, code_share, damping)
     setting = setting_of(named, motions, limits, measure, period, owner, threads=threads)
-    chosen |= {"capacity": rule}
+    settings |= {"capacity": rule}
     draws = estimate.draws_of(setting.motions.cluster_of, options)
     if method == "stripes":
         levels = check_levels(intensities, owner)
         runs = _solve_all(setting, levels, threads, progress)
         every = np.arange(len(setting.motions))
         fits = _stripe_fits(setting, runs, levels, [every] * len(levels), [draws] * len(levels))
-        chosen |= {"intensities": levels.tolist()}
-        return result_of(setting, "stripes", runs, capacities_of(setting, runs, rule), fits, at, options, chosen)
+        settings |= {"intensities": levels.tolist()}
+        return result_of(setting, "stripes", runs, capacities_of(setting, runs, rule), fits, at, options, settings)
     wanted = HuntAndFill() if hunt is None else hunt
     if not isinstance(wanted, HuntAndFill):
         raise refusal(InvalidOption, "hunt", owner, "a HuntAndFill", brief(hunt))
@@ -157,8 +157,8 @@ def incremental_dynamic_analysis(
             exceeded = rows["capacity"].is_not_null().to_numpy()
             known = rows.select(pl.coalesce("capacity", "highest")).to_series().to_numpy()
             fits[model, limit.name] = estimate.of_capacities(known, exceeded, draws)
-    chosen |= {"hunt": {**wanted.to_dict(), **steps}}
-    return result_of(setting, "hunt_fill", runs, capacities, fits, at, options, chosen)
+    settings |= {"hunt": {**wanted.to_dict(), **steps}}
+    return result_of(setting, "hunt_fill", runs, capacities, fits, at, options, settings)
 
 
 def multiple_stripes(
@@ -215,7 +215,7 @@ def multiple_stripes(
     owner = "multiple stripes"
     options = bootstrap_options(confidence, resamples, seed, owner)
     listed, indices, levels = _stripes(stripes, owner)
-    named, chosen = _models(models, code_share, damping)
+    named, settings = _models(models, code_share, damping)
     setting = setting_of(named, listed, limits, measure, period, owner, threads=threads)
     motion = np.concatenate(indices)
     level = np.repeat(levels, [len(each) for each in indices])
@@ -232,12 +232,12 @@ def multiple_stripes(
     clusters = setting.motions.cluster_of
     draws = [estimate.draws_of(clusters[each], options, number) for number, each in enumerate(indices)]
     fits = _stripe_fits(setting, runs, levels, indices, draws, column="stripe")
-    chosen |= {
+    settings |= {
         "stripes": levels.tolist(),
         "motions_of_stripes": [len(each) for each in indices],
         "scaled": bool(scaled),
     }
-    return result_of(setting, "stripes", runs, None, fits, at, options, chosen)
+    return result_of(setting, "stripes", runs, None, fits, at, options, settings)
 
 
 def cloud_analysis(
@@ -291,7 +291,7 @@ def cloud_analysis(
     owner = "cloud analysis"
     options = bootstrap_options(confidence, resamples, seed, owner)
     factor = as_positive(scale, "scale", owner, InvalidOption)
-    named, chosen = _models(models, code_share, damping)
+    named, settings = _models(models, code_share, damping)
     setting = setting_of(named, motions, limits, measure, period, owner, threads=threads)
     if setting.measure.name == "scale":
         raise refusal(InvalidOption, "measure", owner, "other than scale, which all motions share", "scale")
@@ -308,8 +308,8 @@ def cloud_analysis(
                 fits[name, limit.name] = estimate.of_occurrences(intensity, demand > limit.value, draws)
             else:
                 fits[name, limit.name] = estimate.of_cloud(intensity, demand, np.isinf(demand), limit.value, draws)
-    chosen |= {"scale": factor}
-    return result_of(setting, "cloud", runs, None, fits, at, options, chosen)
+    settings |= {"scale": factor}
+    return result_of(setting, "cloud", runs, None, fits, at, options, settings)
 
 
 def capacities_of(setting: Setting, runs: pl.DataFrame, rule: CapacityRule) -> pl.DataFrame:
@@ -317,21 +317,21 @@ def capacities_of(setting: Setting, runs: pl.DataFrame, rule: CapacityRule) -> p
     rows = []
     for limit in setting.limits:
         for model in _with(setting, limit):
-            own = runs.filter(model=model)
-            for part in own.partition_by("motion", maintain_order=True):
+            runs_of_model = runs.filter(model=model)
+            for part in runs_of_model.partition_by("motion", maintain_order=True):
                 x = part["intensity"].to_numpy()
-                found = crossing_of(x, part[limit.column].to_numpy(), limit, rule)
+                crossing = crossing_of(x, part[limit.column].to_numpy(), limit, rule)
                 rows.append(
                     {
                         "limit": limit.name,
                         "model": model,
                         "motion": part["motion"][0],
                         "record": part["record"][0],
-                        "capacity": found.value if np.isfinite(found.value) else None,
-                        "lower": found.lower,
-                        "upper": found.upper if np.isfinite(found.upper) else None,
+                        "capacity": crossing.value if np.isfinite(crossing.value) else None,
+                        "lower": crossing.lower,
+                        "upper": crossing.upper if np.isfinite(crossing.upper) else None,
                         "highest": float(x[-1]),
-                        "crossings": found.crossings,
+                        "crossings": crossing.crossings,
                     }
                 )
     schema = {"motion": pl.UInt32, "capacity": pl.Float64, "upper": pl.Float64, "crossings": pl.UInt32}
@@ -368,19 +368,19 @@ def _stripes(stripes: Any, owner: str) -> tuple[list[Any], list[IndexArray], Flo
     """Motions of all stripes, each once, the numbers of those of each stripe, and the intensities in order."""
     if not isinstance(stripes, Mapping) or not stripes:
         raise refusal(InvalidOption, "stripes", owner, "a mapping of intensities to motions", brief(stripes))
-    ordered = sorted((as_positive(level, "intensity", owner, InvalidOption), given) for level, given in stripes.items())
+    ordered = sorted((as_positive(level, "intensity", owner, InvalidOption), value) for level, value in stripes.items())
     number: dict[int, int] = {}
     listed: list[Any] = []
     indices = []
-    for level, given in ordered:
-        own = [given] if isinstance(given, Motion | HasMotion) else given
-        if not isinstance(own, Iterable) or not (own := list(own)):
-            raise refusal(InvalidMotion, f"motions at {level:g}", owner, "a list of Motions or Records", brief(given))
-        for motion in own:
+    for level, value in ordered:
+        listed_motions = [value] if isinstance(value, Motion | HasMotion) else value
+        if not isinstance(listed_motions, Iterable) or not (listed_motions := list(listed_motions)):
+            raise refusal(InvalidMotion, f"motions at {level:g}", owner, "a list of Motions or Records", brief(value))
+        for motion in listed_motions:
             if id(motion) not in number:
                 number[id(motion)] = len(listed)
                 listed.append(motion)
-        indices.append(np.array([number[id(motion)] for motion in own], dtype=np.int64))
+        indices.append(np.array([number[id(motion)] for motion in listed_motions], dtype=np.int64))
     return listed, indices, np.array([level for level, _ in ordered])
 
 
@@ -398,9 +398,9 @@ def _stripe_fits(
         for model in _with(setting, limit):
             rows = runs.filter(model=model)
             exceeded = []
-            for level, own in zip(levels, indices, strict=True):
+            for level, indices_of_level in zip(levels, indices, strict=True):
                 here = rows.filter(pl.col(column) == level)
-                assert here["motion"].to_list() == (own + 1).tolist()
+                assert here["motion"].to_list() == (indices_of_level + 1).tolist()
                 exceeded.append(limit.exceeded(here[limit.column].to_numpy()))
             fits[model, limit.name] = estimate.of_stripes(levels, exceeded, draws)
     return fits

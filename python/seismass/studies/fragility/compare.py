@@ -12,10 +12,10 @@ from seismass.base.statistics import interval_of
 from seismass.base.values import FloatArray
 from seismass.studies.fragility.fragility import Fragility, medians_and_dispersions, probabilities
 from seismass.studies.fragility.limits import LimitState
-from seismass.studies.fragility.run import REAL
+from seismass.studies.fragility.run import SLIDING
 
 MODEL_LEVELS: Final = (0.10, 0.50)
-"""Probabilities of the compared models at whose intensities the reference is looked at: 10 % as the collapse goal of
+"""Probabilities of the compared models at which the reference is evaluated: 10 % as the collapse goal of
 ASCE 7 for risk category II at the maximum considered earthquake, and the median."""
 
 Fragilities = Mapping[tuple[str, str], Fragility]
@@ -24,13 +24,13 @@ Fragilities = Mapping[tuple[str, str], Fragility]
 
 def reference_of(models: Sequence[str]) -> str:
     """Return the model with which others are compared: "real", else the first."""
-    return REAL if REAL in models else models[0]
+    return SLIDING if SLIDING in models else models[0]
 
 
-def fragility_table(found: Fragilities) -> pl.DataFrame:
+def fragility_table(fits: Fragilities) -> pl.DataFrame:
     """Return one row per model and limit; see `FragilityAnalysis.fragilities`."""
     rows = []
-    for (model, limit), fit in found.items():
+    for (model, limit), fit in fits.items():
         median, dispersion = (
             (None, None) if interval is None else interval
             for interval in (fit.median_interval, fit.dispersion_interval)
@@ -57,31 +57,31 @@ def fragility_table(found: Fragilities) -> pl.DataFrame:
     return _frame(rows, floats)
 
 
-def comparison_table(found: Fragilities, limits: Sequence[LimitState], models: Sequence[str]) -> pl.DataFrame:
+def comparison_table(fits: Fragilities, limits: Sequence[LimitState], models: Sequence[str]) -> pl.DataFrame:
     """Return one row per limit and model beside the reference; see `FragilityAnalysis.comparison`."""
     reference = reference_of(models)
     rows = []
     for limit in limits:
-        real = found.get((reference, limit.name))
+        sliding = fits.get((reference, limit.name))
         for model in models:
-            fit = found.get((model, limit.name))
-            if model == reference or fit is None or real is None:
+            fit = fits.get((model, limit.name))
+            if model == reference or fit is None or sliding is None:
                 continue
-            fitted = {fit.kind, real.kind} == {"fitted"}
+            fitted = {fit.kind, sliding.kind} == {"fitted"}
             low = high = np.nan
-            if fitted and len(fit.samples) and len(real.samples):
+            if fitted and len(fit.samples) and len(sliding.samples):
                 with np.errstate(invalid="ignore", divide="ignore"):
-                    drawn = medians_and_dispersions(fit.samples)[0] / medians_and_dispersions(real.samples)[0]
+                    drawn = medians_and_dispersions(fit.samples)[0] / medians_and_dispersions(sliding.samples)[0]
                 low, high = (float(end) for end in interval_of(drawn, fit.confidence))
             rows.append(
                 {
                     "limit": limit.name,
                     "model": model,
-                    "median_ratio": _ratio(fit.median, real.median) if fitted else np.nan,
+                    "median_ratio": _ratio(fit.median, sliding.median) if fitted else np.nan,
                     "median_ratio_low": low,
                     "median_ratio_high": high,
                     "median": fit.median,
-                    "reference_median": real.median,
+                    "reference_median": sliding.median,
                 }
             )
     floats = ("median_ratio", "median_ratio_low", "median_ratio_high", "median", "reference_median")
@@ -89,22 +89,22 @@ def comparison_table(found: Fragilities, limits: Sequence[LimitState], models: S
 
 
 def exceedance_table(
-    found: Fragilities, limits: Sequence[LimitState], models: Sequence[str], at: FloatArray
+    fits: Fragilities, limits: Sequence[LimitState], models: Sequence[str], intensities: FloatArray
 ) -> pl.DataFrame:
     """Return one row per limit, intensity and model beside the reference; see `FragilityAnalysis.exceedance`."""
     reference = reference_of(models)
     rows = []
     for limit in limits:
-        real = found.get((reference, limit.name))
-        if real is None:
+        sliding = fits.get((reference, limit.name))
+        if sliding is None:
             continue
-        others = [model for model in models if model != reference and (model, limit.name) in found]
+        others = [model for model in models if model != reference and (model, limit.name) in fits]
         for model in others or [reference]:
-            fit = found[model, limit.name]
-            chosen = [("chosen", float(level)) for level in at]
+            fit = fits[model, limit.name]
+            points = [("chosen", float(level)) for level in intensities]
             if model != reference and fit.kind == "fitted":
-                chosen += [(f"{model} at {100.0 * level:g} %", fit.quantile(level)) for level in MODEL_LEVELS]
-            rows += [{"limit": limit.name, "model": model, "given": given, **_at(fit, real, x)} for given, x in chosen]
+                points += [(f"{model} at {100.0 * level:g} %", fit.quantile(level)) for level in MODEL_LEVELS]
+            rows += [{"limit": limit.name, "model": model, "given": kind, **_at(fit, sliding, x)} for kind, x in points]
     floats = tuple(name for name in _AT if name != "intensity")
     return _frame(rows, ("intensity", *floats), ("limit", "model", "given"))
 
@@ -126,19 +126,21 @@ _AT: Final = (
 )
 
 
-def _at(fit: Fragility, real: Fragility, intensity: float) -> dict[str, float]:
+def _at(fit: Fragility, sliding: Fragility, intensity: float) -> dict[str, float]:
     """Probabilities of a model and of the reference at one intensity, their difference and their ratio."""
     x = np.array([intensity])
-    own, other = (_known(each, x) for each in (fit, real))
-    values = [own, *_interval(fit, x), other, *_interval(real, x), other - own]
+    value, other = (_known(each, x) for each in (fit, sliding))
+    values = [value, *_interval(fit, x), other, *_interval(sliding, x), other - value]
     ends = [np.nan] * 4
-    if not np.isnan(other - own) and len(fit.samples) and len(real.samples):
-        drawn, of_real = (probabilities(each.samples, x)[:, 0] for each in (fit, real))
+    if not np.isnan(other - value) and len(fit.samples) and len(sliding.samples):
+        drawn, of_sliding = (probabilities(each.samples, x)[:, 0] for each in (fit, sliding))
         with np.errstate(invalid="ignore", divide="ignore"):
             ends = [
-                float(end) for each in (of_real - drawn, of_real / drawn) for end in interval_of(each, fit.confidence)
+                float(end)
+                for each in (of_sliding - drawn, of_sliding / drawn)
+                for end in interval_of(each, fit.confidence)
             ]
-    values += [*ends[:2], _ratio(other, own), *ends[2:]]
+    values += [*ends[:2], _ratio(other, value), *ends[2:]]
     return dict(zip(_AT, [intensity, *values], strict=True))
 
 
@@ -160,16 +162,16 @@ def _ratio(above: float, below: float) -> float:
         return float(np.float64(above) / np.float64(below))
 
 
-def curve_table(found: Fragilities, limits: Sequence[LimitState], points: int = 100) -> pl.DataFrame:
+def curve_table(fits: Fragilities, limits: Sequence[LimitState], points: int = 100) -> pl.DataFrame:
     """Return fragility curves with their bands; see `FragilityAnalysis.curves`."""
     frames = []
     for limit in limits:
-        own = {model: fit for (model, name), fit in found.items() if name == limit.name}
-        known = [fit.quantile(0.98) for fit in own.values() if fit.kind == "fitted"]
-        seen = [fit.highest for fit in own.values() if np.isfinite(fit.highest)]
+        fits_of_limit = {model: fit for (model, name), fit in fits.items() if name == limit.name}
+        known = [fit.quantile(0.98) for fit in fits_of_limit.values() if fit.kind == "fitted"]
+        seen = [fit.highest for fit in fits_of_limit.values() if np.isfinite(fit.highest)]
         finite = [value for value in known if np.isfinite(value)] or seen
         grid = np.linspace(0.0, max(finite, default=1.0), points + 1)[1:]
-        for model, fit in own.items():
+        for model, fit in fits_of_limit.items():
             low, high = fit.band(grid)
             frames.append(
                 pl.DataFrame(
@@ -189,7 +191,7 @@ def curve_table(found: Fragilities, limits: Sequence[LimitState], points: int = 
 def _frame(
     rows: list[dict[str, Any]], floats: Sequence[str], texts: Sequence[str] = ("limit", "model")
 ) -> pl.DataFrame:
-    """Rows as a frame in which what is not known is null; with its columns also where there are none."""
+    """Rows as a frame in which unknown values are null; with its columns also where there are none."""
     schema = {**dict.fromkeys(texts, pl.String), **dict.fromkeys(floats, pl.Float64)}
     if not rows:
         return pl.DataFrame(schema=schema)

@@ -24,7 +24,7 @@ class Draws:
 
 
 def draws_of(cluster_of: NDArray[np.int64], options: BootstrapOptions, number: int = 0) -> Draws:
-    """Return the draws of motions whose clusters are given; `number` tells the draws of several levels apart."""
+    """Return the draws of motions whose clusters are given; `number` distinguishes the draws of several levels."""
     _, which = np.unique(cluster_of, return_inverse=True)
     count = int(which.max()) + 1
     if count == 1 or not options.resamples:
@@ -46,14 +46,12 @@ def of_capacities(capacity: FloatArray, exceeded: NDArray[np.bool_], draws: Draw
         draws.confidence,
         runs=len(capacity),
         exceeding=int(exceeded.sum()),
-        at=capacity,
+        intensities=capacity,
     )
 
 
 def of_stripes(levels: FloatArray, exceeded: Sequence[FloatArray], draws: Sequence[Draws]) -> Fragility:
-    """Return the fragility of counts at levels: `exceeded` and `draws` have an entry per level, 1 where a motion
-    exceeds the limit.
-    """
+    """Return the fragility of counts by level: `exceeded` (levels,) is 1 where a motion exceeds, `draws` as many."""
     rows = min(len(draw.weights) for draw in draws)  # none where the motions of a level are of one earthquake
     hits, runs = (np.array([[f(each) for each in exceeded]], dtype=np.float64) for f in (np.sum, np.size))
     fits = probit_fits(levels, hits, runs)
@@ -67,38 +65,40 @@ def of_stripes(levels: FloatArray, exceeded: Sequence[FloatArray], draws: Sequen
         draws[0].confidence,
         runs=int(runs.sum()),
         exceeding=int(hits.sum()),
-        at=levels,
+        intensities=levels,
     )
 
 
-def of_cloud(at: FloatArray, demand: FloatArray, collapsed: NDArray[np.bool_], limit: float, draws: Draws) -> Fragility:
+def of_cloud(
+    levels: FloatArray, demand: FloatArray, collapsed: NDArray[np.bool_], limit: float, draws: Draws
+) -> Fragility:
     """Return the fragility of demands of motions as they are."""
-    curves, kinds = cloud_fits(at, demand, collapsed, limit, np.ones((1, len(at))))
-    samples, _ = cloud_fits(at, demand, collapsed, limit, draws.weights)
+    curves, kinds = cloud_fits(levels, demand, collapsed, limit, np.ones((1, len(levels))))
+    samples, _ = cloud_fits(levels, demand, collapsed, limit, draws.weights)
     return fragility_of(
         curves[0],
         samples,
         kinds[0],
         "cloud",
         draws.confidence,
-        runs=len(at),
+        runs=len(levels),
         exceeding=int((collapsed | (demand > limit)).sum()),
-        at=at,
+        intensities=levels,
         remarks=cloud_remarks(demand, collapsed, curves[0]),
     )
 
 
-def of_occurrences(at: FloatArray, occurred: NDArray[np.bool_], draws: Draws) -> Fragility:
+def of_occurrences(levels: FloatArray, occurred: NDArray[np.bool_], draws: Draws) -> Fragility:
     """Return the fragility of what occurs or not in each run, each at its own intensity: a probit regression."""
-    every = np.ones((1, len(at)))
-    fits = probit_fits(at, every * occurred, every)
+    every = np.ones((1, len(levels)))
+    fits = probit_fits(levels, every * occurred, every)
     return fragility_of(
         as_curves(fits)[0],
-        as_curves(probit_fits(at, draws.weights * occurred, draws.weights)),
+        as_curves(probit_fits(levels, draws.weights * occurred, draws.weights)),
         fits.kind[0],
         "counts",
         draws.confidence,
-        runs=len(at),
+        runs=len(levels),
         exceeding=int(occurred.sum()),
-        at=at,
+        intensities=levels,
     )

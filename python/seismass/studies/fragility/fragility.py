@@ -32,29 +32,29 @@ _BISECTIONS: Final = 60
 """Halvings of a bracket of a logarithm, to below its rounding."""
 
 
-def probabilities(curves: FloatArray, at: FloatArray) -> FloatArray:
+def probabilities(curves: FloatArray, intensity: FloatArray) -> FloatArray:
     """Return P = P_l + P_c (1 - P_l) of each curve (rows of median, dispersion, centre and width) at each intensity, of
     the lognormal part P_l and the logistic P_c; 0 at intensity 0. A NaN median has NaN.
     """
-    columns = [column.reshape(-1, *(1,) * at.ndim) for column in curves.T]
-    return _probability(columns[0], columns[1], columns[2], columns[3], at)
+    columns = [column.reshape(-1, *(1,) * intensity.ndim) for column in curves.T]
+    return _probability(columns[0], columns[1], columns[2], columns[3], intensity)
 
 
 def _probability(
-    median: FloatArray, dispersion: FloatArray, centre: FloatArray, width: FloatArray, at: FloatArray
+    median: FloatArray, dispersion: FloatArray, centre: FloatArray, width: FloatArray, intensity: FloatArray
 ) -> FloatArray:
     """Probability of curves at intensities that fit them in shape."""
     from scipy.special import expit, ndtr  # slow to import
 
     with np.errstate(divide="ignore", invalid="ignore"):
-        log = np.log(at)
-        over, beyond = log - np.log(median), log - np.log(centre)
-        lognormal = np.where(dispersion > 0.0, ndtr(over / dispersion), (over >= 0.0).astype(np.float64))
-        logistic = np.where(width > 0.0, expit(beyond / width), (beyond >= 0.0).astype(np.float64))
+        log = np.log(intensity)
+        from_median, from_centre = log - np.log(median), log - np.log(centre)
+        lognormal = np.where(dispersion > 0.0, ndtr(from_median / dispersion), (from_median >= 0.0).astype(np.float64))
+        logistic = np.where(width > 0.0, expit(from_centre / width), (from_centre >= 0.0).astype(np.float64))
     lognormal = np.where(np.isnan(median), np.nan, lognormal)
     logistic = np.where(np.isnan(centre), np.nan, logistic)
     both = lognormal + logistic * (1.0 - lognormal)
-    return np.where(at == 0.0, 0.0 * both, both)
+    return np.where(intensity == 0.0, 0.0 * both, both)
 
 
 def quantiles(curves: FloatArray, share: float) -> FloatArray:
@@ -187,23 +187,23 @@ class Fragility(Card):
         InvalidOption
             An intensity is negative or no number.
         """
-        at = _intensities(intensity)
-        found = probabilities(self.curve[None], at)[0]
+        values_of_intensity = _intensities(intensity)
+        values = probabilities(self.curve[None], values_of_intensity)[0]
         if self.kind == "never":
-            found = np.where(at <= self.highest, 0.0, np.nan)
+            values = np.where(values_of_intensity <= self.highest, 0.0, np.nan)
         elif self.kind == "always":
-            found = np.where(at >= self.lowest, 1.0, np.nan)
-        return np.asarray(found)
+            values = np.where(values_of_intensity >= self.lowest, 1.0, np.nan)
+        return np.asarray(values)
 
     def band(self, intensity: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Return the ends of the bootstrap interval of the probability at intensities; NaN without resamples.
 
         Resamples without a curve are left out.
         """
-        at = _intensities(intensity)
+        values_of_intensity = _intensities(intensity)
         if not len(self.samples):
-            return np.full(at.shape, np.nan), np.full(at.shape, np.nan)
-        return interval_of(probabilities(self.samples, at), self.confidence)
+            return np.full(values_of_intensity.shape, np.nan), np.full(values_of_intensity.shape, np.nan)
+        return interval_of(probabilities(self.samples, values_of_intensity), self.confidence)
 
     def quantile(self, probability: float) -> float:
         """Return the intensity at which the limit is exceeded with a probability.
@@ -256,16 +256,16 @@ def fragility_of(
     *,
     runs: int,
     exceeding: int,
-    at: FloatArray,
+    intensities: FloatArray,
     remarks: list[str] | None = None,
 ) -> Fragility:
     """Return a fragility of its curve, those of its resamples, the number of its kind, and what it was fitted to."""
     name = KINDS[kind]
-    said = [_KIND_TEXTS[name]] if name != "fitted" else []
-    own_median, own_dispersion = (float(value[0]) for value in medians_and_dispersions(curve[None]))
-    lowest, highest = float(at.min(initial=np.inf)), float(at.max(initial=0.0))
-    if name == "fitted" and not lowest <= own_median <= highest:
-        said.append(f"the median is extrapolated: intensities were from {lowest:.3g} to {highest:.3g}")
+    texts = [_KIND_TEXTS[name]] if name != "fitted" else []
+    fitted_median, fitted_dispersion = (float(value[0]) for value in medians_and_dispersions(curve[None]))
+    lowest, highest = float(intensities.min(initial=np.inf)), float(intensities.max(initial=0.0))
+    if name == "fitted" and not lowest <= fitted_median <= highest:
+        texts.append(f"the median is extrapolated: intensities were from {lowest:.3g} to {highest:.3g}")
     intervals: list[tuple[float, float] | None] = [None, None]
     if len(samples) and name == "fitted":
         both = medians_and_dispersions(samples)
@@ -274,10 +274,10 @@ def fragility_of(
             intervals[place] = (float(low), float(high))
         lost = int(np.isnan(both[0]).sum())
         if lost:
-            said.append(f"{lost} of {len(samples)} resamples have no curve and are left out of the intervals")
+            texts.append(f"{lost} of {len(samples)} resamples have no curve and are left out of the intervals")
     return Fragility(
-        median=own_median,
-        dispersion=own_dispersion,
+        median=fitted_median,
+        dispersion=fitted_dispersion,
         kind=name,
         method=method,
         median_interval=intervals[0],
@@ -289,7 +289,7 @@ def fragility_of(
         highest=highest,
         curve=curve,
         samples=samples,
-        remarks=(*said, *(remarks or ())),
+        remarks=(*texts, *(remarks or ())),
     )
 
 
@@ -311,11 +311,11 @@ def bootstrap_options(confidence: Any, resamples: Any, seed: Any, owner: str) ->
     return BootstrapOptions(share, count, as_count(seed, "seed", owner, InvalidOption))
 
 
-def _intensities(given: ArrayLike) -> FloatArray:
-    at = np.asarray(given, dtype=np.float64)
-    if not (at >= 0.0).all():
-        raise refusal(InvalidOption, "intensity", "fragility", "zero or positive", brief(given))
-    return at
+def _intensities(value: ArrayLike) -> FloatArray:
+    array = np.asarray(value, dtype=np.float64)
+    if not (array >= 0.0).all():
+        raise refusal(InvalidOption, "intensity", "fragility", "zero or positive", brief(value))
+    return array
 
 
 def fit_counts(
@@ -362,34 +362,34 @@ def fit_counts(
     (1.08, 0.43)
     """
     owner = "fragility fit"
-    at = _positive(intensity, "intensity", owner)
+    intensities = _positive(intensity, "intensity", owner)
     hit = as_array(exceeding, "exceeding", owner, InvalidOption)
     runs = as_array(total, "total", owner, InvalidOption, or_number=True)
-    runs = np.broadcast_to(runs, at.shape) if runs.ndim == 0 else runs
-    if not len(at) == len(hit) == len(runs):
+    runs = np.broadcast_to(runs, intensities.shape) if runs.ndim == 0 else runs
+    if not len(intensities) == len(hit) == len(runs):
         got = f"{len(hit)} and {len(runs)}"
-        raise refusal(InvalidOption, "exceeding and total", owner, f"lists of {len(at)} values", got)
+        raise refusal(InvalidOption, "exceeding and total", owner, f"lists of {len(intensities)} values", got)
     if not ((hit >= 0.0) & (hit <= runs) & np.isfinite(runs)).all():
         raise refusal(InvalidOption, "exceeding", owner, "from 0 to total", brief(hit.tolist()))
-    chosen = bootstrap_options(confidence, resamples, seed, owner)
-    fits = probit_fits(at, hit[None], runs[None])
+    options = bootstrap_options(confidence, resamples, seed, owner)
+    fits = probit_fits(intensities, hit[None], runs[None])
     whole = bool((hit == np.rint(hit)).all() and (runs == np.rint(runs)).all())
     drawn = None
-    share = np.divide(hit, runs, out=np.zeros(len(at)), where=runs > 0.0)
+    share = np.divide(hit, runs, out=np.zeros(len(intensities)), where=runs > 0.0)
     # Levels at which all runs or none exceed, one run at each among them, have no scatter to draw from.
-    if chosen.resamples and whole and ((share > 0.0) & (share < 1.0)).any():
+    if options.resamples and whole and ((share > 0.0) & (share < 1.0)).any():
         number = runs.astype(np.int64)
-        counts = np.random.default_rng(chosen.seed).binomial(number, share, size=(chosen.resamples, len(at)))
-        drawn = probit_fits(at, counts.astype(np.float64), np.broadcast_to(runs, counts.shape))
+        counts = np.random.default_rng(options.seed).binomial(number, share, size=(options.resamples, len(intensities)))
+        drawn = probit_fits(intensities, counts.astype(np.float64), np.broadcast_to(runs, counts.shape))
     return fragility_of(
         as_curves(fits)[0],
         np.empty((0, 4)) if drawn is None else as_curves(drawn),
         fits.kind[0],
         "counts",
-        chosen.confidence,
+        options.confidence,
         runs=int(runs.sum()),
         exceeding=int(hit.sum()),
-        at=at[runs > 0.0],
+        intensities=intensities[runs > 0.0],
     )
 
 
@@ -432,46 +432,46 @@ def fit_capacities(
     (1.0, 0.566)
     """
     owner = "fragility fit"
-    given = as_array(capacities, "capacities", owner, InvalidOption)
-    if not len(given):
+    array = as_array(capacities, "capacities", owner, InvalidOption)
+    if not len(array):
         raise refusal(InvalidOption, "capacities", owner, "at least one", "none")
-    if (given <= 0.0).any():
-        raise refusal(InvalidOption, "capacities", owner, "positive", f"{given[given <= 0.0][0]:g}")
-    finite = np.isfinite(given)
+    if (array <= 0.0).any():
+        raise refusal(InvalidOption, "capacities", owner, "positive", f"{array[array <= 0.0][0]:g}")
+    finite = np.isfinite(array)
     if censored_above is None:
         if not finite.all():
             requirement = "given where a motion never exceeds the limit"
             raise refusal(InvalidOption, "censored_above", owner, requirement, "None")
-        ceiling = np.full(len(given), np.inf)
+        ceiling = np.full(len(array), np.inf)
     else:
         ceiling = as_array(censored_above, "censored_above", owner, InvalidOption, or_number=True)
-        ceiling = np.broadcast_to(ceiling, given.shape) if ceiling.ndim == 0 else ceiling
-        if len(ceiling) != len(given):
-            raise refusal(InvalidOption, "censored_above", owner, f"a list of {len(given)} values", f"{len(ceiling)}")
+        ceiling = np.broadcast_to(ceiling, array.shape) if ceiling.ndim == 0 else ceiling
+        if len(ceiling) != len(array):
+            raise refusal(InvalidOption, "censored_above", owner, f"a list of {len(array)} values", f"{len(ceiling)}")
         if not (ceiling > 0.0).all():
             raise refusal(InvalidOption, "censored_above", owner, "positive", brief(ceiling.tolist()))
-    exceeded = finite & (given <= ceiling)
-    known = np.where(exceeded, given, ceiling)
+    exceeded = finite & (array <= ceiling)
+    known = np.where(exceeded, array, ceiling)
     if not np.isfinite(known).all():
         requirement = "finite where a motion never exceeds the limit"
         raise refusal(InvalidOption, "censored_above", owner, requirement, brief(ceiling.tolist()))
-    chosen = bootstrap_options(confidence, resamples, seed, owner)
+    options = bootstrap_options(confidence, resamples, seed, owner)
     count = len(known)
     fits = capacity_fits(known, exceeded, np.ones((1, count)))
     drawn = None
-    if chosen.resamples and count > 1:
+    if options.resamples and count > 1:
         equal = np.full(count, 1.0 / count)
-        weights = np.random.default_rng(chosen.seed).multinomial(count, equal, size=chosen.resamples)
+        weights = np.random.default_rng(options.seed).multinomial(count, equal, size=options.resamples)
         drawn = capacity_fits(known, exceeded, weights.astype(np.float64))
     return fragility_of(
         as_curves(fits)[0],
         np.empty((0, 4)) if drawn is None else as_curves(drawn),
         fits.kind[0],
         "capacities",
-        chosen.confidence,
+        options.confidence,
         runs=count,
         exceeding=int(exceeded.sum()),
-        at=known,
+        intensities=known,
     )
 
 
@@ -520,34 +520,34 @@ def fit_cloud(
     0.2
     """
     owner = "cloud fit"
-    at = _positive(intensity, "intensity", owner)
+    intensities = _positive(intensity, "intensity", owner)
     values = as_array(demand, "demand", owner, InvalidOption)
     bound = as_positive(limit, "limit", owner, InvalidOption)
-    if len(values) != len(at):
-        raise refusal(InvalidOption, "demand", owner, f"a list of {len(at)} values", f"{len(values)}")
+    if len(values) != len(intensities):
+        raise refusal(InvalidOption, "demand", owner, f"a list of {len(intensities)} values", f"{len(values)}")
     fell = np.isinf(values) if collapsed is None else np.asarray(collapsed, dtype=np.bool_)
-    if fell.shape != at.shape:
-        raise refusal(InvalidOption, "collapsed", owner, f"a list of {len(at)} values", f"shape {fell.shape}")
+    if fell.shape != intensities.shape:
+        raise refusal(InvalidOption, "collapsed", owner, f"a list of {len(intensities)} values", f"shape {fell.shape}")
     if not ((values >= 0.0) & (np.isfinite(values) | fell)).all():
         raise refusal(
             InvalidOption, "demand", owner, "zero or positive, and finite without collapse", brief(values.tolist())
         )
-    chosen = bootstrap_options(confidence, resamples, seed, owner)
-    curves, kinds = cloud_fits(at, values, fell, bound, np.ones((1, len(at))))
+    options = bootstrap_options(confidence, resamples, seed, owner)
+    curves, kinds = cloud_fits(intensities, values, fell, bound, np.ones((1, len(intensities))))
     samples = np.empty((0, 4))
-    if chosen.resamples and len(at) > 1:
-        equal = np.full(len(at), 1.0 / len(at))
-        weights = np.random.default_rng(chosen.seed).multinomial(len(at), equal, size=chosen.resamples)
-        samples, _ = cloud_fits(at, values, fell, bound, weights.astype(np.float64))
+    if options.resamples and len(intensities) > 1:
+        equal = np.full(len(intensities), 1.0 / len(intensities))
+        weights = np.random.default_rng(options.seed).multinomial(len(intensities), equal, size=options.resamples)
+        samples, _ = cloud_fits(intensities, values, fell, bound, weights.astype(np.float64))
     return fragility_of(
         curves[0],
         samples,
         kinds[0],
         "cloud",
-        chosen.confidence,
-        runs=len(at),
+        options.confidence,
+        runs=len(intensities),
         exceeding=int((fell | (values > bound)).sum()),
-        at=at,
+        intensities=intensities,
         remarks=cloud_remarks(values, fell, curves[0]),
     )
 
@@ -569,8 +569,8 @@ def cloud_remarks(demand: FloatArray, collapsed: NDArray[np.bool_], curve: Float
     return remarks
 
 
-def _positive(given: Any, name: str, owner: str) -> FloatArray:
-    values = as_array(given, name, owner, InvalidOption)
+def _positive(value: Any, name: str, owner: str) -> FloatArray:
+    values = as_array(value, name, owner, InvalidOption)
     if not len(values):
         raise refusal(InvalidOption, name, owner, "at least one", "none")
     if not ((values > 0.0) & np.isfinite(values)).all():

@@ -32,17 +32,17 @@ class Crossing(NamedTuple):
     crossings: int
 
 
-def crossing_of(at: FloatArray, demand: FloatArray, limit: LimitState, rule: CapacityRule) -> Crossing:
+def crossing_of(intensities: FloatArray, demand: FloatArray, limit: LimitState, rule: CapacityRule) -> Crossing:
     """Return where a curve crosses a limit, by the first or the last crossing. Intensities increase, from no demand at
     zero; a demand is infinite where the run collapsed.
     """
     exceeds = np.append(False, demand > limit.value)
     rises = np.flatnonzero(exceeds[1:] & ~exceeds[:-1])
     if not len(rises):
-        return Crossing(float(at[-1]) if len(at) else 0.0, np.inf, np.inf, 0)
+        return Crossing(float(intensities[-1]) if len(intensities) else 0.0, np.inf, np.inf, 0)
     k = int(rises[0 if rule == "first" else -1])
-    lower, below = (float(at[k - 1]), float(demand[k - 1])) if k else (0.0, 0.0)
-    upper, above = float(at[k]), float(demand[k])
+    lower, below = (float(intensities[k - 1]), float(demand[k - 1])) if k else (0.0, 0.0)
+    upper, above = float(intensities[k]), float(demand[k])
     if np.isfinite(above) and limit.quantity != "collapse":
         value = lower + (limit.value - below) / (above - below) * (upper - lower)
     else:
@@ -50,29 +50,29 @@ def crossing_of(at: FloatArray, demand: FloatArray, limit: LimitState, rule: Cap
     return Crossing(lower, upper, value, len(rises))
 
 
-def demand_at(at: FloatArray, demand: FloatArray, levels: FloatArray, largest: float) -> FloatArray:
+def demand_at(intensities: FloatArray, demand: FloatArray, levels: FloatArray, largest: float) -> FloatArray:
     """Return the demand of a curve at intensities, linear between points. Before a collapse it is infinite from the
     middle on; past the end infinite if the curve ends above `largest` (limit), NaN (unknown) if below.
     """
-    points, values = np.append(0.0, at), np.append(0.0, demand)
+    points, values = np.append(0.0, intensities), np.append(0.0, demand)
     place = np.searchsorted(points, levels, side="left")
     inside = place < len(points)
     above = np.minimum(place, len(points) - 1)
     below = np.maximum(above - 1, 0)
     with np.errstate(invalid="ignore", divide="ignore"):
         weight = np.where(above > below, (levels - points[below]) / (points[above] - points[below]), 1.0)
-        between = values[below] + weight * (values[above] - values[below])
+        interpolated = values[below] + weight * (values[above] - values[below])
     nearer = np.where(weight > 0.5, values[above], values[below])
     finite = np.isfinite(values[below]) & np.isfinite(values[above])
-    found = np.where(weight == 1.0, values[above], np.where(finite, between, nearer))
-    return np.where(inside, found, np.inf if values[-1] > largest else np.nan)
+    values_at = np.where(weight == 1.0, values[above], np.where(finite, interpolated, nearer))
+    return np.where(inside, values_at, np.inf if values[-1] > largest else np.nan)
 
 
-def intensity_at(at: FloatArray, demand: FloatArray, levels: FloatArray) -> FloatArray:
+def intensity_at(intensities: FloatArray, demand: FloatArray, levels: FloatArray) -> FloatArray:
     """Return the intensity at which a curve first reaches each demand, linear between its points; infinite where it
     does not. Towards a collapse it is the middle of the two points.
     """
-    points, values = np.append(0.0, at), np.append(0.0, demand)
+    points, values = np.append(0.0, intensities), np.append(0.0, demand)
     reached = np.maximum.accumulate(values)
     k = np.searchsorted(reached, levels, side="left")
     inside = k < len(points)
@@ -81,8 +81,8 @@ def intensity_at(at: FloatArray, demand: FloatArray, levels: FloatArray) -> Floa
     with np.errstate(invalid="ignore", divide="ignore"):
         weight = (levels - values[below]) / (values[above] - values[below])
     weight = np.where(np.isfinite(values[above]), weight, 0.5)
-    found = points[below] + np.where(above > below, weight, 0.0) * (points[above] - points[below])
-    return np.where(inside, found, np.inf)
+    intensity = points[below] + np.where(above > below, weight, 0.0) * (points[above] - points[below])
+    return np.where(inside, intensity, np.inf)
 
 
 STEPS_TO_LIMIT: Final = 4.0
@@ -161,9 +161,9 @@ class _Curve:
         self.at: FloatArray = np.empty(0)
         self.demand: FloatArray = np.empty((0, 0))
 
-    def add(self, at: FloatArray, demand: FloatArray) -> None:
+    def add(self, intensity: FloatArray, demand: FloatArray) -> None:
         """Add points: intensities, and rows of demands."""
-        every = np.append(self.at, at)
+        every = np.append(self.at, intensity)
         rows = np.concatenate([self.demand, demand]) if len(self.at) else demand
         self.at, first = np.unique(every, return_index=True)
         self.demand = rows[first]
@@ -201,10 +201,10 @@ class _Curve:
         """Return the middles of the brackets of capacities that are wider than the tolerance."""
         middles = set()
         for limit, column in self.limits:
-            found = self.crossing(limit, column, self.rule)
-            if np.isfinite(found.upper) and found.upper - found.lower > tolerance * found.upper:
-                middle = 0.5 * (found.lower + found.upper)
-                if found.lower < middle < found.upper:
+            crossing = self.crossing(limit, column, self.rule)
+            if np.isfinite(crossing.upper) and crossing.upper - crossing.lower > tolerance * crossing.upper:
+                middle = 0.5 * (crossing.lower + crossing.upper)
+                if crossing.lower < middle < crossing.upper:
                     middles.add(middle)
         return np.array(sorted(middles))
 
@@ -261,20 +261,20 @@ class _Hunt:
 
     def solve(self, wanted: Iterable[tuple[_Curve, FloatArray]]) -> None:
         """Solve points of curves and add them."""
-        chosen = [(curve, points) for curve, points in wanted if len(points)]
-        if not chosen:
+        points_of = [(curve, points) for curve, points in wanted if len(points)]
+        if not points_of:
             return
         model, motion = (
-            np.concatenate([np.full(len(points), getattr(curve, name)) for curve, points in chosen])
+            np.concatenate([np.full(len(points), getattr(curve, name)) for curve, points in points_of])
             for name in ("model", "motion")
         )
-        at = np.concatenate([points for _, points in chosen])
-        table = solve_runs(self._setting, model, motion, at, threads=self._threads, progress=self._since())
-        self._done += len(at)
+        intensities = np.concatenate([points for _, points in points_of])
+        table = solve_runs(self._setting, model, motion, intensities, threads=self._threads, progress=self._since())
+        self._done += len(intensities)
         self._frames.append(table)
         demand = table.select(self._setting.columns).to_numpy().astype(np.float64)
         first = 0
-        for curve, points in chosen:
+        for curve, points in points_of:
             curve.add(points, demand[first : first + len(points)])
             first += len(points)
 
@@ -294,13 +294,13 @@ class _Hunt:
         self.solve((curve, np.array([pilot])) for curve in self.curves)
         expected = []
         for curve in self.curves:
-            found = [
+            capacities = [
                 pilot * limit.value / demand if np.isfinite(demand) else 0.5 * pilot
                 for limit, column in curve.limits
                 if (demand := float(curve.demand[0, column])) > 0.0 and limit.value > 0.0
             ]
-            if found:
-                expected.append(min(found))
+            if capacities:
+                expected.append(min(capacities))
         return float(np.median(expected)) if expected else pilot
 
     def table(self) -> pl.DataFrame:
@@ -362,15 +362,15 @@ def exact_capacities(setting: Setting, limit: LimitState, *, threads: int | None
     below, above = np.zeros(len(model)), np.full(len(model), np.inf)
     climbing = every
     while len(climbing):
-        at = STEP ** rung[climbing]
-        found = demand(climbing, at)
-        exceeds = found > limit.value
-        low[climbing[~exceeds]], below[climbing[~exceeds]] = at[~exceeds], found[~exceeds]
-        high[climbing[exceeds]], above[climbing[exceeds]] = at[exceeds], found[exceeds]
+        intensities = STEP ** rung[climbing]
+        demands = demand(climbing, intensities)
+        exceeds = demands > limit.value
+        low[climbing[~exceeds]], below[climbing[~exceeds]] = intensities[~exceeds], demands[~exceeds]
+        high[climbing[exceeds]], above[climbing[exceeds]] = intensities[exceeds], demands[exceeds]
         rung[climbing] += 1.0
         climbing = climbing[~exceeds & (rung[climbing] <= top[climbing])]
-    found = _refined(demand, limit.value, low, high, below, above)
-    return found.reshape(len(setting.models), len(setting.motions))
+    demands = _refined(demand, limit.value, low, high, below, above)
+    return demands.reshape(len(setting.models), len(setting.motions))
 
 
 def _refined(
@@ -393,18 +393,18 @@ def _refined(
         with np.errstate(invalid="ignore"):
             secant = a - fa * (b - a) / (fb - fa)
         slow = (count % 2 == 1) & (b - a > 0.5 * width[active])
-        at = np.where(np.isfinite(secant) & ~slow & (secant > a) & (secant < b), secant, 0.5 * (a + b))
+        trial = np.where(np.isfinite(secant) & ~slow & (secant > a) & (secant < b), secant, 0.5 * (a + b))
         if count % 2 == 1:
             width[active] = b - a
-        found = demand(active, at) - limit
-        exceeds = found > 0.0
-        value[active] = at
-        over, under = active[exceeds], active[~exceeds]
-        high[over], upper[over] = at[exceeds], found[exceeds]
-        low[under], lower[under] = at[~exceeds], found[~exceeds]
-        lower[over[last[over] == 1.0]] *= 0.5
-        upper[under[last[under] == -1.0]] *= 0.5
-        last[over], last[under] = 1.0, -1.0
-        exact = active[np.abs(found) <= _EXACT * limit]
+        excess = demand(active, trial) - limit
+        exceeds = excess > 0.0
+        value[active] = trial
+        exceeding, others = active[exceeds], active[~exceeds]
+        high[exceeding], upper[exceeding] = trial[exceeds], excess[exceeds]
+        low[others], lower[others] = trial[~exceeds], excess[~exceeds]
+        lower[exceeding[last[exceeding] == 1.0]] *= 0.5
+        upper[others[last[others] == -1.0]] *= 0.5
+        last[exceeding], last[others] = 1.0, -1.0
+        exact = active[np.abs(excess) <= _EXACT * limit]
         low[exact] = high[exact] = value[exact]
     return value

@@ -152,27 +152,27 @@ def logistic_fits(x: FloatArray, occurred: NDArray[np.bool_], weight: FloatArray
 
 
 def cloud_fits(
-    at: FloatArray, demand: FloatArray, collapsed: NDArray[np.bool_], limit: float, weight: FloatArray
+    intensities: FloatArray, demand: FloatArray, collapsed: NDArray[np.bool_], limit: float, weight: FloatArray
 ) -> tuple[FloatArray, NDArray[np.int8]]:
     """Return the curve of a cloud for each sample, in the columns of `probabilities`, and its kind: least squares of
     ln(demand) on ln(x) over runs with a demand that do not collapse.
     """
-    log = np.log(at)
+    log = np.log(intensities)
     moves = ~collapsed & (demand > 0.0)
     collapse = logistic_fits(log, collapsed, weight)
     curves: FloatArray = np.full((len(weight), 4), np.nan)
     curves[:, 2], curves[:, 3] = np.exp(collapse.median), collapse.dispersion
-    own, x, y = weight[:, moves], log[moves], np.log(demand[moves])
-    number = own.sum(axis=1)
+    counts, x, y = weight[:, moves], log[moves], np.log(demand[moves])
+    number = counts.sum(axis=1)
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        middle_x, middle_y = own @ x / number, own @ y / number
+        middle_x, middle_y = counts @ x / number, counts @ y / number
         off = x - middle_x[:, None]
-        across = (own * off * off).sum(axis=1)
-        slope = (own * off * (y - middle_y[:, None])).sum(axis=1) / across
+        across = (counts * off * off).sum(axis=1)
+        slope = (counts * off * (y - middle_y[:, None])).sum(axis=1) / across
         error = y - middle_y[:, None] - slope[:, None] * off
-        scatter = np.sqrt((own * error * error).sum(axis=1) / (number - 2.0))
+        scatter = np.sqrt((counts * error * error).sum(axis=1) / (number - 2.0))
         median = np.exp(middle_x + (np.log(limit) - middle_y) / slope)
-    spread = np.where(own > 0.0, np.abs(off), 0.0).max(axis=1, initial=0.0)
+    spread = np.where(counts > 0.0, np.abs(off), 0.0).max(axis=1, initial=0.0)
     kind = np.where(slope > _FLAT, FITTED, FALLING).astype(np.int8)
     kind[(number <= 2.0) | (spread < _SAME)] = NONE
     kind[collapse.kind == FALLING] = FALLING
@@ -255,8 +255,8 @@ def _tobit(t: FloatArray, seen: FloatArray, censored: FloatArray) -> tuple[Float
 
     spread = float(t.std()) or 1.0
     start = np.tile([1.0 / spread, 0.0], (len(seen), 1))
-    found = _newton(start, loss, derivatives)
-    return found[:, 0], found[:, 1]
+    parameters = _newton(start, loss, derivatives)
+    return parameters[:, 0], parameters[:, 1]
 
 
 def _mills(x: FloatArray) -> FloatArray:
@@ -268,24 +268,24 @@ def _mills(x: FloatArray) -> FloatArray:
 
 def _newton(start: FloatArray, loss: Loss, derivatives: Derivatives) -> FloatArray:
     """Minimise convex losses of two parameters, one of each row, by Newton steps that are halved until they help."""
-    found = start.copy()
-    value = loss(found)
+    parameters = start.copy()
+    value = loss(parameters)
     for _ in range(_ITERATIONS):
-        gradient, curvature = derivatives(found)
+        gradient, curvature = derivatives(parameters)
         step = -_solved(curvature, gradient)
         decrement = -(gradient * step).sum(axis=1)
         if not (decrement > _CONVERGED * np.maximum(1.0, np.abs(value))).any():
             break
-        factor = np.ones(len(found))
+        factor = np.ones(len(parameters))
         for _ in range(_HALVINGS):
-            worse = ~(loss(found + factor[:, None] * step) <= value + _ROUNDING * np.abs(value))
+            worse = ~(loss(parameters + factor[:, None] * step) <= value + _ROUNDING * np.abs(value))
             if not worse.any():
                 break
             factor[worse] *= 0.5
         factor[worse] = 0.0
-        found = found + factor[:, None] * step
-        value = loss(found)
-    return found
+        parameters = parameters + factor[:, None] * step
+        value = loss(parameters)
+    return parameters
 
 
 def _solved(matrix: FloatArray, right: FloatArray) -> FloatArray:

@@ -105,9 +105,9 @@ class LimitState:
         if not 0.0 <= value < np.inf:
             raise refusal(InvalidOption, "value", owner, "zero or positive, and finite", f"{value:g}")
         if self.quantity == "collapse":
-            for name, given in (("value", self.value or None), ("storey", self.storey), ("block", self.block)):
-                if given is not None:
-                    raise refusal(InvalidOption, name, "limit state of collapse", "left out", brief(given))
+            for name, entry in (("value", self.value or None), ("storey", self.storey), ("block", self.block)):
+                if entry is not None:
+                    raise refusal(InvalidOption, name, "limit state of collapse", "left out", brief(entry))
         elif value == 0.0 and self.quantity not in _OF_BLOCKS:
             raise refusal(InvalidOption, "value", owner, "positive for what is no slip", "0")
         if self.storey is not None:
@@ -217,13 +217,13 @@ class LimitState:
             taken = column.list.eval(pl.element().abs()).list.max()
         else:
             taken = column.list.get(place - 1, null_on_oob=True).abs()
-        found = table.select(taken.cast(pl.Float64)).to_series().fill_null(np.nan).to_numpy().copy()
+        values = table.select(taken.cast(pl.Float64)).to_series().fill_null(np.nan).to_numpy().copy()
         if self.quantity == "floor_acceleration_g":
-            found /= STANDARD_GRAVITY
+            values /= STANDARD_GRAVITY
         if self.collapsed == "exceeds":
             there = table.select(pl.col(_SOURCE[self.quantity]).list.len().fill_null(0)).to_series().to_numpy()
-            found[collapsed & (there >= (place or 1))] = np.inf
-        return found
+            values[collapsed & (there >= (place or 1))] = np.inf
+        return values
 
     def _over_heights(self, column: pl.Expr, heights: FloatArray | None) -> pl.Expr:
         """Absolute residual drift over the height of the storey, the largest where none is named."""
@@ -243,18 +243,18 @@ class LimitState:
 
 def as_limits(limits: Any, owner: str) -> tuple[LimitState, ...]:
     """Return limit states: at least one, and none twice."""
-    given = [limits] if isinstance(limits, LimitState) else limits
-    if not isinstance(given, Iterable):
+    listed = [limits] if isinstance(limits, LimitState) else limits
+    if not isinstance(listed, Iterable):
         raise refusal(InvalidOption, "limits", owner, "LimitStates", brief(limits))
-    found = tuple(given)
-    if not found:
+    items = tuple(listed)
+    if not items:
         raise refusal(InvalidOption, "limits", owner, "at least one LimitState", "none")
-    for number, limit in enumerate(found, start=1):
+    for number, limit in enumerate(items, start=1):
         if not isinstance(limit, LimitState):
             raise refusal(InvalidOption, f"limit {number}", owner, "a LimitState", brief(limit))
-    if len({limit.name for limit in found}) < len(found):
-        raise refusal(InvalidOption, "limits", owner, "different from each other", brief([each.name for each in found]))
-    return found
+    if len({limit.name for limit in items}) < len(items):
+        raise refusal(InvalidOption, "limits", owner, "different from each other", brief([each.name for each in items]))
+    return items
 
 
 def parse_limit(text: str) -> LimitState:
@@ -277,11 +277,11 @@ def parse_limit(text: str) -> LimitState:
     LimitState(quantity='slip', value=0.1, storey=None, block=2, collapsed='exceeds')
     """
     head, equals, number = text.partition("=")
-    quantity, at, place = head.strip().partition("@")
+    quantity, sign, place = head.strip().partition("@")
     requirement = "QUANTITY=VALUE, QUANTITY@STOREY=VALUE, slip@BLOCK=VALUE or collapse"
     try:
         value = float(number) if equals else 0.0
-        where = int(place) if at else None
+        where = int(place) if sign else None
     except ValueError:
         raise refusal(InvalidOption, "limit", "limit state", requirement, brief(text)) from None
     if not equals and quantity != "collapse":
@@ -394,8 +394,8 @@ class IntensityMeasure:
         if self.name == "sa_avg":
             periods = self.period * np.linspace(self.low, self.high, self.points)
         spectra = response_spectrum(named.motions, periods, self.damping, threads=threads) / STANDARD_GRAVITY
-        found: FloatArray = spectra[:, 0] if self.name == "sa_t1" else np.exp(np.log(spectra).mean(axis=1))
-        return found
+        intensities: FloatArray = spectra[:, 0] if self.name == "sa_t1" else np.exp(np.log(spectra).mean(axis=1))
+        return intensities
 
     def to_dict(self) -> dict[str, Any]:
         """Return what defines it, with its column and label."""
@@ -418,7 +418,7 @@ def intensity_of(
     ----------
     motion : Motion or Record
         The motion.
-    measure : {"scale", "pga", "sa_t1", "sa_avg"} or IntensityMeasure
+    measure : {"scale", "pga", "sa_t1", "sa_avg"} or IntensityMeasure, default "sa_t1"
         The measure; the remaining arguments are those of `IntensityMeasure` and are left out where one is given.
     period, damping, low, high, points
         As for `IntensityMeasure`.

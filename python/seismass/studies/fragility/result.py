@@ -146,22 +146,22 @@ class FragilityAnalysis(Result):
         InvalidOption
             There is no such limit or model, or the model does not have the quantity, as one without goods has no slip.
         """
-        chosen = self.limits[0] if limit is None else self.limit(limit)
+        state = self.limits[0] if limit is None else self.limit(limit)
         name = self.reference if model is None else model
-        if (name, chosen.name) not in self.fits:
-            known = ", ".join(each for each, other in self.fits if other == chosen.name)
-            raise refusal(InvalidOption, "model", f"fragility for {chosen.name}", f"one of {known}", brief(name))
-        return self.fits[name, chosen.name]
+        if (name, state.name) not in self.fits:
+            known = ", ".join(each for each, other in self.fits if other == state.name)
+            raise refusal(InvalidOption, "model", f"fragility for {state.name}", f"one of {known}", brief(name))
+        return self.fits[name, state.name]
 
     def fractiles(
-        self, given: Literal["intensity", "demand"] = "intensity", levels: ArrayLike | None = None
+        self, axis: Literal["intensity", "demand"] = "intensity", levels: ArrayLike | None = None
     ) -> pl.DataFrame:
         """Return 16, 50 and 84 % fractiles over the motions of demand given intensity, or of intensity given demand.
 
         Parameters
         ----------
-        given : {"intensity", "demand"}
-            What is given.
+        axis : {"intensity", "demand"}, default "intensity"
+            Quantity of the levels, at each of which the fractiles of the other are given.
         levels : array_like, optional
             Intensities or demands, positive and increasing; by default 40 up to the largest intensity to which all
             motions were scaled or exceed the limit, or the intensities of stripes; or up to 1.5 times the largest limit
@@ -183,12 +183,12 @@ class FragilityAnalysis(Result):
         -----
         Vamvatsikos and Cornell (2002), section 5. Between intensities that were solved curves are linear.
         """
-        if not is_one_of(given, ("intensity", "demand")):
-            raise refusal(InvalidOption, "given", "fractiles", "intensity or demand", brief(given))
+        if not is_one_of(axis, ("intensity", "demand")):
+            raise refusal(InvalidOption, "axis", "fractiles", "intensity or demand", brief(axis))
         if self.capacities.is_empty():
             requirement = "those of motions that are scaled to several intensities"
             raise refusal(InvalidOption, "analysis", "fractiles", requirement, self.method)
-        chosen = None if levels is None else check_levels(levels, "fractiles", "levels")
+        stated = None if levels is None else check_levels(levels, "fractiles", "levels")
         frames = []
         for column in dict.fromkeys(limit.column for limit in self.limits):
             largest = max(limit.value for limit in self.limits if limit.column == column)
@@ -196,20 +196,21 @@ class FragilityAnalysis(Result):
                 traced = self.traces(model, column)
                 if not traced:
                     continue
-                at = chosen if chosen is not None else self._levels(given, traced, largest)
+                points = stated if stated is not None else self._levels(axis, traced, largest)
                 rows = [
-                    demand_at(x, y, at, largest) if given == "intensity" else intensity_at(x, y, at) for x, y in traced
+                    demand_at(x, y, points, largest) if axis == "intensity" else intensity_at(x, y, points)
+                    for x, y in traced
                 ]
-                found = np.array(rows).T
+                values = np.array(rows).T
                 frames.append(
                     pl.DataFrame(
                         {
-                            "model": np.repeat(model, len(at)),
-                            "demand_column": np.repeat(column, len(at)),
-                            "given": np.repeat(given, len(at)),
-                            "level": at,
+                            "model": np.repeat(model, len(points)),
+                            "demand_column": np.repeat(column, len(points)),
+                            "given": np.repeat(axis, len(points)),
+                            "level": points,
                             **{
-                                f"p{100 * share:.0f}": pl.Series(quantile(found, share), nan_to_null=True)
+                                f"p{100 * share:.0f}": pl.Series(quantile(values, share), nan_to_null=True)
                                 for share in FRACTILES
                             },
                         }
@@ -225,8 +226,8 @@ class FragilityAnalysis(Result):
             for part in rows.partition_by("motion", maintain_order=True)
         ]
 
-    def _levels(self, given: str, traced: Sequence[tuple[FloatArray, FloatArray]], largest: float) -> FloatArray:
-        if given == "demand":
+    def _levels(self, axis: str, traced: Sequence[tuple[FloatArray, FloatArray]], largest: float) -> FloatArray:
+        if axis == "demand":
             return np.linspace(0.0, 1.5 * (largest or 1.0), _LEVELS + 1)[1:]
         if self.method == "stripes":
             return np.unique(np.concatenate([x for x, _ in traced]))
@@ -244,15 +245,15 @@ class FragilityAnalysis(Result):
     def tables(self) -> dict[str, pl.DataFrame]:
         """The tables by name, the fractiles among them where motions are scaled."""
         names = ("motions", "runs", "capacities", "fragilities", "curves", "comparison", "exceedance")
-        found: dict[str, pl.DataFrame] = {name: getattr(self, name) for name in names}
+        tables: dict[str, pl.DataFrame] = {name: getattr(self, name) for name in names}
         if self.capacities.is_empty():
-            del found["capacities"]
+            del tables["capacities"]
         else:
-            found |= {f"fractiles_given_{given}": self.fractiles(given) for given in ("intensity", "demand")}
-        return found
+            tables |= {f"fractiles_given_{axis}": self.fractiles(axis) for axis in ("intensity", "demand")}
+        return tables
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the answer as plain values; null for what is not finite. Runs and curves are in the tables."""
+        """Return the answer as plain values; null for non-finite values. Runs and curves are in the tables."""
         document: dict[str, Any] = {
             "schema_version": SCHEMA_VERSION,
             "method": self.method,
@@ -308,18 +309,18 @@ def result_of(
     runs: pl.DataFrame,
     capacities: pl.DataFrame | None,
     fits: Fits,
-    at: ArrayLike,
+    intensities: ArrayLike,
     options: BootstrapOptions,
-    chosen: dict[str, Any],
+    settings: dict[str, Any],
 ) -> FragilityAnalysis:
     """Return the result with its tables, remarks and metadata."""
     names, motions = tuple(setting.models), setting.motions
-    levels = np.unique(as_array(at, "at", "intensity analysis", InvalidOption, or_number=True))
+    levels = np.unique(as_array(intensities, "at", "intensity analysis", InvalidOption, or_number=True))
     if len(levels):
         check_levels(levels, "intensities of comparison", "at")
     known = capacities if capacities is not None else pl.DataFrame()
     described = {
-        **chosen,
+        **settings,
         "method": method,
         "measure": setting.measure.to_dict(),
         "limits": [limit.to_dict() for limit in setting.limits],
@@ -347,7 +348,7 @@ def result_of(
         curves=curve_table(fits, setting.limits),
         comparison=comparison_table(fits, setting.limits, names),
         exceedance=exceedance_table(fits, setting.limits, names, levels),
-        remarks=_remarks(setting, method, known, fits, options, chosen),
+        remarks=_remarks(setting, method, known, fits, options, settings),
         metadata={
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
@@ -368,12 +369,12 @@ def _remarks(
     capacities: pl.DataFrame,
     fits: Fits,
     options: BootstrapOptions,
-    chosen: dict[str, Any],
+    settings: dict[str, Any],
 ) -> tuple[str, ...]:
     """What a user must know beside the numbers."""
     count, clusters = len(setting.motions), setting.motions.clusters
-    said = (remark for scene in setting.models.values() for remark in scene.remarks)
-    remarks = usage_remarks(said, (), ((limit.quantity, limit.value) for limit in setting.limits))
+    scene_remarks = (remark for scene in setting.models.values() for remark in scene.remarks)
+    remarks = usage_remarks(scene_remarks, (), ((limit.quantity, limit.value) for limit in setting.limits))
     if count < FEW_MOTIONS:
         remarks.append(f"{counted(count, 'motion')}: few for a fragility; intervals of so few are too narrow")
     if clusters == 1 and count > 1:
@@ -383,23 +384,23 @@ def _remarks(
         for limit, model, number in several.iter_rows():
             remarks.append(
                 f"{limit}, {model}: {number} of {counted(count, 'motion')} cross the limit more than once; the "
-                f"{chosen['capacity']} crossing counts"
+                f"{settings['capacity']} crossing counts"
             )
     for (model, limit), fit in fits.items():
         remarks += [f"{limit}, {model}: {remark}" for remark in fit.remarks]
     for limit_state in setting.limits:
-        without = [name for name, scene in setting.models.items() if not limit_state.applies(scene)]
-        if without:
-            have = "have" if len(without) > 1 else "has"
-            remarks.append(f"{limit_state.name}: {' and '.join(without)} {have} no goods that slide, and so no slip")
+        empty = [name for name, scene in setting.models.items() if not limit_state.applies(scene)]
+        if empty:
+            have = "have" if len(empty) > 1 else "has"
+            remarks.append(f"{limit_state.name}: {' and '.join(empty)} {have} no goods that slide, and so no slip")
     remarks.append(
         "the scatter is that of the motions alone: friction, occupancy, stiffness and strength are as given"
         + ("" if method == "cloud" else ", and scaling leaves the shape of spectra as it is")
     )
-    if "code_share" in chosen:
-        convention = "C of the real building" if chosen["damping"] == "same" else "ratio in the model's own modes"
+    if "code_share" in settings:
+        convention = "C of the real building" if settings["damping"] == "same" else "ratio in the model's own modes"
         remarks.append(
-            f"code: {100.0 * chosen['code_share']:g} % of the goods attached as mass, attached: all of them; "
+            f"code: {100.0 * settings['code_share']:g} % of the goods attached as mass, attached: all of them; "
             f"stiffness, strength and gravity load as in the real building; damping: {convention}"
         )
     return tuple(remarks)

@@ -18,7 +18,7 @@ from seismass.model.scene import Scene
 from seismass.runs.batch import solve_many
 from seismass.studies.fragility.limits import IntensityMeasure, LimitState, MeasureName, as_limits, measure_for
 
-REAL: Final = "real"
+SLIDING: Final = "real"
 """The model with which others are compared: goods that slide."""
 CODE: Final = "code"
 ATTACHED: Final = "attached"
@@ -64,23 +64,23 @@ def compared_models(
     if not 0.0 <= share <= 1.0:
         raise refusal(InvalidOption, "code_share", "compared models", "between 0 and 1", f"{share:g}")
     convention = check_damping(damping, "compared models")
-    return {REAL: loaded, CODE: attached(loaded, share, convention), ATTACHED: attached(loaded, 1.0, convention)}
+    return {SLIDING: loaded, CODE: attached(loaded, share, convention), ATTACHED: attached(loaded, 1.0, convention)}
 
 
 def as_models(models: Any, owner: str) -> dict[str, Scene]:
     """Return models by name, all of one number of storeys; one scene alone is the real building."""
-    given = {REAL: models} if isinstance(models, Scene) else models
-    if not isinstance(given, Mapping) or not given:
+    listed = {SLIDING: models} if isinstance(models, Scene) else models
+    if not isinstance(listed, Mapping) or not listed:
         raise refusal(InvalidScene, "models", owner, "a Scene, or a mapping of names to Scenes", brief(models))
-    for name, scene in given.items():
+    for name, scene in listed.items():
         if not isinstance(name, str) or not name:
             raise refusal(InvalidScene, "models", owner, "named by text", brief(name))
         if not isinstance(scene, Scene):
             raise refusal(InvalidScene, f"model {name}", owner, "a Scene", brief(scene))
-        scene.of_chain(owner)
-    found = dict(given)
-    first = next(iter(found.values()))
-    for name, scene in found.items():
+        scene.require_chain(owner)
+    scenes = dict(listed)
+    first = next(iter(scenes.values()))
+    for name, scene in scenes.items():
         if scene.storeys != first.storeys:
             requirement = f"of {first.storeys} storeys, as the first one"
             raise refusal(InvalidScene, f"model {name}", owner, requirement, str(scene.storeys))
@@ -88,7 +88,7 @@ def as_models(models: Any, owner: str) -> dict[str, Scene]:
             requirement = f"those of the first one, {brief(_heights(first).tolist())}"
             got = brief(_heights(scene).tolist())
             raise refusal(InvalidScene, f"heights of model {name}", owner, requirement, got)
-    return found
+    return scenes
 
 
 def _heights(scene: Scene) -> FloatArray:
@@ -107,9 +107,7 @@ SAMPLES_AT_ONCE: Final = 2**22
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """Models, motions and limits of an analysis, checked; `unit` is the intensity of each motion at scale 1, shape
-    (motions,).
-    """
+    """Models, motions and limits of an analysis, checked; `unit` (motions,) is the intensity of each at scale 1."""
 
     models: dict[str, Scene]
     motions: NamedMotions
@@ -139,15 +137,15 @@ def setting_of(
     threads: int | None = None,
 ) -> Setting:
     """Return the checked setting of an analysis."""
-    named, found = as_models(models, owner), as_limits(limits, owner)
-    for limit in found:
+    named, states = as_models(models, owner), as_limits(limits, owner)
+    for limit in states:
         for scene in named.values():
             limit.check(scene, owner)
         if not any(limit.applies(scene) for scene in named.values()):
             raise refusal(InvalidOption, "limit", owner, "of a quantity that some model has", limit.name)
     taken = named_motions(motions, owner)
-    chosen = measure_for(measure, next(iter(named.values())), period)
-    return Setting(named, taken, found, chosen, chosen.of(taken.motions, threads=threads))
+    measure_used = measure_for(measure, next(iter(named.values())), period)
+    return Setting(named, taken, states, measure_used, measure_used.of(taken.motions, threads=threads))
 
 
 def solve_runs(
@@ -168,9 +166,9 @@ def solve_runs(
     order = np.lexsort((model, scale, motion))
     frames, done = [], 0
     for part in _parts(setting, motion[order], scale[order]):
-        own = order[part]
-        frames.append(_solve_part(setting, model[own], motion[own], scale[own], threads, _since(progress, done, total)))
-        done += len(own)
+        ids = order[part]
+        frames.append(_solve_part(setting, model[ids], motion[ids], scale[ids], threads, _since(progress, done, total)))
+        done += len(ids)
     place = np.empty(total, dtype=np.int64)
     place[order] = np.arange(total)
     demands = pl.concat(frames)[place]
@@ -257,17 +255,17 @@ def _solve_part(
     failed = table.with_row_index("row").filter(pl.col("status") == "failed")
     if failed.height:
         row, reason = failed.row(0, named=True)["row"], failed.row(0, named=True)["reason"]
-        under = setting.motions.names[motion[row]]
+        record = setting.motions.names[motion[row]]
         name = list(setting.models)[model[row]]
-        raise SimulationError(f"run of model {name} under {under} x {scale[row]:g} must reach its end; got: {reason}")
+        raise SimulationError(f"run of model {name} under {record} x {scale[row]:g} must reach its end; got: {reason}")
     building = scenes[0].building
     heights = None if building is None else building.heights
-    found: dict[str, pl.Series] = {"status": table["status"]}
+    columns: dict[str, pl.Series] = {"status": table["status"]}
     for limit in setting.limits:
-        if limit.column not in found:
+        if limit.column not in columns:
             demand = limit.demand(table, heights)
-            found[limit.column] = pl.Series(limit.column, demand, dtype=pl.Float64, nan_to_null=True)
-    return pl.DataFrame(found)
+            columns[limit.column] = pl.Series(limit.column, demand, dtype=pl.Float64, nan_to_null=True)
+    return pl.DataFrame(columns)
 
 
 def _parts(setting: Setting, motion: IndexArray, scale: FloatArray) -> list[slice]:

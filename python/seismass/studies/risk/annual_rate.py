@@ -98,21 +98,21 @@ def lognormal_rates(median: ArrayLike, dispersion: ArrayLike, hazard: HazardCurv
     z = [(place - log_median) / safe for place in x]
     first, last = np.asarray(ndtr(z[0])), np.asarray(ndtr(z[-1]))
     inside = sum((second(i, z[i], z[i + 1]) for i in range(len(slopes))), np.zeros_like(safe))
-    within = first * rates[0] - last * rates[-1] + inside
+    inner = first * rates[0] - last * rates[-1] + inside
     below = second(0, None, z[0]) - first * rates[0]
     above = last * rates[-1] + second(len(slopes) - 1, z[-1], None)
     above_least = last * rates[-1]
     if steps.any():  # a limit that is exceeded from the median on
         certain = _step_parts(np.exp(log_median), hazard)
-        within, below, above, above_least = (
+        inner, below, above, above_least = (
             np.where(steps, other, value)
             for other, value in zip(
                 (certain.within, certain.below, certain.above, certain.above_least),
-                (within, below, above, above_least),
+                (inner, below, above, above_least),
                 strict=True,
             )
         )
-    return RateParts(np.maximum(within, 0.0), np.maximum(below, 0.0), above, above_least)
+    return RateParts(np.maximum(inner, 0.0), np.maximum(below, 0.0), above, above_least)
 
 
 def capacity_rates(capacities: ArrayLike, hazard: HazardCurve) -> RateParts:
@@ -128,12 +128,12 @@ def _step_parts(capacity: FloatArray, hazard: HazardCurve) -> RateParts:
     lowest, highest = hazard.annual_rate[0], hazard.annual_rate[-1]
     finite = np.isfinite(capacity)
     rates = np.where(finite, hazard.rates(np.where(finite, capacity, hazard.sa_g[-1])), 0.0)
-    beyond = capacity > hazard.sa_g[-1]
+    is_past_end = capacity > hazard.sa_g[-1]
     return RateParts(
-        within=np.where(beyond, 0.0, np.minimum(rates, lowest) - highest),
+        within=np.where(is_past_end, 0.0, np.minimum(rates, lowest) - highest),
         below=np.maximum(rates - lowest, 0.0),
         above=np.minimum(rates, highest),
-        above_least=np.where(beyond, 0.0, highest),
+        above_least=np.where(is_past_end, 0.0, highest),
     )
 
 
@@ -272,40 +272,40 @@ def annual_rate(fragility: Lognormal | ArrayLike, hazard: HazardCurve, *, extrap
             raise refusal(InvalidOption, "fragility", OWNER, requirement, brief(fragility))
         parts = capacity_rates(capacities, curve)
         pieces = [float(capacity_rates(capacities, one).within) for one in _segments(curve)]
-    within, below, above, least = (float(x) for x in (parts.within, parts.below, parts.above, parts.above_least))
+    inner, below, above, least = (float(x) for x in (parts.within, parts.below, parts.above, parts.above_least))
     rates = np.array(pieces)
-    beyond = as_flag(extrapolate, "extrapolate", OWNER, InvalidOption)
-    value = float(parts.total(beyond))
+    is_extrapolated = as_flag(extrapolate, "extrapolate", OWNER, InvalidOption)
+    value = float(parts.total(is_extrapolated))
     return AnnualRate(
         value=value,
-        within=within,
+        within=inner,
         below=below,
         above=above,
-        bounds=(within + least, within + float(curve.annual_rate[-1])),
-        extrapolated=beyond,
+        bounds=(inner + least, inner + float(curve.annual_rate[-1])),
+        extrapolated=is_extrapolated,
         contributions=pl.DataFrame(
             {
                 "sa_g_from": curve.sa_g[:-1],
                 "sa_g_to": curve.sa_g[1:],
                 "slope": curve.slopes,
                 "rate": rates,
-                "share": rates / within if within > 0.0 else np.zeros_like(rates),
+                "share": rates / inner if inner > 0.0 else np.zeros_like(rates),
             }
         ),
         hazard=curve,
-        remarks=truncation_remarks(within, below, above, curve),
+        remarks=truncation_remarks(inner, below, above, curve),
     )
 
 
-def truncation_remarks(within: float, below: float, above: float, hazard: HazardCurve) -> tuple[str, ...]:
-    """Return what is to be said of the parts beyond the ends of a hazard curve: nothing where they are small."""
+def truncation_remarks(inner: float, below: float, above: float, hazard: HazardCurve) -> tuple[str, ...]:
+    """Return the remarks on the parts beyond the ends of a hazard curve: none where they are small."""
     remarks = []
     for part, end, motions in (
         (below, f"begins at {hazard.sa_g[0]:g} g", "weaker"),
         (above, f"ends at {hazard.sa_g[-1]:g} g", "stronger"),
     ):
-        if part > NOTABLE * within:
-            amount = f"{100.0 * part / within:.2g} % of the rate" if within > 0.0 else f"a rate of {part:.2g} a year"
+        if part > NOTABLE * inner:
+            amount = f"{100.0 * part / inner:.2g} % of the rate" if inner > 0.0 else f"a rate of {part:.2g} a year"
             remarks.append(f"the hazard curve {end}: {motions} motions would add {amount}, by its end slope")
     return tuple(remarks)
 

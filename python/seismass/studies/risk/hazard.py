@@ -138,7 +138,7 @@ class HazardCurve(Value, Card):
         Annual rates of exceedance (1/year), positive and strictly decreasing.
     period : float, optional
         Period of the spectral acceleration (s), where it is known.
-    label : str
+    label : str, optional
         What the curve is, as texts and figures name it.
 
     Attributes
@@ -217,7 +217,7 @@ class HazardCurve(Value, Card):
             rate, lambda, frequency, AFE or MAFE, in any case. A unit beside the name of the intensity must be g.
         period : float, optional
             Period of the spectral acceleration (s).
-        label : str
+        label : str, optional
             What the curve is; by default the name of the file.
 
         Raises
@@ -254,9 +254,9 @@ class HazardCurve(Value, Card):
         InvalidOption
             The intensity is not positive, or outside the curve.
         """
-        at = as_positive(sa_g, "sa_g", OWNER, InvalidOption)
-        self._check_inside(at, self.sa_g, "sa_g", "g", extrapolate)
-        return float(self.rates(np.array([at]))[0])
+        intensities = as_positive(sa_g, "sa_g", OWNER, InvalidOption)
+        self._check_inside(intensities, self.sa_g, "sa_g", "g", extrapolate)
+        return float(self.rates(np.array([intensities]))[0])
 
     def intensity(self, rate: float, *, extrapolate: bool = False) -> float:
         """Return the intensity (g) that is exceeded at an annual rate; the inverse of `rate`.
@@ -266,11 +266,11 @@ class HazardCurve(Value, Card):
         InvalidOption
             The rate is not positive, or outside the curve where `extrapolate` is False.
         """
-        at = as_positive(rate, "rate", OWNER, InvalidOption)
-        self._check_inside(at, self.annual_rate[::-1], "rate", "a year", extrapolate)
-        number = int(np.clip(np.searchsorted(-self.annual_rate, -at, side="right") - 1, 0, len(self.sa_g) - 1))
+        rates = as_positive(rate, "rate", OWNER, InvalidOption)
+        self._check_inside(rates, self.annual_rate[::-1], "rate", "a year", extrapolate)
+        number = int(np.clip(np.searchsorted(-self.annual_rate, -rates, side="right") - 1, 0, len(self.sa_g) - 1))
         slope = self.slopes[min(number, len(self.sa_g) - 2)]
-        return float(self.sa_g[number] * (at / self.annual_rate[number]) ** (-1.0 / slope))
+        return float(self.sa_g[number] * (rates / self.annual_rate[number]) ** (-1.0 / slope))
 
     def probability(self, sa_g: float, years: float, *, extrapolate: bool = False) -> float:
         """Return the probability that an intensity (g) is exceeded at least once in so many years.
@@ -286,14 +286,14 @@ class HazardCurve(Value, Card):
         slope = np.append(self.slopes, self.slopes[-1])[number]
         return np.asarray(self.annual_rate[number] * (sa_g / self.sa_g[number]) ** -slope, dtype=np.float64)
 
-    def tilted(self, factor: float, about: float = DESIGN_RATE) -> HazardCurve:
+    def tilted(self, factor: float, pivot: float = DESIGN_RATE) -> HazardCurve:
         """Return the curve with all slopes multiplied by a factor, through the same intensity at an annual rate.
 
         Parameters
         ----------
         factor : float
             Factor of the slopes: above 1 the strong motions become rarer.
-        about : float, default 1/475
+        pivot : float, default 1/475
             Annual rate at which the intensity stays as it is.
 
         Raises
@@ -302,7 +302,7 @@ class HazardCurve(Value, Card):
             A value is not positive, or the factor is so large that rates leave the range of doubles.
         """
         power = as_positive(factor, "factor", OWNER, InvalidOption)
-        fixed = as_positive(about, "about", OWNER, InvalidOption)
+        fixed = as_positive(pivot, "pivot", OWNER, InvalidOption)
         changed = fixed * (self.annual_rate / fixed) ** power
         return self.replace(rate=changed, label=f"{self.label or 'hazard'}, slopes x {power:g}")
 
@@ -323,10 +323,10 @@ class HazardCurve(Value, Card):
         points = {"sa_g": self.sa_g.tolist(), "annual_rate": self.annual_rate.tolist()}
         return {"label": self.label, "period": self.period, **points}
 
-    def _check_inside(self, at: float, values: FloatArray, name: str, unit: str, extrapolate: bool) -> None:
-        if not as_flag(extrapolate, "extrapolate", OWNER, InvalidOption) and not values[0] <= at <= values[-1]:
+    def _check_inside(self, value: float, values: FloatArray, name: str, unit: str, extrapolate: bool) -> None:
+        if not as_flag(extrapolate, "extrapolate", OWNER, InvalidOption) and not values[0] <= value <= values[-1]:
             requirement = f"within the curve, {values[0]:g} to {values[-1]:g} {unit}, or extrapolate=True"
-            raise refusal(InvalidOption, name, OWNER, requirement, f"{at:g}")
+            raise refusal(InvalidOption, name, OWNER, requirement, f"{value:g}")
 
     def _arguments(self) -> dict[str, Any]:
         return {"sa_g": self.sa_g, "rate": self.annual_rate, "period": self.period, "label": self.label}

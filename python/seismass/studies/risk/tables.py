@@ -48,7 +48,7 @@ def fitted(capacities: FloatArray, weights: FloatArray) -> tuple[FloatArray, Flo
     row of weights: maximum likelihood, as in `fit_capacities`.
     """
     exceeded = np.ones(capacities.shape[1], dtype=np.bool_)
-    fits = [capacity_fits(own, exceeded, weights) for own in capacities]
+    fits = [capacity_fits(values, exceeded, weights) for values in capacities]
     return np.stack([fit.median for fit in fits], axis=1), np.stack([fit.dispersion for fit in fits], axis=1)
 
 
@@ -68,16 +68,16 @@ class RateCurve:
     """
 
     shares: FloatArray
-    real: float
+    sliding: float
     model: FloatArray
-    real_draws: FloatArray
+    sliding_draws: FloatArray
     model_draws: FloatArray
 
     @classmethod
     def of(
         cls,
         shares: FloatArray,
-        real: FloatArray,
+        sliding: FloatArray,
         model: FloatArray,
         hazard: HazardCurve,
         estimator: Estimator,
@@ -85,31 +85,31 @@ class RateCurve:
         weights: FloatArray,
     ) -> RateCurve:
         """Return the rates for capacities of the real building, shape (motions,), and of models, (shares, motions)."""
-        both = np.concatenate([real[None], model])
-        whole = rate_parts(both, hazard, estimator, np.ones((1, len(real)))).total(extrapolate)[0]
+        both = np.concatenate([sliding[None], model])
+        whole = rate_parts(both, hazard, estimator, np.ones((1, len(sliding)))).total(extrapolate)[0]
         drawn = rate_parts(both, hazard, estimator, weights).total(extrapolate)
         return cls(shares, float(whole[0]), whole[1:], drawn[:, 0], drawn[:, 1:])
 
     @property
     def kind(self) -> Kind:
         """How often the curve of models crosses the rate of the real building."""
-        return kind_of(is_below(self.model, np.full(self.model.shape, self.real)))
+        return kind_of(is_below(self.model, np.full(self.model.shape, self.sliding)))
 
     @property
     def brackets(self) -> list[tuple[float, float]]:
         """Neighbouring shares between which the curve of models crosses the rate of the real building."""
-        return crossings(self.shares, self.model, np.array(self.real))
+        return crossings(self.shares, self.model, np.array(self.sliding))
 
     @property
     def value(self) -> float:
         """The share by interpolation on the grid."""
-        return float(interpolated(self.shares, self.model[None], np.full((1, len(self.shares)), self.real))[0])
+        return float(interpolated(self.shares, self.model[None], np.full((1, len(self.shares)), self.sliding))[0])
 
     @property
     def value_draws(self) -> FloatArray:
         """The share in each resample, by interpolation on the grid, shape (resamples,)."""
-        real = np.broadcast_to(self.real_draws[:, None], self.model_draws.shape)
-        return interpolated(self.shares, self.model_draws, real)
+        sliding = np.broadcast_to(self.sliding_draws[:, None], self.model_draws.shape)
+        return interpolated(self.shares, self.model_draws, sliding)
 
     def at(self, share: float) -> tuple[float, FloatArray]:
         """Return the rate of the model at a share of the grid, and that of each resample."""
@@ -194,25 +194,25 @@ class RiskSearch:
             self.weights,
         )
 
-    def found(self) -> FoundShare:
+    def answer(self) -> FoundShare:
         """Return the share, its roots refined on the exact models; every motion must bring each model to the limit."""
         missing = int((~np.isfinite(self.capacities)).sum(axis=1).max())
         if missing:
             requirement = f"reached by all models under all motions, below {HIGHEST:g} times the elastic intensity"
             raise refusal(InvalidOption, "limit", OWNER, requirement, f"{missing} motions that do not reach it")
-        if not self.rates.real > 0.0:
+        if not self.rates.sliding > 0.0:
             requirement = "exceeded within the hazard curve"
-            raise refusal(InvalidOption, "limit", OWNER, requirement, f"a rate of {self.rates.real:g} a year")
+            raise refusal(InvalidOption, "limit", OWNER, requirement, f"a rate of {self.rates.sliding:g} a year")
         if without_friction(self.scene):  # the real building is the bare one, whatever the curve does
             return FoundShare(0.0, "zero", (), True)
         if not self._slides():
             return FoundShare(1.0, "stuck", (), True)
-        ratios: list[float] = (self.rates.model / self.rates.real - 1.0).tolist()
+        ratios: list[float] = (self.rates.model / self.rates.sliding - 1.0).tolist()
         known: dict[float, float] = dict(zip(self.grid.tolist(), ratios, strict=True))
 
         def difference(share: float) -> float:
             if share not in known:
-                known[share] = self.rate_at(share) / self.rates.real - 1.0
+                known[share] = self.rate_at(share) / self.rates.sliding - 1.0
             return known[share]
 
         kind = self.rates.kind
@@ -232,8 +232,8 @@ class RiskSearch:
     def _slides(self) -> bool:
         """Whether goods slide under any motion that brings the real building to the limit."""
         motion = np.arange(len(self.setting.motions))
-        at = self.capacities[0]
-        table = solve_runs(self.setting, np.zeros_like(motion), motion, at, threads=self.options.threads)
+        capacities = self.capacities[0]
+        table = solve_runs(self.setting, np.zeros_like(motion), motion, capacities, threads=self.options.threads)
         return bool(np.any(table["slip"].to_numpy() > 0.0))
 
 
@@ -246,14 +246,14 @@ def rate_table(search: RiskSearch, several: bool) -> pl.DataFrame:
     rates, options = search.rates, search.options
     rows = []
     models = (
-        ("real", None, rates.real, rates.real_draws),
+        ("real", None, rates.sliding, rates.sliding_draws),
         ("code", options.code_share, *rates.at(options.code_share)),
         ("attached", 1.0, *rates.at(1.0)),
         ("none", 0.0, *rates.at(0.0)),
     )
     for name, share, rate, draws in models:
         low, high = interval(draws, options.confidence) if several else (None, None)
-        ratio = _ratio(rates.real_draws, draws, options.confidence) if several else (None, None)
+        ratio = _ratio(rates.sliding_draws, draws, options.confidence) if several else (None, None)
         rows.append(
             {
                 "model": name,
@@ -262,7 +262,7 @@ def rate_table(search: RiskSearch, several: bool) -> pl.DataFrame:
                 "rate_low": low,
                 "rate_high": high,
                 "probability_50_years": float(-np.expm1(-50.0 * rate)),
-                "real_over_model": rates.real / rate if rate > 0.0 else None,
+                "real_over_model": rates.sliding / rate if rate > 0.0 else None,
                 "real_over_model_low": ratio[0],
                 "real_over_model_high": ratio[1],
             }
@@ -279,15 +279,15 @@ def curve_table(rates: RateCurve, confidence: float, several: bool) -> pl.DataFr
     for index, share in enumerate(rates.shares.tolist()):
         rate, draws = float(rates.model[index]), rates.model_draws[:, index]
         low, high = interval(draws, confidence) if several else (None, None)
-        ratio = _ratio(rates.real_draws, draws, confidence) if several else (None, None)
+        ratio = _ratio(rates.sliding_draws, draws, confidence) if several else (None, None)
         rows.append(
             {
                 "fraction": share,
                 "rate": rate,
                 "rate_low": low,
                 "rate_high": high,
-                "real_rate": rates.real,
-                "real_over_model": rates.real / rate if rate > 0.0 else None,
+                "real_rate": rates.sliding,
+                "real_over_model": rates.sliding / rate if rate > 0.0 else None,
                 "real_over_model_low": ratio[0],
                 "real_over_model_high": ratio[1],
             }
@@ -325,7 +325,7 @@ def capacity_table(search: RiskSearch) -> pl.DataFrame:
 
 
 def sensitivity_table(
-    search: RiskSearch, capacities: dict[float, FloatArray], found: FoundShare, several: bool
+    search: RiskSearch, capacities: dict[float, FloatArray], answer: FoundShare, several: bool
 ) -> pl.DataFrame:
     """Return one row per changed assumption with its share and rates; see `RiskTargetedShare.sensitivity`. There are
     intervals where `several` earthquakes are there.
@@ -333,31 +333,31 @@ def sensitivity_table(
     rows = []
 
     def add(parameter: str, setting: str, rates: RateCurve) -> None:
-        draws = np.full(1, found.value) if found.by_friction else rates.value_draws
+        draws = np.full(1, answer.value) if answer.by_friction else rates.value_draws
         low, high = interval(draws, search.options.confidence) if several else (None, None)
         code, full = (rates.at(share)[0] for share in (search.options.code_share, 1.0))
-        positive = rates.real > 0.0
+        positive = rates.sliding > 0.0
         rows.append(
             {
                 "parameter": parameter,
                 "setting": setting,
-                "value": None if not positive else found.value if found.by_friction else rates.value,
+                "value": None if not positive else answer.value if answer.by_friction else rates.value,
                 "low": low if positive else None,
                 "high": high if positive else None,
-                "kind": found.kind if found.by_friction else rates.kind,
-                "real_rate": rates.real,
+                "kind": answer.kind if answer.by_friction else rates.kind,
+                "real_rate": rates.sliding,
                 "code_rate": code,
                 "attached_rate": full,
-                "real_over_code": rates.real / code if code > 0.0 else None,
+                "real_over_code": rates.sliding / code if code > 0.0 else None,
             }
         )
 
     add("as asked for", "", search.rates)
     limit = search.options.limit
-    for value, own in sorted(capacities.items()):
-        if value != limit.value and np.isfinite(own).all():
+    for value, capacities_at in sorted(capacities.items()):
+        if value != limit.value and np.isfinite(capacities_at).all():
             shown = f"{limit.shown_scale * value:.4g} {'%' if limit.quantity == 'drift_ratio' else 'mm'}"
-            add("limit", shown, search.rates_of(own))
+            add("limit", shown, search.rates_of(capacities_at))
     for factor in SLOPE_FACTORS:
         add("hazard slope", f"x {factor:g}", search.rates_of(search.capacities, hazard=search.hazard.tilted(factor)))
     for other in get_args(Estimator):
@@ -367,7 +367,7 @@ def sensitivity_table(
     return pl.DataFrame(rows, schema_overrides=kinds, infer_schema_length=None)
 
 
-def risk_remarks(search: RiskSearch, found: FoundShare, reason: str) -> tuple[str, ...]:
+def risk_remarks(search: RiskSearch, answer: FoundShare, reason: str) -> tuple[str, ...]:
     """Return assumptions, and what a user must know beside the numbers."""
     rates, motions = search.rates, len(search.setting.motions)
     asked = ((limit.quantity, limit.value) for limit in (search.options.limit,))
@@ -376,18 +376,18 @@ def risk_remarks(search: RiskSearch, found: FoundShare, reason: str) -> tuple[st
         "the same motions are scaled to all intensities, whereas those that a site has change their spectra with the "
         "intensity",
     ]
-    if found.kind == "multiple":
-        listed = ", ".join(f"{root:.3f}" for root in found.roots)
-        remarks.append(f"{len(found.roots)} shares give the same rate ({listed}); the largest counts")
-    if found.kind == "one":
+    if answer.kind == "multiple":
+        listed = ", ".join(f"{root:.3f}" for root in answer.roots)
+        remarks.append(f"{len(answer.roots)} shares give the same rate ({listed}); the largest counts")
+    if answer.kind == "one":
         remarks.append(
-            f"with sliding goods the limit is exceeded {rates.real / float(rates.model[-1]):.3g} times as often as "
+            f"with sliding goods the limit is exceeded {rates.sliding / float(rates.model[-1]):.3g} times as often as "
             f"with all goods attached"
         )
     parts = rate_parts(search.capacities[:1], search.hazard, search.options.estimator, np.ones((1, motions)))
     if not search.options.extrapolate:
-        within, below, above = (float(part[0, 0]) for part in (parts.within, parts.below, parts.above))
-        remarks += truncation_remarks(within, below, above, search.hazard)
+        inside_rate, below, above = (float(part[0, 0]) for part in (parts.within, parts.below, parts.above))
+        remarks += truncation_remarks(inside_rate, below, above, search.hazard)
     outside = int((search.capacities[0] > search.hazard.sa_g[-1]).sum())
     if outside:
         remarks.append(
@@ -401,8 +401,8 @@ def risk_remarks(search: RiskSearch, found: FoundShare, reason: str) -> tuple[st
     return tuple(remarks)
 
 
-def _ratio(real: FloatArray, model: FloatArray, confidence: float) -> tuple[Any, Any]:
+def _ratio(sliding: FloatArray, model: FloatArray, confidence: float) -> tuple[Any, Any]:
     """Interval of the rate of the real building over that of a model, in the same resamples; None where one is zero."""
     if not (model > 0.0).all():
         return None, None
-    return interval(real / model, confidence)
+    return interval(sliding / model, confidence)

@@ -47,7 +47,7 @@ from seismass.motions.motion import HasMotion, Motion, MotionLike
 from seismass.runs.simulate import instruction_set
 from seismass.studies.fragility.hunt import exact_capacities
 from seismass.studies.fragility.limits import IntensityMeasure, LimitState, MeasureName
-from seismass.studies.fragility.run import DEFAULT_CODE_SHARE, REAL, Setting, setting_of
+from seismass.studies.fragility.run import DEFAULT_CODE_SHARE, SLIDING, Setting, setting_of
 from seismass.studies.risk.hazard import DESIGN_RATE, HazardCurve, check_hazard
 from seismass.studies.risk.tables import (
     OWNER,
@@ -100,7 +100,7 @@ class RiskTargetedShare(Result):
     real, code, attached, model : float
         Annual rate (1/year) of the real building, and of the models with `code_share`, all goods, and `value` attached.
     excess : float
-        real / model - 1; zero but for rounding where the value is a root.
+        real / model - 1; zero except for rounding where the value is a root.
     code_share : float
         Share of the code's model.
     rates : polars.DataFrame
@@ -177,7 +177,7 @@ class RiskTargetedShare(Result):
         }
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything but the curve and the capacities as plain values; null for what is not finite."""
+        """Return everything but the curve and the capacities as plain values; null for non-finite values."""
         names = ["value", "kind", "roots", "interval", "confidence", "estimator", "real", "code", "attached", "model"]
         names += ["excess", "code_share", "remarks", "metadata"]
         document: dict[str, Any] = {"schema_version": SCHEMA_VERSION}
@@ -263,13 +263,13 @@ def risk_targeted_share(
         Intensity measure in g, the one that the hazard curve is of; see `seismass.fragility.IntensityMeasure`. By
         default Sa at the period of the hazard curve, or else at the first period of the building without goods. All
         models have the same.
-    damping : {"same", "ratio"}
+    damping : {"same", "ratio"}, default "same"
         Damping of the models, see `attached_scene`.
     code_share : float, default 0.25
         Share whose rate is reported as the code's.
     shares : array_like, optional
         Shares at which models are solved before roots are refined, from 0 to 1; by default 0, 0.05, ..., 1.
-    estimator : {"lognormal", "empirical"}
+    estimator : {"lognormal", "empirical"}, default "lognormal"
         Fragility of each model: lognormal through the capacities of the motions by maximum likelihood, or a step at
         each of them.
     extrapolate : bool, default False
@@ -339,11 +339,11 @@ def risk_targeted_share(
     )
     limits = _limits(options.limit, other_limits)
     design = as_number(design_rate, "design_rate", OWNER, InvalidOption)
-    given = _listed(motions)
-    at = curve.period if period is None and not isinstance(measure, IntensityMeasure) else period
-    models = {REAL: checked} | {f"{share:.12g}": attached(checked, float(share), options.damping) for share in grid}
+    listed = _listed(motions)
+    period_used = curve.period if period is None and not isinstance(measure, IntensityMeasure) else period
+    models = {SLIDING: checked} | {f"{share:.12g}": attached(checked, float(share), options.damping) for share in grid}
     slip = LimitState("slip", 0.0)
-    setting = setting_of(models, given, (*limits, slip), measure, at, OWNER, threads=options.threads)
+    setting = setting_of(models, listed, (*limits, slip), measure, period_used, OWNER, threads=options.threads)
     _check_measure(setting.measure, curve)
     steps = len(limits) + 2
 
@@ -356,44 +356,44 @@ def risk_targeted_share(
         capacities[each.value] = exact_capacities(setting, each, threads=options.threads)
         done(number)
     search = RiskSearch(checked, setting, curve, options, grid, capacities[options.limit.value])
-    found = search.found()
+    answer = search.answer()
     done(steps - 1)
-    effective, reason = _effective(checked, given, setting, curve, design, options, grid)
+    effective, reason = _effective(checked, listed, setting, curve, design, options, grid)
     done(steps)
     rates, several = search.rates, setting.motions.clusters > 1
-    model = search.rate_at(found.value) if found.roots else rates.at(found.value)[0]
-    draws = np.full(1, found.value) if found.by_friction else rates.value_draws
+    model = search.rate_at(answer.value) if answer.roots else rates.at(answer.value)[0]
+    draws = np.full(1, answer.value) if answer.by_friction else rates.value_draws
     code, full = (rates.at(share)[0] for share in (options.code_share, 1.0))
-    chosen = _chosen(options, grid, setting.measure, curve, design)
+    settings = _settings_of(options, grid, setting.measure, curve, design)
     return RiskTargetedShare(
-        value=found.value,
-        kind=found.kind,
-        roots=found.roots,
+        value=answer.value,
+        kind=answer.kind,
+        roots=answer.roots,
         interval=interval(draws, options.confidence) if several else None,
         confidence=options.confidence,
         limit=options.limit,
         estimator=options.estimator,
-        real=rates.real,
+        real=rates.sliding,
         code=code,
         attached=full,
         model=model,
-        excess=rates.real / model - 1.0,
+        excess=rates.sliding / model - 1.0,
         code_share=options.code_share,
         rates=rate_table(search, several),
         curve=curve_table(rates, options.confidence, several),
         fragilities=fragility_table(search),
         capacities=capacity_table(search),
-        sensitivity=sensitivity_table(search, capacities, found, several),
+        sensitivity=sensitivity_table(search, capacities, answer, several),
         hazard=curve,
         measure=setting.measure,
         effective=effective,
-        remarks=risk_remarks(search, found, reason),
+        remarks=risk_remarks(search, answer, reason),
         metadata={
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
-            "inputs_sha256": inputs_digest(checked, motion_contents(setting.motions.components), chosen),
-            **chosen,
+            "inputs_sha256": inputs_digest(checked, motion_contents(setting.motions.components), settings),
+            **settings,
             "motions": len(setting.motions),
             "clusters": setting.motions.clusters,
         },
@@ -420,7 +420,7 @@ def _effective(
         (each if hasattr(each, "scaled") else each.motion).scaled(level / unit)
         for each, unit in zip(motions, setting.unit.tolist(), strict=True)
     ]
-    found = effective_mass(
+    effective = effective_mass(
         scene,
         scaled,
         damping=options.damping,
@@ -430,10 +430,10 @@ def _effective(
         seed=options.seed,
         threads=options.threads,
     )
-    return found, ""
+    return effective, ""
 
 
-def _chosen(
+def _settings_of(
     options: RiskOptions, grid: FloatArray, measure: IntensityMeasure, hazard: HazardCurve, design: float
 ) -> dict[str, Any]:
     """Everything that the numbers depend on beside scene and motions, as plain values."""

@@ -85,12 +85,12 @@ def as_clearances(clearance: Any, blocks: int, *, plane: bool = False) -> tuple[
     """Return one clearance per block: a distance (all sides, with `plane` those of y too) or a Clearance for all, or a
     list with None for none.
     """
-    found = _clearances(clearance, blocks, 4 if plane else 2)
-    for number, each in enumerate(found, start=1):
+    listed = _clearances(clearance, blocks, 4 if plane else 2)
+    for number, each in enumerate(listed, start=1):
         if not plane and each is not None and each.of_plane:
             requirement = "of plus and minus alone where there is one direction"
             raise refusal(InvalidOption, f"clearance of block {number}", "slip demand", requirement, brief(each))
-    return found
+    return listed
 
 
 def _clearances(clearance: Any, blocks: int, sides: int) -> tuple[Clearance | None, ...]:
@@ -323,9 +323,9 @@ def without_loose_goods(scene: Scene, *, attached: bool) -> Scene:
     )
 
 
-def _with_springs_in_y(rack: Rack, in_y: Rack, given: Rack) -> Rack:
+def _with_springs_in_y(rack: Rack, in_y: Rack, stated: Rack) -> Rack:
     """A rack with the springs of another in y; what else differs there stays as it was given."""
-    other = {key: value for key, value in (given.other_direction or {}).items() if key not in _MADE_ANEW}
+    other = {key: value for key, value in (stated.other_direction or {}).items() if key not in _MADE_ANEW}
     other["stiffness"] = in_y.stiffness
     if in_y.yield_shear is not None:
         other["yield_shear"] = in_y.yield_shear
@@ -339,13 +339,13 @@ _MADE_ANEW: Final = ("period", "stiffness", "yield_shear", "yield_shear_over_wei
 def _emptied(rack: Rack, floor_masses: FloatArray, scale: float, *, attached: bool) -> Rack:
     """Return a rack with its loose goods removed or fixed, and ratios of masses times `scale`; springs as they are."""
     alone = rack.alone(float(floor_masses[rack.floor - 1]) if rack.floor else np.nan)
-    kept = []
+    blocks = []
     for each in rack.blocks:
         if each.fixed or attached:
             mass, ratio = each.block.mass, each.block.mass_ratio
             scaled = None if ratio is None else scale * ratio
-            kept.append(RackBlock(each.level, mass=mass, mass_ratio=scaled, fixed=True))
-    changes: dict[str, Any] = {"period": None, "stiffness": alone.stiffness, "blocks": kept}
+            blocks.append(RackBlock(each.level, mass=mass, mass_ratio=scaled, fixed=True))
+    changes: dict[str, Any] = {"period": None, "stiffness": alone.stiffness, "blocks": blocks}
     if rack.level_mass_ratio is not None:
         changes["level_mass_ratio"] = scale * rack.level_mass_ratio
     if rack.yield_shear_over_weight is not None:

@@ -25,7 +25,7 @@ from seismass.studies.fragility.analysis import incremental_dynamic_analysis
 from seismass.studies.fragility.fragility import Fragility
 from seismass.studies.fragility.hunt import HuntAndFill
 from seismass.studies.fragility.limits import IntensityMeasure, LimitState, MeasureName, measure_for
-from seismass.studies.fragility.run import REAL
+from seismass.studies.fragility.run import SLIDING
 from seismass.studies.slip.clearance import Clearance, as_clearances, exceedance_table
 from seismass.studies.slip.runs import SlipModels, SlipRuns, solve_motion
 from seismass.studies.slip.squat import BlockSize, as_sizes
@@ -65,8 +65,8 @@ def slip_fragilities(
         for number, each in enumerate(clearances, start=1)
         if each is not None
     }
-    found = incremental_dynamic_analysis(
-        {REAL: scene},
+    analysis = incremental_dynamic_analysis(
+        {SLIDING: scene},
         motions,
         list(limits.values()),
         measure=measure,
@@ -76,7 +76,7 @@ def slip_fragilities(
         seed=seed,
         threads=threads,
     )
-    return {number: found.fragility(limit, REAL) for number, limit in limits.items()}, found.remarks
+    return {number: analysis.fragility(limit, SLIDING) for number, limit in limits.items()}, analysis.remarks
 
 
 SCHEMA_VERSION: Final = 2
@@ -175,7 +175,7 @@ class SlipDemand(Result):
         return {name: table for name, table in every.items() if table.height}
 
     def to_dict(self) -> dict[str, Any]:
-        """Return everything but the rows of single runs as plain values; null for what is not finite."""
+        """Return everything but the rows of single runs as plain values; null for non-finite values."""
         document = {
             "schema_version": SCHEMA_VERSION,
             "blocks": self.blocks.to_dicts(),
@@ -249,11 +249,11 @@ def slip_demand(
     measure, period
         Intensity measure of fragilities, as for `seismass.fragility.measure_for`: by default Sa (g) at the first period
         of the building without goods.
-    damping : {"same", "ratio"}
+    damping : {"same", "ratio"}, default "same"
         Damping of the models of the building alone and with all goods attached, see `attached_scene`.
     confidence : float, default 0.90
         Probability of intervals.
-    resamples, seed : int
+    resamples, seed : int, optional
         Bootstrap resamples over the motions, and their seed.
     threads : int, optional
         Number of threads of the runs for fragilities; default all cores. The result does not depend on it.
@@ -306,11 +306,11 @@ def slip_demand(
         raise refusal(InvalidScene, "scene", OWNER, "a Scene", brief(scene))
     if not scene.goods:
         raise refusal(InvalidScene, "blocks", OWNER, "at least one", "none")
-    given: Any = motions
+    listed: Any = motions
     if not isinstance(motions, Motion | HasMotion | Pair) and isinstance(motions, Iterable):
-        given = list(motions)
+        listed = list(motions)
     scene.on_ground("slip_demand")
-    named = named_motions(given, OWNER, scene)
+    named = named_motions(listed, OWNER, scene)
     count, in_plane = len(scene.goods), scene.other_direction is not False
     measured, limits = as_sizes(sizes, count), as_clearances(clearance, count, plane=in_plane)
     probability = as_number(confidence, "confidence", OWNER, InvalidOption)
@@ -324,14 +324,14 @@ def slip_demand(
     models = SlipModels.of(scene, check_damping(damping, OWNER))
     solved = []
     if fragility:
-        scene.of_chain("slip_demand with a fragility")
+        scene.require_chain("slip_demand with a fragility")
     others: list[Any] = [None] * len(named) if named.others is None else list(named.others)
     for number, (motion, other) in enumerate(zip(named.motions, others, strict=True), start=1):
         solved.append(solve_motion(models, motion, other))
         if report is not None:
             report(number, len(named))
     runs = SlipRuns.of(solved)
-    chosen: dict[str, Any] = {
+    settings: dict[str, Any] = {
         "damping": damping,
         "confidence": probability,
         "resamples": draws,
@@ -342,13 +342,13 @@ def slip_demand(
     fragilities: dict[int, Fragility] = {}
     of_fragilities: tuple[str, ...] = ()
     if fragility:
-        chosen_measure = measure_for(measure, scene, period)
-        chosen["measure"] = chosen_measure.to_dict()
+        measure_used = measure_for(measure, scene, period)
+        settings["measure"] = measure_used.to_dict()
         fragilities, of_fragilities = slip_fragilities(
             scene,
-            given,
+            listed,
             limits,
-            chosen_measure,
+            measure_used,
             confidence=probability,
             resamples=draws,
             seed=start,
@@ -377,9 +377,9 @@ def slip_demand(
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
-            "inputs_sha256": inputs_digest(scene, motion_contents(named.components), chosen),
+            "inputs_sha256": inputs_digest(scene, motion_contents(named.components), settings),
             "motions": len(named),
             "clusters": named.clusters,
-            **chosen,
+            **settings,
         },
     )

@@ -49,7 +49,7 @@ class PlaneSolved:
     """
 
     slip: PlaneSlip
-    real: PlaneResponse
+    sliding: PlaneResponse
     ground: PlaneResponse
     moving: NDArray[np.bool_]
     acceleration: FloatArray
@@ -67,33 +67,36 @@ def solve_pair(
     """
     x, y = motions
     nodes = np.array([place.node for place in places_of(scene)], dtype=np.int64)
-    real = simulate(scene, motions, histories=True, events=False)
+    sliding = simulate(scene, motions, histories=True, events=False)
     ground_velocity = np.stack([integrals(each.acceleration, each.dt)[0] for each in motions], axis=1)
-    standing = np.concatenate([0.0 * ground_velocity[:, None, :], real.floor_velocity, real.rack_velocity], axis=1)
-    rate = real.block_velocity - standing[:, nodes]
+    standing = np.concatenate(
+        [0.0 * ground_velocity[:, None, :], sliding.floor_velocity, sliding.rack_velocity], axis=1
+    )
+    rate = sliding.block_velocity - standing[:, nodes]
     sides = [
-        signed_peaks(real.slip[:, :, axis], rate[:, :, axis], x.dt, real.peak_slip[:, axis]) for axis in range(VECTOR)
+        signed_peaks(sliding.slip[:, :, axis], rate[:, :, axis], x.dt, sliding.peak_slip[:, axis])
+        for axis in range(VECTOR)
     ]
     each_alone = [
         simulate(one, motion, events=False).peak_slip for one, motion in zip(scene._directions(), motions, strict=True)
     ]
     ground_peak = float(np.hypot(x.acceleration, y.acceleration).max())
-    accelerations = _peaks_at_nodes(real, ground_peak)
+    accelerations = _peaks_at_nodes(sliding, ground_peak)
     speeds = np.nanmax(np.hypot(*np.moveaxis(standing + ground_velocity[:, None, :], -1, 0)), axis=0)
     return PlaneSolved(
         slip=PlaneSlip(
-            peak=real.peak_slip[:, :VECTOR],
+            peak=sliding.peak_slip[:, :VECTOR],
             plus=np.stack([plus for plus, _ in sides], axis=1),
             minus=np.stack([minus for _, minus in sides], axis=1),
-            residual=real.residual_slip,
+            residual=sliding.residual_slip,
             alone=np.stack(each_alone, axis=1),
         ),
-        real=real,
+        sliding=sliding,
         ground=simulate(on_the_ground, motions, events=False),
         moving=np.hypot(*np.moveaxis(rate[-1], -1, 0)) > 0.0,
         acceleration=accelerations[nodes],
         velocity=speeds[nodes],
-        demand=_demands_plane_runs(real, motions, accelerations)[nodes],
+        demand=_demands_plane_runs(sliding, motions, accelerations)[nodes],
         alone_acceleration=_without_goods(alone, motions, nodes, ground_peak),
         full_acceleration=_without_goods(full, motions, nodes, ground_peak),
     )
@@ -126,8 +129,8 @@ def _demands_plane_runs(response: PlaneResponse, motions: PlaneMotion, peaks: Fl
     weight = STANDARD_GRAVITY + x.vertical
     with np.errstate(divide="ignore", invalid="ignore"):
         share = np.where(weight[:, None] > 0.0, np.hypot(every[..., 0], every[..., 1]) / weight[:, None], np.inf)
-    found: FloatArray = np.nanmax(share, axis=0)
-    return found
+    demand: FloatArray = np.nanmax(share, axis=0)
+    return demand
 
 
 @dataclass(frozen=True, slots=True)
@@ -237,13 +240,13 @@ def solve_motion(models: SlipModels, motion: Motion, other: Motion | None = None
         return _solve_pair(models, (motion, other))
     scene = models.scene
     nodes = np.array([place.node for place in places_of(scene)], dtype=np.int64)
-    real = simulate(scene, motion, histories=True, events=False)
+    sliding = simulate(scene, motion, histories=True, events=False)
     ground = simulate(models.ground, motion, events=False)
     ground_velocity, _ = integrals(motion.acceleration, motion.dt)
     base = _ground_base(motion, ground_velocity)
-    standing = histories_at_nodes(real, "floor_velocity", "rack_velocity", 0.0 * ground_velocity)
-    rate = real.block_velocity - standing[:, nodes]
-    plus, minus = signed_peaks(real.slip, rate, motion.dt, real.peak_slip)
+    standing = histories_at_nodes(sliding, "floor_velocity", "rack_velocity", 0.0 * ground_velocity)
+    rate = sliding.block_velocity - standing[:, nodes]
+    plus, minus = signed_peaks(sliding.slip, rate, motion.dt, sliding.peak_slip)
     alone = None if models.alone is None else simulate(models.alone, motion, histories=True, events=False)
     full = None if models.full is None else simulate(models.full, motion, events=False)
     rows = [
@@ -252,24 +255,24 @@ def solve_motion(models: SlipModels, motion: Motion, other: Motion | None = None
     ]
     if alone is not None and alone.status == "completed":
         rows += _floor_estimates(scene, alone, motion, ground_velocity)
-    accelerations = at_nodes(real, "peak_floor_acceleration", "peak_rack_acceleration", base.acceleration)
+    accelerations = at_nodes(sliding, "peak_floor_acceleration", "peak_rack_acceleration", base.acceleration)
     velocities = np.nanmax(np.abs(standing + ground_velocity[:, None]), axis=0)
     velocities[0] = base.velocity
     return SolvedMotion(
-        peak=real.peak_slip,
+        peak=sliding.peak_slip,
         plus=plus,
         minus=minus,
-        residual=real.residual_slip,
-        path=real.slip_path,
-        contact_force=real.peak_contact_force,
-        contact_velocity=real.peak_contact_velocity,
+        residual=sliding.residual_slip,
+        path=sliding.slip_path,
+        contact_force=sliding.peak_contact_force,
+        contact_velocity=sliding.peak_contact_velocity,
         moving=np.abs(rate[-1]) > 0.0,
-        collapsed=real.status == "collapsed",
+        collapsed=sliding.status == "collapsed",
         ground_peak=ground.peak_slip,
         ground_residual=ground.residual_slip,
         acceleration=accelerations[nodes],
         velocity=velocities[nodes],
-        demand=_demands(real, motion, accelerations)[nodes],
+        demand=_demands(sliding, motion, accelerations)[nodes],
         alone_acceleration=_peaks(alone, nodes, base.acceleration),
         full_acceleration=_peaks(full, nodes, base.acceleration),
         estimates=rows,
@@ -278,25 +281,25 @@ def solve_motion(models: SlipModels, motion: Motion, other: Motion | None = None
 
 def _solve_pair(models: SlipModels, motions: PlaneMotion) -> SolvedMotion:
     """Solve the models in two directions."""
-    found = solve_pair(models.scene, models.ground, models.alone, models.full, motions)
-    real, ground, sides = found.real, found.ground, found.slip
+    pair = solve_pair(models.scene, models.ground, models.alone, models.full, motions)
+    sliding, ground, sides = pair.sliding, pair.ground, pair.slip
     return SolvedMotion(
-        peak=real.peak_slip[:, VECTOR],
+        peak=sliding.peak_slip[:, VECTOR],
         plus=sides.plus[:, 0],
         minus=sides.minus[:, 0],
-        residual=np.hypot(*real.residual_slip.T),
-        path=real.slip_path,
-        contact_force=real.peak_contact_force.max(axis=1),
-        contact_velocity=real.peak_contact_velocity.max(axis=1),
-        moving=found.moving,
-        collapsed=real.status == "collapsed",
+        residual=np.hypot(*sliding.residual_slip.T),
+        path=sliding.slip_path,
+        contact_force=sliding.peak_contact_force.max(axis=1),
+        contact_velocity=sliding.peak_contact_velocity.max(axis=1),
+        moving=pair.moving,
+        collapsed=sliding.status == "collapsed",
         ground_peak=ground.peak_slip[:, VECTOR],
         ground_residual=np.hypot(*ground.residual_slip.T),
-        acceleration=found.acceleration,
-        velocity=found.velocity,
-        demand=found.demand,
-        alone_acceleration=found.alone_acceleration,
-        full_acceleration=found.full_acceleration,
+        acceleration=pair.acceleration,
+        velocity=pair.velocity,
+        demand=pair.demand,
+        alone_acceleration=pair.alone_acceleration,
+        full_acceleration=pair.full_acceleration,
         estimates=[],
         plane=sides,
     )

@@ -24,18 +24,16 @@ from seismass.studies.slip.squat import BlockSize, log_ratio
 def block_table(
     scene: Scene, motions: NamedMotions, runs: SlipRuns, confidence: float, resamples: int, seed: int
 ) -> pl.DataFrame:
-    """Return one row per block: its slip over the motions, that on the ground, and floor accelerations; see
-    `SlipDemand.blocks`.
-    """
+    """Return one row per block: slips over the motions and on the ground, accelerations; see `SlipDemand.blocks`."""
     slip = runs.or_infinite(runs.peak)
     residual = runs.or_infinite(np.abs(runs.residual))
     weights = _weights(motions, resamples, seed)
     rows = []
     places = places_of(scene)
     for number, block in enumerate(scene.goods):
-        own, ground = slip[:, number], runs.ground_peak[:, number]
-        pooled, low, high = _pooled_ratio(own, ground, weights, confidence)
-        ratios = amplification(own, ground)
+        slips, ground = slip[:, number], runs.ground_peak[:, number]
+        pooled, low, high = _pooled_ratio(slips, ground, weights, confidence)
+        ratios = amplification(slips, ground)
         both = ratios[np.isfinite(ratios)]
         accelerations = {
             "floor_acceleration_g": runs.acceleration[:, number],
@@ -48,10 +46,10 @@ def block_table(
                 **{name: getattr(places[number], name) for name in place_names(scene)},
                 "mu_s": block.mu_s,
                 "mu_k": block.mu_k,
-                "mean": _mean(own),
-                **_quantiles(own),
-                "largest": float(own.max()),
-                "slides": float((own > 0.0).mean()),
+                "mean": _mean(slips),
+                **_quantiles(slips),
+                "largest": float(slips.max()),
+                "slides": float((slips > 0.0).mean()),
                 "residual_mean": _mean(residual[:, number]),
                 **{f"residual_{name}": value for name, value in _quantiles(residual[:, number]).items()},
                 "residual_largest": float(residual[:, number].max()),
@@ -66,7 +64,7 @@ def block_table(
                 "amplification_p16": _quantile(both, 0.16),
                 "amplification_median": _quantile(both, 0.50),
                 "amplification_p84": _quantile(both, 0.84),
-                "slides_on_floor_only": int(((own > 0.0) & (ground == 0.0)).sum()),
+                "slides_on_floor_only": int(((slips > 0.0) & (ground == 0.0)).sum()),
                 **{name: _mean(values) / STANDARD_GRAVITY for name, values in accelerations.items()},
                 "mu_over_attached": _mean(block.mu_s * STANDARD_GRAVITY / accelerations["attached_acceleration_g"]),
                 **_contact(scene, runs, number),
@@ -100,22 +98,22 @@ def _in_plane(runs: SlipRuns, number: int) -> dict[str, float]:
     """Slip of a block by direction, and over that of one direction alone; nothing where there is one."""
     if runs.plane is None:
         return {}
-    own, alone = (values[:, number] for values in (runs.plane.peak, runs.plane.alone))
+    peaks, alone = (values[:, number] for values in (runs.plane.peak, runs.plane.alone))
     lost = runs.collapsed[:, None]
-    kept = ~runs.collapsed
-    pooled = float(alone[kept].sum())
+    valid = ~runs.collapsed
+    pooled = float(alone[valid].sum())
     by_axis = {
         f"{axis}_{name}": value
         for index, axis in enumerate("xy")
         for name, value in zip(
-            ("mean", "largest"), _mean_and_largest(np.where(lost, np.inf, own)[:, index]), strict=True
+            ("mean", "largest"), _mean_and_largest(np.where(lost, np.inf, peaks)[:, index]), strict=True
         )
     }
     return {
         **by_axis,
-        "one_direction_mean": _mean(alone[kept].ravel()),
-        "over_one_direction": float(own[kept].sum()) / pooled if pooled > 0.0 else np.nan,
-        "length_over_one_direction": 2.0 * float(runs.peak[kept, number].sum()) / pooled if pooled > 0.0 else np.nan,
+        "one_direction_mean": _mean(alone[valid].ravel()),
+        "over_one_direction": float(peaks[valid].sum()) / pooled if pooled > 0.0 else np.nan,
+        "length_over_one_direction": 2.0 * float(runs.peak[valid, number].sum()) / pooled if pooled > 0.0 else np.nan,
     }
 
 
@@ -197,9 +195,9 @@ def squat_table(scene: Scene, runs: pl.DataFrame, sizes: tuple[BlockSize | None,
     for number, (block, place, size) in enumerate(zip(scene.goods, places_of(scene), sizes, strict=True), start=1):
         if size is None:
             continue
-        own = runs.filter(block=number)
+        runs_of_block = runs.filter(block=number)
         static = max([block.mu_s, *(mu_s for _, mu_s, _ in block.wear)])
-        limits = own["overturning_limits_exceeded"]
+        limits = runs_of_block["overturning_limits_exceeded"]
         rows.append(
             {
                 "block": number,
@@ -210,9 +208,9 @@ def squat_table(scene: Scene, runs: pl.DataFrame, sizes: tuple[BlockSize | None,
                 "centre_height": size.centre_height,
                 "uplift_g": size.uplift_g,
                 "rocks_first": size.rocks_first(static),
-                "motions": own.height,
-                "uplift": int(own["uplift"].sum()),
-                "acceleration_over_weight": _mean(own["acceleration_over_weight"].to_numpy()),
+                "motions": runs_of_block.height,
+                "uplift": int(runs_of_block["uplift"].sum()),
+                "acceleration_over_weight": _mean(runs_of_block["acceleration_over_weight"].to_numpy()),
                 "overturning_velocity": size.overturning_velocity,
                 "overturning_limits_exceeded": None if limits.null_count() else int(limits.sum()),
             }
@@ -302,8 +300,8 @@ def demand_remarks(
     fragilities: bool,
 ) -> tuple[str, ...]:
     """Return assumptions, and what a user must know beside the numbers."""
-    given = (side for each in clearances if each is not None for side in each.distances if side is not None)
-    remarks = usage_remarks(scene.remarks, motions.components, (("clearance", side) for side in given))
+    sides = (side for each in clearances if each is not None for side in each.distances if side is not None)
+    remarks = usage_remarks(scene.remarks, motions.components, (("clearance", side) for side in sides))
     where = "in one direction" if runs.plane is None else "in the plane"
     meeting = f"goods are rigid, slide {where} and meet no obstacle: slip beyond a clearance is notional"
     if has_stops(scene):
@@ -364,14 +362,14 @@ def _weights(motions: NamedMotions, resamples: int, seed: int) -> FloatArray:
 
 
 def _pooled_ratio(
-    own: FloatArray, ground: FloatArray, weights: FloatArray, confidence: float
+    slips: FloatArray, ground: FloatArray, weights: FloatArray, confidence: float
 ) -> tuple[float | None, float | None, float | None]:
     """Mean slip in the building over mean slip on the ground, with its bootstrap interval, both drawn together."""
-    if not ground.any() or not np.isfinite(own).all():
+    if not ground.any() or not np.isfinite(slips).all():
         return None, None, None
     with np.errstate(divide="ignore", invalid="ignore"):
-        low, high = interval_of((weights @ own) / (weights @ ground), confidence)
-    return float(own.sum() / ground.sum()), float(low), float(high)
+        low, high = interval_of((weights @ slips) / (weights @ ground), confidence)
+    return float(slips.sum() / ground.sum()), float(low), float(high)
 
 
 def _quantiles(values: FloatArray) -> dict[str, float]:

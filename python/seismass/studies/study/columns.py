@@ -55,8 +55,8 @@ SUMMARY_COLUMNS: Final[dict[str, tuple[str, str]]] = {
     **_STOREY,
     "motions": ("", "number of motions"),
     **{
-        f"{name}_{model}": (unit, f"{meaning} ({said})")
-        for model, said in _MODEL_NAMES.items()
+        f"{name}_{model}": (unit, f"{meaning} ({words})")
+        for model, words in _MODEL_NAMES.items()
         for name, (unit, meaning) in _DRIFT_STATISTICS.items()
     },
     "mean_peak_slip": ("m", "mean over the motions of the peak slip of the block on the floor above"),

@@ -170,10 +170,10 @@ class StudyParameters:
         self._unique(name, numbers)
         return tuple(numbers)
 
-    def _tuples(self, name: str, of: str, lengths: tuple[int, ...]) -> tuple[Any, ...]:
+    def _tuples(self, name: str, kind: str, lengths: tuple[int, ...]) -> tuple[Any, ...]:
         for item in self._listed(name):
             if not isinstance(item, tuple) or len(item) not in lengths:
-                raise refusal(InvalidOption, name, "study", f"a tuple of {of}", f"{brief(item)} in it")
+                raise refusal(InvalidOption, name, "study", f"a tuple of {kind}", f"{brief(item)} in it")
         return self._listed(name)
 
     def content(self) -> dict[str, Any]:
@@ -196,10 +196,10 @@ class StudyParameters:
 
 def code_fractions(code: str) -> dict[str, CodeFraction]:
     """Return what a code counts for each occupancy of the paper, those that it says nothing of left out."""
-    found = {"storage": code_fraction(code, "storage")}
+    fractions = {"storage": code_fraction(code, "storage")}
     with suppress(InvalidOption):
-        found["commercial"] = code_fraction(code, "ordinary")
-    return found
+        fractions["commercial"] = code_fraction(code, "ordinary")
+    return fractions
 
 
 def _of_code(code: str) -> tuple[tuple[str, float, float], ...]:
@@ -279,25 +279,25 @@ def study_buildings(
         parameters.mass_ratios,
     )
     for number, (mu, (occupancy, design, counted), (storeys, period), reduction, ratio) in enumerate(grid, start=1):
-        goods = _on_floors(ratio, storeys)
+        goods_mass = _on_floors(ratio, storeys)
         analysis = analyses[storeys, period, design * ratio]
         elastic = reduction == 1.0 and not parameters.yield_at_r1
         yield_shear = np.full(storeys, np.inf) if elastic else analysis.storey_shear / reduction
         strength = (reduction, np.inf if elastic else design * ratio)
         models: dict[Model, Scene] = {}
         # A scene is made once for all buildings that differ in what it does not depend on.
-        own: dict[Model, tuple[float | str, ...]] = {"real": (mu,), "code": (counted,), "attached": ()}
-        for model, further in own.items():
+        options: dict[Model, tuple[float | str, ...]] = {"real": (mu,), "code": (counted,), "attached": ()}
+        for model, further in options.items():
             name = (model, storeys, period, ratio, *strength, *further)
             if name not in scenes:
-                scenes[name] = _scene(model, bare[storeys, period], yield_shear, goods, counted, mu, parameters)
+                scenes[name] = _scene(model, bare[storeys, period], yield_shear, goods_mass, counted, mu, parameters)
             models[model] = scenes[name]
         yield StudyBuilding(
             labels=dict(
                 zip(KEYS, (number, occupancy, design, counted, storeys, period, reduction, ratio, mu), strict=True)
             ),
             analysis=analysis,
-            design_mass=1.0 + design * goods,
+            design_mass=1.0 + design * goods_mass,
             yield_shear=yield_shear,
             scenes=models,
         )
@@ -319,9 +319,9 @@ def _bare(parameters: StudyParameters, storeys: int, period: float) -> Building:
 
 def _on_floors(ratio: float, storeys: int) -> FloatArray:
     """Goods of every floor (kg): none on the roof."""
-    goods = np.full(storeys, ratio)
-    goods[-1] = 0.0
-    return goods
+    goods_mass = np.full(storeys, ratio)
+    goods_mass[-1] = 0.0
+    return goods_mass
 
 
 def _analyses(
@@ -353,7 +353,7 @@ def _scene(
     model: Model,
     bare: Building,
     yield_shear: FloatArray,
-    goods: FloatArray,
+    goods_mass: FloatArray,
     counted: float,
     mu: float,
     parameters: StudyParameters,
@@ -361,16 +361,16 @@ def _scene(
     """A model of a building: goods that slide on it, or a share of their mass attached to it."""
     limit = parameters.collapse_drift_ratio
     collapse = None if limit is None else limit * parameters.height
-    attached = {"real": 0.0, "code": counted, "attached": 1.0}[model] * goods
+    attached = {"real": 0.0, "code": counted, "attached": 1.0}[model] * goods_mass
     changes: dict[str, Any] = {"yield_shear": yield_shear}
     if parameters.damping_base == "loaded":
-        changes["damping"] = bare.replace(mass=bare.mass + goods).damping_matrix
+        changes["damping"] = bare.replace(mass=bare.mass + goods_mass).damping_matrix
     elif parameters.damping_base == "bare" and attached.any():
         changes["damping"] = bare.damping_matrix
     if model == "real":
-        return Scene(bare.replace(**changes), blocks_on_floors(goods, mu), collapse_drift=collapse)
+        return Scene(bare.replace(**changes), blocks_on_floors(goods_mass, mu), collapse_drift=collapse)
     if parameters.p_delta:
         # The goods' whole weight acts, whatever share of their mass is counted.
         changes["gravity_load"] = None
-        changes["geometric_stiffness"] = Scene(bare, blocks_on_floors(goods, mu)).geometric_stiffness
+        changes["geometric_stiffness"] = Scene(bare, blocks_on_floors(goods_mass, mu)).geometric_stiffness
     return Scene(bare.replace(mass=bare.mass + attached, **changes), collapse_drift=collapse)

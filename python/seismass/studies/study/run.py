@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from seismass import _kernel
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.kept import NOTHING_KEPT, KeptResults
+from seismass.base.stored_results import NOTHING_STORED, StoredResults
 from seismass.base.values import FloatArray, brief, content_hash, printable, refusal, same_content, short_repr
 from seismass.base.views import view
 from seismass.design.scaling import ScalingResult, scale_asce7_10
@@ -106,8 +106,8 @@ class StudyResult(Result):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the metadata and the findings as plain values."""
-        found = findings(self.summary, self.fractions, self.metadata["code"]["name"])
-        return {**self.metadata, "findings": found}
+        sentences = findings(self.summary, self.fractions, self.metadata["code"]["name"])
+        return {**self.metadata, "findings": sentences}
 
     @property
     @view
@@ -157,7 +157,7 @@ def run_study(
     effective: bool = False,
     threads: int | None = None,
     progress: Callable[[int, int], object] | None = None,
-    kept: KeptResults = NOTHING_KEPT,
+    store: StoredResults = NOTHING_STORED,
 ) -> StudyResult:
     """Run the parametric study.
 
@@ -177,7 +177,7 @@ def run_study(
         Number of threads; default all cores. The tables do not depend on it.
     progress : callable, optional
         Called with (analyses done, distinct analyses), then, with `effective`, with (buildings done, distinct ones).
-    kept : KeptResults, optional
+    store : StoredResults, optional
         What an interrupted study of the same inputs has left, and where this one leaves what is done.
 
     Raises
@@ -187,30 +187,30 @@ def run_study(
     KeyboardInterrupt
         Ctrl-C was pressed.
     """
-    chosen = StudyParameters() if parameters is None else parameters
+    settings = StudyParameters() if parameters is None else parameters
     if not isinstance(suite, Suite):
         raise refusal(InvalidMotion, "suite", "study", "a Suite of records", brief(suite))
-    given = scaling is not None
+    is_stated = scaling is not None
     if scaling is None:
         scaling = scale_asce7_10(
-            suite, target, chosen.scaling_period, damping=chosen.damping, between=False, threads=threads
+            suite, target, settings.scaling_period, damping=settings.damping, between=False, threads=threads
         )
     else:
         _check_scaling(scaling, len(suite))
     factors = scaling.factors
 
     def design_spectrum(periods: FloatArray) -> FloatArray:
-        return mean_spectrum(suite, factors, periods, chosen.damping, threads=threads)
+        return mean_spectrum(suite, factors, periods, settings.damping, threads=threads)
 
-    spectrum = _spectrum(suite, target, scaling, chosen.damping, threads)
-    buildings = list(study_buildings(chosen, design_spectrum))
+    spectrum = _spectrum(suite, target, scaling, settings.damping, threads)
+    buildings = list(study_buildings(settings, design_spectrum))
     records = [record.scaled(factor) for record, factor in zip(suite, factors, strict=True)]
     motions = [record.motion for record in records]
-    distinct, run_of, table = _solve(buildings, motions, threads, progress, kept)
+    distinct, run_of, table = _solve(buildings, motions, threads, progress, store)
     names = display_names(suite)
     responses = responses_table(buildings, names, table, run_of)
     fractions = (
-        effective_fractions(buildings, records, chosen, threads=threads, progress=progress, kept=kept)
+        effective_fractions(buildings, records, settings, threads=threads, progress=progress, store=store)
         if effective
         else None
     )
@@ -218,18 +218,18 @@ def run_study(
     counts = dict(zip(status["status"], status["count"], strict=True))
     return StudyResult(
         responses=responses,
-        summary=summary_table(buildings, responses, names, chosen),
+        summary=summary_table(buildings, responses, names, settings),
         fractions=fractions_table(buildings, table, run_of, fractions, corner_period(design_spectrum)),
-        designs=designs_table(buildings, chosen),
+        designs=designs_table(buildings, settings),
         spectrum=spectrum,
         scaling=scaling,
         metadata={
             "schema_version": SCHEMA_VERSION,
             "package_version": _kernel.VERSION,
             "instructions": instruction_set(),
-            "inputs_sha256": study_digest(suite, target, chosen, factors if given else None),
-            "parameters": chosen.content(),
-            "code": _code_metadata(chosen),
+            "inputs_sha256": study_digest(suite, target, settings, factors if is_stated else None),
+            "parameters": settings.content(),
+            "code": _code_metadata(settings),
             "target": {"label": target.label, **target.parameters},
             "suite": _suite_metadata(suite, names, scaling),
             "scaling": _scaling_metadata(scaling),
@@ -258,7 +258,7 @@ def _solve(
     motions: list[Motion],
     threads: int | None,
     progress: Callable[[int, int], object] | None,
-    kept: KeptResults,
+    store: StoredResults,
 ) -> tuple[int, NDArray[np.int64], pl.DataFrame]:
     """Number of distinct runs, the row of each analysis among them, and the rows."""
     scenes = [building.scenes[model] for building in buildings for model in MODELS]
@@ -266,7 +266,7 @@ def _solve(
     motion_numbers = {motion: number for number, motion in enumerate(dict.fromkeys(motions))}
     of_motion = np.array([motion_numbers[motion] for motion in motions])
     of_scene = np.array([scene_numbers[scene] for scene in scenes])
-    table = kept.of(
+    table = store.of(
         "runs", lambda: solve_many(list(scene_numbers), list(motion_numbers), threads=threads, progress=progress)
     )
     run_of = (of_scene[:, None] * len(motion_numbers) + of_motion[None, :]).ravel()
@@ -278,17 +278,17 @@ def _remarks(
 ) -> list[str]:
     """What is unlikely about the inputs, each remark once."""
     scenes = dict.fromkeys(building.scenes["real"] for building in buildings)
-    found = [*target_remarks(target), *scaling.doubts, *motion_remarks(motions)]
-    return list(dict.fromkeys([*found, *(remark for scene in scenes for remark in scene.remarks)]))
+    remarks = [*target_remarks(target), *scaling.doubts, *motion_remarks(motions)]
+    return list(dict.fromkeys([*remarks, *(remark for scene in scenes for remark in scene.remarks)]))
 
 
-def _code_metadata(chosen: StudyParameters) -> dict[str, Any]:
+def _code_metadata(settings: StudyParameters) -> dict[str, Any]:
     """Code with its fractions; no code where the occupancies have fractions of their own."""
-    if not chosen.follows_code:
+    if not settings.follows_code:
         return {"id": None, "name": "code", "fractions": {}}
-    rows = code_fractions(chosen.code)
+    rows = code_fractions(settings.code)
     return {
-        "id": chosen.code,
+        "id": settings.code,
         "name": rows["storage"].code,
         "fractions": {
             name: {"fraction": row.fraction, "clause": row.clause, "status": row.status} for name, row in rows.items()
@@ -395,8 +395,8 @@ def study_example(suite: Suite, parameters: StudyParameters, result: StudyResult
         return None
     row = ranked.row(0, named=True)
     runs = result.responses.filter(building=row["building"], storey=1).sort("motion")
-    real, code = (runs.filter(model=model)["peak_drift"].to_numpy() for model in ("real", "code"))
-    motion = int(np.argmin(np.abs(np.log(real / code) - np.log(row["ratio"]))))
+    sliding, code = (runs.filter(model=model)["peak_drift"].to_numpy() for model in ("real", "code"))
+    motion = int(np.argmin(np.abs(np.log(sliding / code) - np.log(row["ratio"]))))
     factors = result.scaling.factors
 
     def spectrum(periods: FloatArray) -> FloatArray:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final, get_args
 import numpy as np
 import polars as pl
 
-from seismass.base.kept import NOTHING_KEPT, KeptResults
+from seismass.base.stored_results import NOTHING_STORED, StoredResults
 from seismass.base.values import short_repr
 from seismass.base.views import view
 from seismass.design import Combination
@@ -119,7 +119,7 @@ def study_sensitivity(
     as_is: StudyResult | None = None,
     threads: int | None = None,
     progress: Callable[[int, int], object] | None = None,
-    kept: KeptResults = NOTHING_KEPT,
+    store: StoredResults = NOTHING_STORED,
 ) -> Sensitivity:
     """Run the study again with each choice changed alone, from springs and damping to the statistic over records.
 
@@ -134,7 +134,7 @@ def study_sensitivity(
         The study of these, where it has been run.
     progress : callable, optional
         Called with (studies done, studies in all).
-    kept : KeptResults, optional
+    store : StoredResults, optional
         What an interrupted call of the same inputs has left, and where this one leaves what is done.
 
     Raises
@@ -142,18 +142,18 @@ def study_sensitivity(
     InvalidOption, InvalidMotion, KeyboardInterrupt
         As for `run_study`.
     """
-    chosen = StudyParameters() if parameters is None else parameters
-    changes = [*_changes(chosen, target, suite), *_motion_changes(chosen, target, suite, threads)]
+    setup = StudyParameters() if parameters is None else parameters
+    changes = [*_changes(setup, target, suite), *_motion_changes(setup, target, suite, threads)]
     if as_is is None:
-        as_is = run_study(suite, target, chosen, threads=threads)
-    own = drifts_of(as_is.responses, len(suite))
+        as_is = run_study(suite, target, setup, threads=threads)
+    base_drifts = drifts_of(as_is.responses, len(suite))
     summary = as_is.summary
-    rows = _rows(AS_IS, "", summary, own, np.mean)
-    of_base: dict[str, Drifts] = {chosen.damping_base: own}
+    rows = _rows(AS_IS, "", summary, base_drifts, np.mean)
+    of_base: dict[str, Drifts] = {setup.damping_base: base_drifts}
     for number, change in enumerate(changes, start=1):
         if progress is not None:
             progress(number, len(changes) + 1)
-        table = kept.of(f"changed-{number}", partial(_study_of, change, threads))
+        table = store.of(f"changed-{number}", partial(_study_of, change, threads))
         drifts: Drifts = {model: np.array(table[model].to_list()) for model in MODELS}
         rows += _rows(change.choice, change.setting, table, drifts, np.mean)
         if change.choice == DAMPING_BASE:
@@ -161,18 +161,18 @@ def study_sensitivity(
             if len(of_base) == len(get_args(DampingBase)):
                 mixed = {**of_base["loaded"], "code": of_base["own"]["code"]}
                 rows += _rows(DAMPING_BASE, "loaded, of the code model its own", summary, mixed, np.mean)
-    rows += _rows("statistic", "median", summary, own, np.median)
-    rows += _rows("statistic", "geometric mean", summary, own, _geometric_mean)
+    rows += _rows("statistic", "median", summary, base_drifts, np.median)
+    rows += _rows("statistic", "geometric mean", summary, base_drifts, _geometric_mean)
     for left_out in _heaviest(as_is):
         name = as_is.metadata["suite"]["motions"][left_out]["record"]
-        others: Drifts = {model: np.delete(values, left_out, axis=1) for model, values in own.items()}
+        others: Drifts = {model: np.delete(values, left_out, axis=1) for model, values in base_drifts.items()}
         rows += _rows("one record left out", name, summary, others, np.mean)
     if progress is not None:
         progress(len(changes) + 1, len(changes) + 1)
-    found = pl.DataFrame(rows, schema=list(SENSITIVITY_COLUMNS), orient="row").with_columns(
+    rows_of_changes = pl.DataFrame(rows, schema=list(SENSITIVITY_COLUMNS), orient="row").with_columns(
         pl.col("collapses").cast(pl.UInt32)
     )
-    return Sensitivity(found, as_is.metadata)
+    return Sensitivity(rows_of_changes, as_is.metadata)
 
 
 def _study_of(change: _Change, threads: int | None) -> pl.DataFrame:
@@ -184,55 +184,55 @@ def _study_of(change: _Change, threads: int | None) -> pl.DataFrame:
     return result.summary.select(_KEYS).with_columns(**lists)
 
 
-def _changes(chosen: StudyParameters, target: TargetSpectrum, suite: Suite) -> Iterator[_Change]:
+def _changes(setup: StudyParameters, target: TargetSpectrum, suite: Suite) -> Iterator[_Change]:
     """Changes of parameters and of the target; settings that are the study's own are left out."""
 
     def changed(choice: str, setting: str, spectrum: TargetSpectrum = target, **parameters: Any) -> _Change:
-        return _Change(choice, setting, replace(chosen, **parameters), spectrum, lambda: (suite, None))
+        return _Change(choice, setting, replace(setup, **parameters), spectrum, lambda: (suite, None))
 
     for slope in SECOND_SLOPES:
-        if slope != chosen.second_slope:
-            third = min(chosen.third_slope, slope)
+        if slope != setup.second_slope:
+            third = min(setup.third_slope, slope)
             yield changed("r2", f"{slope:g}", second_slope=slope, third_slope=third)
-    if chosen.third_slope != chosen.second_slope:
-        yield changed("r3", f"{chosen.second_slope:g}, as r2", third_slope=chosen.second_slope)
+    if setup.third_slope != setup.second_slope:
+        yield changed("r3", f"{setup.second_slope:g}, as r2", third_slope=setup.second_slope)
     for factor in OVERSTRENGTHS:
-        if factor != chosen.overstrength:
+        if factor != setup.overstrength:
             yield changed("Omega", f"{factor:g}", overstrength=factor)
-    at_r1 = not chosen.yield_at_r1
+    at_r1 = not setup.yield_at_r1
     yield changed("R = 1", "yields at V_e" if at_r1 else "elastic", yield_at_r1=at_r1)
-    other: Combination = "cqc" if chosen.combination == "srss" else "srss"
+    other: Combination = "cqc" if setup.combination == "srss" else "srss"
     yield changed("combination", other.upper(), combination=other)
     for base in get_args(DampingBase):
-        if base != chosen.damping_base:
+        if base != setup.damping_base:
             yield changed(DAMPING_BASE, base, damping_base=base)
-    if not chosen.p_delta:
-        yield changed("P-Delta", f"storeys of {chosen.height:g} m", p_delta=True)
+    if not setup.p_delta:
+        yield changed("P-Delta", f"storeys of {setup.height:g} m", p_delta=True)
     for power in TILTS:
         yield changed("target shape", f"times (T/1 s)^{power:g}", target.tilted(power))
     for period in SCALING_PERIODS:
-        if period != chosen.scaling_period:
+        if period != setup.scaling_period:
             yield changed("scaling period", f"{period:g} s", scaling_period=period)
 
 
 def _motion_changes(
-    chosen: StudyParameters, target: TargetSpectrum, suite: Suite, threads: int | None
+    setup: StudyParameters, target: TargetSpectrum, suite: Suite, threads: int | None
 ) -> Iterator[_Change]:
     """Changes of how motions are brought to the target: factors of modal pushover (period and springs of the study, a
     setting per R above 1), and matched motions, scaled so that their mean is not below the target.
     """
-    shortest, longest = (chosen.scaling_period * multiple for multiple in MATCHED_RANGE)
+    shortest, longest = (setup.scaling_period * multiple for multiple in MATCHED_RANGE)
 
     def pushover(reduction: float) -> tuple[Suite, ScalingResult]:
         return suite, scale_modal_pushover(
             suite,
             target,
-            period=chosen.scaling_period,
+            period=setup.scaling_period,
             reduction=reduction,
-            overstrength=chosen.overstrength,
-            second_slope=chosen.second_slope,
-            third_slope=chosen.third_slope,
-            damping=chosen.damping,
+            overstrength=setup.overstrength,
+            second_slope=setup.second_slope,
+            third_slope=setup.third_slope,
+            damping=setup.damping,
             threads=threads,
         )
 
@@ -241,17 +241,17 @@ def _motion_changes(
             suite,
             target,
             periods=(shortest, longest),
-            damping=chosen.damping,
+            damping=setup.damping,
             tolerance=MATCHED_TOLERANCE,
             threads=threads,
         )
         return result.suite, None
 
-    for reduction in chosen.response_modification:
+    for reduction in setup.response_modification:
         if reduction > 1.0:
-            yield _Change(MOTIONS, f"modal pushover, R_y = {reduction:g}", chosen, target, partial(pushover, reduction))
+            yield _Change(MOTIONS, f"modal pushover, R_y = {reduction:g}", setup, target, partial(pushover, reduction))
     setting = f"matched, {100.0 * MATCHED_TOLERANCE:g} %, {shortest:g} to {longest:g} s"
-    yield _Change(MOTIONS, setting, chosen, target, matched)
+    yield _Change(MOTIONS, setting, setup, target, matched)
 
 
 def _heaviest(result: StudyResult) -> list[int]:
@@ -273,11 +273,11 @@ def _rows(
 ) -> list[tuple[Any, ...]]:
     """Headline numbers of the first storeys by a statistic over the records; null where one is not finite."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        real, code, attached = (statistic(drifts[model], axis=1) for model in MODELS)
+        sliding, code, attached = (statistic(drifts[model], axis=1) for model in MODELS)
         compared = {
-            "missed": 100.0 * (real / code - 1.0),
+            "missed": 100.0 * (sliding / code - 1.0),
             "mass": 100.0 * (attached / code - 1.0),
-            "sliding": 100.0 * (real / attached - 1.0),
+            "sliding": 100.0 * (sliding / attached - 1.0),
         }
     collapses = sum(np.isinf(values).sum(axis=1) for values in drifts.values())
     frame = keys.select(_KEYS).with_columns(

@@ -10,8 +10,8 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from seismass.base.kept import NOTHING_KEPT, KeptResults
 from seismass.base.statistics import quantile
+from seismass.base.stored_results import NOTHING_STORED, StoredResults
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.effective_mass import effective_mass
@@ -107,13 +107,13 @@ def responses_table(
 
 def drifts_of(responses: pl.DataFrame, motions: int) -> Drifts:
     """Return the peak drifts of a table of responses, one row per building and storey, as the summary has them."""
-    found: Drifts = {}
+    drifts: Drifts = {}
     value = pl.when(pl.col("status") == "collapsed").then(np.inf).otherwise("peak_drift").fill_null(np.nan)
     ordered = responses.sort("building", "storey", "motion", maintain_order=True)
     for model in MODELS:
         rows = ordered.filter(pl.col("model") == model).select(value.alias("drift"))["drift"]
-        found[model] = rows.to_numpy().reshape(-1, motions)
-    return found
+        drifts[model] = rows.to_numpy().reshape(-1, motions)
+    return drifts
 
 
 def summary_table(
@@ -153,31 +153,31 @@ def summary_table(
 
 def _comparison(drifts: Drifts, names: list[str]) -> dict[str, Any]:
     """The models against each other."""
-    real, code = drifts["real"], drifts["code"]
+    sliding, code = drifts["real"], drifts["code"]
     with np.errstate(divide="ignore", invalid="ignore"):
         means = {model: _mean(values) for model, values in drifts.items()}
         ratio = means["real"] / means["code"]
-        each = 100.0 * (real / code - 1.0)
-        found: dict[str, Any] = {
+        each = 100.0 * (sliding / code - 1.0)
+        columns: dict[str, Any] = {
             "ratio": ratio,
             "ratio_mass": means["attached"] / means["code"],
             "ratio_sliding": means["real"] / means["attached"],
             "underestimation_percent": 100.0 * (ratio - 1.0),
-            "geometric_mean_underestimation_percent": 100.0 * (_geometric_mean(real) / _geometric_mean(code) - 1.0),
+            "geometric_mean_underestimation_percent": 100.0 * (_geometric_mean(sliding) / _geometric_mean(code) - 1.0),
             "median_underestimation_percent": quantile(each, 0.5),
             "p16_underestimation_percent": quantile(each, 0.16),
             "p84_underestimation_percent": quantile(each, 0.84),
         }
-        without = 100.0 * ((_sum(real) - real) / (_sum(code) - code) - 1.0)
-    change = np.abs(without - found["underestimation_percent"][:, None])
+        left_out = 100.0 * ((_sum(sliding) - sliding) / (_sum(code) - code) - 1.0)
+    change = np.abs(left_out - columns["underestimation_percent"][:, None])
     known = np.isfinite(change).all(axis=1) & (len(names) > 1)
     most = np.argmax(np.where(known[:, None], change, 0.0), axis=1)
-    found |= {
-        "leave_one_out_percent": np.where(known, without[np.arange(len(without)), most], np.nan),
+    columns |= {
+        "leave_one_out_percent": np.where(known, left_out[np.arange(len(left_out)), most], np.nan),
         "leave_one_out_motion": [int(number) + 1 if there else None for number, there in zip(most, known, strict=True)],
         "leave_one_out_record": [names[number] if there else None for number, there in zip(most, known, strict=True)],
     }
-    return found
+    return columns
 
 
 def _sum(values: FloatArray) -> FloatArray:
@@ -205,7 +205,7 @@ def designs_table(buildings: list[StudyBuilding], parameters: StudyParameters) -
         return np.concatenate(values)
 
     code = [building.scenes["code"] for building in buildings]
-    real = [building.scenes["real"] for building in buildings]
+    sliding = [building.scenes["real"] for building in buildings]
     strength = stacked([building.yield_shear for building in buildings]) / weight
     columns: dict[str, Any] = {
         **key_columns(buildings, storeys),
@@ -214,7 +214,7 @@ def designs_table(buildings: list[StudyBuilding], parameters: StudyParameters) -
         "analysis_mass_ratio": stacked([scene.building.mass for scene in code if scene.building is not None]),
         "height": np.full(storeys.sum(), parameters.height),
         "geometric_stiffness_ratio": stacked(
-            [scene.geometric_stiffness / scene.building.stiffness for scene in real if scene.building is not None]
+            [scene.geometric_stiffness / scene.building.stiffness for scene in sliding if scene.building is not None]
         ),
         "design_period": stacked([building.analysis.modes.periods for building in buildings]),
         "spectral_acceleration": stacked([building.analysis.ordinates for building in buildings]),
@@ -267,13 +267,13 @@ def fractions_table(
         "estimate": best_estimate(eta, powers, ratios),
         "conservative": conservative_estimate(eta, ratios),
     }
-    found = [None if effective is None else effective[building.scenes["real"]] for building in buildings]
+    fractions = [None if effective is None else effective[building.scenes["real"]] for building in buildings]
     columns |= {
-        "effective": [np.nan if one is None else one.value for one in found],
-        "kind": [None if one is None else one.kind for one in found],
-        "low": [None if one is None else one.low for one in found],
-        "high": [None if one is None else one.high for one in found],
-        "excess": [None if one is None or one.kind != "one" else one.excess for one in found],
+        "effective": [np.nan if one is None else one.value for one in fractions],
+        "kind": [None if one is None else one.kind for one in fractions],
+        "low": [None if one is None else one.low for one in fractions],
+        "high": [None if one is None else one.high for one in fractions],
+        "excess": [None if one is None or one.kind != "one" else one.excess for one in fractions],
     }
     return typed(columns, list(FRACTION_COLUMNS))
 
@@ -283,9 +283,9 @@ def _of_rule(
 ) -> Iterator[tuple[float, float]]:
     """Yield h_g/h_m and the exponent of each building; it yields where its mean peak drift is above that of V_y."""
     drifts = table["peak_drift"]
-    for building, own in zip(buildings, runs, strict=True):
+    for building, numbers in zip(buildings, runs, strict=True):
         bare = building_of(building.scenes["real"])
-        mean = np.mean([drifts[int(run)].to_numpy() for run in own], axis=0)
+        mean = np.mean([drifts[int(run)].to_numpy() for run in numbers], axis=0)
         yields = bool((mean > bare.yield_shear / bare.stiffness).any())
         ratio = height_ratio(goods_mass(building.scenes["real"]), bare.mass, bare.heights)
         yield ratio, float(exponent(float(bare.periods[0]), corner, yields))
@@ -302,20 +302,20 @@ def effective_fractions(
     *,
     threads: int | None = None,
     progress: Callable[[int, int], object] | None = None,
-    kept: KeptResults = NOTHING_KEPT,
+    store: StoredResults = NOTHING_STORED,
 ) -> dict[Scene, Fraction]:
     """Return the effective fraction of each distinct building with its goods. Damping is that of the study: the real
     building's matrix, or with `damping_base="own"` the ratio in the modes of each model.
     """
     scenes = list(dict.fromkeys(building.scenes["real"] for building in buildings))
     damping: Literal["same", "ratio"] = "ratio" if parameters.damping_base == "own" else "same"
-    found = {}
+    fractions = {}
     for number, scene in enumerate(scenes, start=1):
         solve = partial(_solved, scene, records, damping, threads)
-        found[scene] = Fraction(*kept.of(f"effective-{number}", solve).row(0))
+        fractions[scene] = Fraction(*store.of(f"effective-{number}", solve).row(0))
         if progress is not None:
             progress(number, len(scenes))
-    return found
+    return fractions
 
 
 def _solved(
@@ -392,7 +392,7 @@ def findings(summary: pl.DataFrame, fractions: pl.DataFrame, code: str = "code")
 
 
 def _finite(row: dict[str, Any]) -> dict[str, Any]:
-    """The row with null for what is not finite, which JSON does not have."""
+    """The row with null for non-finite values, which JSON does not have."""
     return {name: None if isinstance(value, float) and not np.isfinite(value) else value for name, value in row.items()}
 
 

@@ -168,7 +168,7 @@ def paper_scenes(
     ----------
     suite : Suite, optional
         As for `validate`.
-    springs : sequence of (float, int)
+    springs : sequence of (float, int), optional
         As for `section4`.
     progress : callable, optional
         As for `section4`.
@@ -235,7 +235,7 @@ def validate(
     if suite is not None and not isinstance(suite, Suite):
         raise refusal(InvalidMotion, "suite", "validation", "a Suite of records", brief(suite))
     if study is None:
-        chosen = builtin_suite("seven") if suite is None else suite
-        study = run_study(chosen, target or TargetSpectrum.asce7(), threads=threads, progress=progress)
+        records = builtin_suite("seven") if suite is None else suite
+        study = run_study(records, target or TargetSpectrum.asce7(), threads=threads, progress=progress)
     building, table = paper_scenes(suite, progress=progress) if scenes is None else scenes
     return Validation(study, building, table, claims(study, building, table, sensitivity=sensitivity))

@@ -98,23 +98,23 @@ def claims(
     return [Claim(number, *row) for number, row in enumerate(rows, start=1)]
 
 
-def claims_table(found: list[Claim]) -> pl.DataFrame:
+def claims_table(claims: list[Claim]) -> pl.DataFrame:
     """Return claims as a table, one row each; columns are the attributes of `Claim`."""
-    return pl.DataFrame([vars(item) for item in found], schema_overrides={"number": pl.UInt8})
+    return pl.DataFrame([vars(item) for item in claims], schema_overrides={"number": pl.UInt8})
 
 
 def _shaking_table(platform: Platform) -> _Row:
-    found = platform.robust
-    low, _, high = found["heavier"]
+    robust = platform.robust
+    low, _, high = robust["heavier"]
     return (
         "section 4, abstract",
         "The calculated drift of a platform at 1:15 is similar to that measured on a shaking table.",
         "not tested",
-        f"The measured drift is not published as numbers. Over the ranges the block slides in {found['slides']} of "
-        f"{found['runs']} runs and lowers the drift in {found['below_attached']} of these; the drift with alpha = "
+        f"The measured drift is not published as numbers. Over the ranges the block slides in {robust['slides']} of "
+        f"{robust['runs']} runs and lowers the drift in {robust['below_attached']} of these; the drift with alpha = "
         f"{MASS_RATIOS[1]:g} is {low:.2f} to {high:.2f} of that with {MASS_RATIOS[0]:g} (5 to 95 %).",
-        f"period of the platform (drift changes by a factor of {found['by_period']:.0f} over its range), friction "
-        f"({found['by_mu']:.1f}), damping ({found['by_damping']:.1f}); none is published",
+        f"period of the platform (drift changes by a factor of {robust['by_period']:.0f} over its range), friction "
+        f"({robust['by_mu']:.1f}), damping ({robust['by_damping']:.1f}); none is published",
     )
 
 
@@ -193,15 +193,15 @@ def _study(study: StudyResult, sensitivity: Sensitivity | None) -> Iterator[_Row
         .otherwise(pl.lit("middle"))
     )
     yielding = rows.filter(pl.col("R") > 1.0)
-    for (occupancy,), of in yielding.group_by("occupancy", maintain_order=True):
-        share = 100.0 * of["lambda_analysis"][0]
-        below = of.filter(missed > _ROUNDING)
+    for (occupancy,), rows_of_occupancy in yielding.group_by("occupancy", maintain_order=True):
+        share = 100.0 * rows_of_occupancy["lambda_analysis"][0]
+        below = rows_of_occupancy.filter(missed > _ROUNDING)
         yield (
             "abstract, conclusions",
             f"With {share:g} % of the live load as mass ({occupancy}), drift demands of yielding buildings are "
             "underestimated.",
-            _of_share(below.height / of.height),
-            f"Mean peak drift is underestimated in {_by_place(below, of)}.",
+            _of_share(below.height / rows_of_occupancy.height),
+            f"Mean peak drift is underestimated in {_by_place(below, rows_of_occupancy)}.",
             "storey: heavy goods below a bare roof concentrate yielding in the lower storeys",
         )
     yield _commercial(yielding)
@@ -301,17 +301,17 @@ def _largest(yielding: pl.DataFrame, sensitivity: Sensitivity | None) -> _Row:
     parts, verdicts = [], []
     for (occupancy,), rows in yielding.group_by("occupancy", maintain_order=True):
         row = rows.sort("underestimation_percent", descending=True).row(0, named=True)
-        largest, without = row["underestimation_percent"], row["leave_one_out_percent"]
-        robust = without is not None and np.isfinite(without) and without >= AS_LARGE_AS - CLOSE
+        largest, left_out = row["underestimation_percent"], row["leave_one_out_percent"]
+        robust = left_out is not None and np.isfinite(left_out) and left_out >= AS_LARGE_AS - CLOSE
         verdicts.append((largest >= AS_LARGE_AS - CLOSE, robust))
         record = row["leave_one_out_record"]
         parts.append(
             f"{occupancy}: {largest:+.0f} % (storey {row['storey']} of {row['storeys']}, R = {row['R']:g}, alpha = "
             f"{row['alpha']:g}), median of the motions {row['median_underestimation_percent']:+.0f} %"
-            + (f", {without:+.0f} % without {record}" if record is not None else "")
+            + (f", {left_out:+.0f} % without {record}" if record is not None else "")
         )
     reached = any(largest for largest, _ in verdicts)
-    robust = all(without for _, without in verdicts)
+    robust = all(left_out for _, left_out in verdicts)
     verdict: Verdict = "reproduced" if robust else "depends" if reached else "not reproduced"
     depends = "one record, and the statistic over the records"
     if sensitivity is not None:
@@ -328,12 +328,12 @@ def _largest(yielding: pl.DataFrame, sensitivity: Sensitivity | None) -> _Row:
 def _less_sliding(first: pl.DataFrame) -> _Row:
     """What sliding does to first storeys, real over attached, at each R."""
     change = 100.0 * (pl.col("ratio_sliding") - 1.0)
-    by = first.with_columns(sliding=change.abs(), change=change)
-    means = by.group_by("R").agg(pl.col("sliding").mean(), pl.col("change").mean()).sort("R")
+    by_change = first.with_columns(sliding=change.abs(), change=change)
+    means = by_change.group_by("R").agg(pl.col("sliding").mean(), pl.col("change").mean()).sort("R")
     values = means["sliding"].to_list()
     falls = all(after < before for before, after in pairwise(values)) and len(values) > 1
     keys = ["occupancy", "mu", "storeys", "storey", "R"]
-    step = by.sort("alpha").select("R", step=pl.col("sliding").diff().over(keys)).drop_nulls()
+    step = by_change.sort("alpha").select("R", step=pl.col("sliding").diff().over(keys)).drop_nulls()
     less = step.filter(pl.col("step") < -_ROUNDING)
     with_alpha = ", ".join(
         f"R = {factor:g}: {less.filter(R=factor).height} of {rows.height}"

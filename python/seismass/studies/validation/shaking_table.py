@@ -51,17 +51,17 @@ def components(station: Station, suite: Suite | None = None) -> tuple[Record, ..
     RecordFormatError
         As for `read_suite`.
     """
-    found: dict[str, Record] = {}
+    records: dict[str, Record] = {}
     for record in suite or ():
         if record.station != station or record.synthetic:
             continue
-        found[record.name] = record
+        records[record.name] = record
         if record.source is not None:
-            beside = read_suite(record.source.parent)
-            found |= {other.name: other for other in beside if other.station == station}
-    if not found:
+            records_beside = read_suite(record.source.parent)
+            records |= {other.name: other for other in records_beside if other.station == station}
+    if not records:
         return (builtin_record(STAND_INS[station]),)
-    return tuple(found[name] for name in sorted(found))
+    return tuple(records[name] for name in sorted(records))
 
 
 def label(record: Record) -> str:
@@ -237,8 +237,8 @@ def robust_numbers(runs: pl.DataFrame) -> dict[str, Any]:
 
 def _fractiles(values: pl.Series) -> list[float]:
     """5, 50 and 95 % fractiles."""
-    found: list[float] = np.quantile(values.to_numpy(), (0.05, 0.5, 0.95)).tolist()
-    return found
+    fractiles: list[float] = np.quantile(values.to_numpy(), (0.05, 0.5, 0.95)).tolist()
+    return fractiles
 
 
 def _spread(runs: pl.DataFrame, name: str) -> float:

@@ -144,7 +144,7 @@ def section4(
     ----------
     components : sequence of Record
         Components of the Brawley record, unscaled, or a stand-in.
-    springs : sequence of (float, int)
+    springs : sequence of (float, int), optional
         Stiffness of friction springs over that of storey 1, and steps per sample interval; the stiffest takes most of
         the time.
     progress : callable, optional
@@ -239,10 +239,10 @@ def _springs(record: Record, second_slope: float, ratio: float, substeps: int) -
     scene = section4_scene(second_slope)
     time, drift, slip = _times(motion), _NOTHING, _NOTHING
     try:
-        found = _kernel.integrate_reference(
+        result = _kernel.integrate_reference(
             scene._kernel, motion._kernel, "friction_springs", substeps, stiffness_ratio=ratio
         )
-        drift, slip = found.drift, found.slip
+        drift, slip = result.drift, result.slip
     except SimulationError:
         time = time[:0]
     return Histories(
@@ -252,7 +252,7 @@ def _springs(record: Record, second_slope: float, ratio: float, substeps: int) -
 
 def _opensees(record: Record, second_slope: float) -> Iterator[Histories]:
     """Histories of OpenSees, where they are kept for these samples."""
-    for row in kept().filter(samples=samples_digest(record), second_slope=second_slope).rows(named=True):
+    for row in opensees_results().filter(samples=samples_digest(record), second_slope=second_slope).rows(named=True):
         drift, slip = (np.array(row[name], dtype=np.float64).reshape(-1, STOREYS) for name in ("drift", "slip"))
         setting = setting_label(row["stiffness_ratio"], row["substeps"])
         time = np.asarray(np.arange(len(drift)) * (row["every"] * row["dt"]), dtype=np.float64)
@@ -265,7 +265,7 @@ def setting_label(ratio: float, substeps: int) -> str:
 
 
 @cache
-def kept() -> pl.DataFrame:
+def opensees_results() -> pl.DataFrame:
     """Return the kept results of OpenSees, one row per component, second slope and setting; `every` is sample intervals
     between kept instants, drift and slip (m) are instants times storeys, peaks those of all steps.
     """
@@ -362,9 +362,9 @@ def stiffest(histories: Iterable[Histories]) -> list[Histories]:
 
 
 def _history_table(item: Histories) -> pl.DataFrame:
-    kept = slice(None, None, max(1, math.ceil(len(item.time) / MOST_INSTANTS)))
-    values = {f"{name}_{i + 1}": getattr(item, name)[kept, i] for name in ("drift", "slip") for i in range(STOREYS)}
-    frame = pl.DataFrame({"time": item.time[kept], **values})
+    rows = slice(None, None, max(1, math.ceil(len(item.time) / MOST_INSTANTS)))
+    values = {f"{name}_{i + 1}": getattr(item, name)[rows, i] for name in ("drift", "slip") for i in range(STOREYS)}
+    frame = pl.DataFrame({"time": item.time[rows], **values})
     keys = {name: getattr(item, name) for name in ("component", "second_slope", "program", "setting", "every")}
     return frame.select(*(pl.lit(value).alias(name) for name, value in keys.items()), pl.all())
 

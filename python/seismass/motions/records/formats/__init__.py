@@ -9,9 +9,9 @@ from seismass.motions.records.formats.columns import COLUMNS, known_binary, know
 from seismass.motions.records.formats.common import Arguments, Channel, Format, NotRead
 from seismass.motions.records.formats.cosmos import COSMOS
 from seismass.motions.records.formats.csmip import CSMIP
-from seismass.motions.records.formats.esm import BHRC, ESM, UNAM
+from seismass.motions.records.formats.esm_bhrc_unam import BHRC, ESM, UNAM
 from seismass.motions.records.formats.headed import HEADED
-from seismass.motions.records.formats.knet import GEONET, KNET
+from seismass.motions.records.formats.knet_geonet import GEONET, KNET
 from seismass.motions.records.formats.smc import SMC
 
 FORMATS: Final = (KNET, ESM, GEONET, UNAM, BHRC, COSMOS, CSMIP, *HEADED, SMC, AT2, COLUMNS)

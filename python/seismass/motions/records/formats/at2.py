@@ -154,16 +154,16 @@ def _rotation(titles: list[str], remarks: list[str]) -> tuple[str, str, str] | N
         return None
     azimuth = _AZIMUTH.search(header)
     component = azimuth[1] if azimuth else ""
-    said = f"azimuth {component}" if component else "its azimuth is not stated"
-    remarks.append(f"its header says that it is rotated: {said}")
+    words = f"azimuth {component}" if component else "its azimuth is not stated"
+    remarks.append(f"its header says that it is rotated: {words}")
     source = next((line.partition(":")[2] for line in titles if _SOURCE_OF_ROTATION.search(line)), "")
     parts = [part.strip() for part in source.split(",")]
     return (", ".join(parts[:-2]), parts[-2], component) if len(parts) > 2 else (source.strip(), "", component)
 
 
 def _uneven_line(lines: list[str], start: int) -> int | None:
-    """Return the first line (from 1), but for the last two, whose number of values is not the most usual. Fields that
-    touch are told apart by their points; the last line may be short, and zeros may follow.
+    """Return the first line (from 1), except the last two, whose number of values is not the most usual. Fields that
+    touch are separated at their points; the last line may be short, and zeros may follow.
     """
     counts = [max(line.count("."), len(line.split())) for line in lines[start:]]
     while counts and not counts[-1]:

@@ -99,9 +99,9 @@ def parse_channels(text: str, source: Path, arguments: Arguments) -> tuple[Chann
     labels = labels_of(table.header, width)
     _refuse_no_motion(table, labels)
     header_step = stated_step(table.text, table.file, arguments.dt)
-    given = arguments.dt if arguments.dt is not None else header_step
+    step_of_file = arguments.dt if arguments.dt is not None else header_step
     if arguments.skip is None:
-        table, step_before = without_first_numbers(table, given, remarks)
+        table, step_before = without_first_numbers(table, step_of_file, remarks)
     else:
         left_out = as_count(arguments.skip, "skip", table.file, RecordFormatError)
         if left_out >= len(table.rows):
@@ -120,15 +120,15 @@ def parse_channels(text: str, source: Path, arguments: Arguments) -> tuple[Chann
     if columns == 1:
         if is_cut_off(tokens):
             raise _cut_off(table, tokens[-1])
-        found = [_Column(values, replace(labels[0], unit="") if labels else None, "1")]  # a title may name any unit
+        series = [_Column(values, replace(labels[0], unit="") if labels else None, "1")]  # a title may name any unit
         _check_points(table, len(values), remarks)
         if max(counts) > 1:
             remarks.append(f"samples are taken line after line, {max(counts)} in each")
     else:
-        found = _of_columns(table, tokens, values.reshape(-1, columns), labels, steps, remarks)
-    step = _step(table, steps, len(found[0].values), remarks)
-    several = len(found) > 1
-    return tuple(_channel(one, table, step, source, arguments.unit, several, tuple(remarks)) for one in found)
+        series = _of_columns(table, tokens, values.reshape(-1, columns), labels, steps, remarks)
+    step = _step(table, steps, len(series[0].values), remarks)
+    several = len(series) > 1
+    return tuple(_channel(one, table, step, source, arguments.unit, several, tuple(remarks)) for one in series)
 
 
 def _body(table: Table) -> list[str]:
@@ -166,34 +166,36 @@ def _of_columns(
 ) -> list[_Column]:
     """Return the columns of accelerations, and put the step of the times among the others."""
     columns = values.shape[1]
-    at, accelerations = _roles(table, values, labels, steps["dt"])
+    time, accelerations = _roles(table, values, labels, steps["dt"])
     for index in accelerations:
         if is_cut_off(tokens[index::columns]):
             raise _cut_off(table, tokens[index - columns])
     _check_points(table, len(values), remarks)
     twice = np.all(values[1:] == values[:-1], axis=1) & np.any(values[1:, accelerations] != 0.0, axis=1)
-    rising = at is not None and values[-1, at] > values[0, at]
+    rising = time is not None and values[-1, time] > values[0, time]
     if rising and np.count_nonzero(twice) > MOST_TWICE * len(values):
         line = table.line_number(int(np.argmax(twice)) + 1)
         raise RecordFormatError(f"line {line} of {table.file} must differ from the one before; got lines twice")
-    if at is not None:
-        times = Times(values[:, at], tokens[at::columns], labels[at] if labels else None, table.file, table.line_number)
-        given = next((step for step in steps.values() if step is not None), None)
-        step = step_of_times(times, given, remarks)
+    if time is not None:
+        times = Times(
+            values[:, time], tokens[time::columns], labels[time] if labels else None, table.file, table.line_number
+        )
+        first_step = next((step for step in steps.values() if step is not None), None)
+        step = step_of_times(times, first_step, remarks)
         if step is not None:
             steps["times"] = step
-    passed = [label.text for index, label in enumerate(labels or ()) if index != at and index not in accelerations]
+    passed = [label.text for index, label in enumerate(labels or ()) if index != time and index not in accelerations]
     if passed:
         remarks.append(f"columns that are not read: {printable(', '.join(passed))[:80]}")
     if labels is None and columns > 2:
         remarks.append("no label says what the columns are: the first is taken as times, the others as accelerations")
-    beside = uncorrected_beside([labels[index] for index in accelerations]) if labels else {}
+    corrected = uncorrected_beside([labels[index] for index in accelerations]) if labels else {}
     return [
         _Column(
             np.ascontiguousarray(values[:, index]),
             labels[index] if labels else None,
             "1" if len(accelerations) == 1 else str(index + 1),
-            (f"uncorrected: column {printable(beside[number])} has it corrected",) if number in beside else (),
+            (f"uncorrected: column {printable(corrected[number])} has it corrected",) if number in corrected else (),
         )
         for number, index in enumerate(accelerations)
     ]
@@ -208,24 +210,24 @@ def _roles(
         return 0, list(range(1, columns))
     times = [index for index, label in enumerate(labels) if label.kind == "times"]
     index_columns = [index for index, label in enumerate(labels) if label.kind == "index"]
-    at = next(iter([*times, *index_columns]), None)
+    time = next(iter([*times, *index_columns]), None)
     accelerations = [index for index, label in enumerate(labels) if label.kind == "acceleration"]
     unknown = [index for index, label in enumerate(labels) if label.kind == ""]
     if not accelerations and unknown[-1:] == [columns - 1] and len(unknown) <= 2:
         accelerations = [columns - 1]
-    if at is None and unknown[:1] == [0] and accelerations == list(range(1, columns)):
+    if time is None and unknown[:1] == [0] and accelerations == list(range(1, columns)):
         if dt is None:  # what is not called a time may be anything, such as T1 or a node
             raise RecordFormatError(
                 f"dt of {table.file} must be given where its first column holds the times, or that be called time or "
                 f"t; got {printable(labels[0].text)[:30]!r}"
             )
-        at = 0
+        time = 0
     if not accelerations or len(times) > 1:
-        said = printable(", ".join(label.text for label in labels))[:80]
+        words = printable(", ".join(label.text for label in labels))[:80]
         raise RecordFormatError(
-            f"labels of {table.file} must name one column of times and its accelerations; got {said}"
+            f"labels of {table.file} must name one column of times and its accelerations; got {words}"
         )
-    return at, accelerations
+    return time, accelerations
 
 
 def _cut_off(table: Table, last: str) -> RecordFormatError:
@@ -275,10 +277,10 @@ COLUMNS: Final = Format("columns", "text of columns", lambda _: True, _parse)
 
 
 def _step(table: Table, steps: dict[str, float | None], samples: int, remarks: list[str]) -> float:
-    given = {name: step for name, step in steps.items() if step is not None}
-    if not given:
+    stated = {name: step for name, step in steps.items() if step is not None}
+    if not stated:
         raise RecordFormatError(f"dt of {table.file} must be given, the file has no times and states no step; got none")
-    (name, step), *others = given.items()
+    (name, step), *others = stated.items()
     if not 0.0 < step < np.inf:
         raise RecordFormatError(f"{name} of {table.file} must give a positive step; got {step:g} s")
     for other_name, other in others:
@@ -293,19 +295,21 @@ def _step(table: Table, steps: dict[str, float | None], samples: int, remarks: l
 
 def _unit(table: Table, unit: str | None, label: Label | None) -> str:
     """Return the unit that the label of a column and the header state; of two, or of none, the given one decides."""
-    own = unit_by_name(label.unit) if label and label.unit else None
+    of_label = unit_by_name(label.unit) if label and label.unit else None
     others = (line for line in table.header if label is None or label.text not in line)
-    text = "\n".join((f"units: {own}", *others)) if own else table.text
+    text = "\n".join((f"units: {of_label}", *others)) if of_label else table.text
     against = contradiction(text, unit) if unit else None
     if against:
         raise RecordFormatError(f"unit of {table.file} must be that of its header, {against}; got {unit}")
     stated = stated_unit(text)
     if not (unit or stated):
         unknown, other = unknown_unit(text), " and ".join(units_elsewhere(text))
-        said = f"states {printable(unknown)}" if unknown else f"names {other}, and not of its samples" if other else ""
+        statement = (
+            f"states {printable(unknown)}" if unknown else f"names {other}, and not of its samples" if other else ""
+        )
         raise RecordFormatError(
             f"unit of {table.file} must be given ({', '.join(ACCELERATION_UNITS)}), the file "
-            + (f"{said}: unit= says which; got none" if said else "states none; got none")
+            + (f"{statement}: unit= says which; got none" if statement else "states none; got none")
         )
     return unit or stated or ""
 

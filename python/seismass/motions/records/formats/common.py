@@ -44,18 +44,18 @@ class Channel:
 
 
 def channels_of(
-    lines: list[str], component: Callable[[int, int], tuple[Channel, int]], *, between: str | None = None
+    lines: list[str], component: Callable[[int, int], tuple[Channel, int]], *, separator: str | None = None
 ) -> tuple[Channel, ...]:
     """Return the components of a file, one after the other, with blank lines or lines that begin with `between` in
     between. `component` takes the first line's index and the number (from 1), returns it and the next line.
     """
     channels: list[Channel] = []
-    at = 0
-    while at < len(lines):
-        if not lines[at].strip() or (between is not None and lines[at].startswith(between)):
-            at += 1
+    row = 0
+    while row < len(lines):
+        if not lines[row].strip() or (separator is not None and lines[row].startswith(separator)):
+            row += 1
             continue
-        channel, at = component(at, len(channels) + 1)
+        channel, row = component(row, len(channels) + 1)
         channels.append(channel)
     return tuple(channels)
 
@@ -135,7 +135,7 @@ def last_digits(tokens: Sequence[str]) -> NDArray[np.float64]:
 
 
 def split_touching(token: str) -> list[str] | None:
-    """Return the fields of fixed width that touch in `token` ("-.24E-03-.23E-03"), or None. They are told apart by a
+    """Return the fields of fixed width that touch in `token` ("-.24E-03-.23E-03"), or None. They are separated at a
     sign of the second or an exponent of the first (sign and two digits); all else is ambiguous.
     """
     fields: list[str] = []
@@ -233,16 +233,16 @@ def check_peak(
     where = int(np.argmax(np.abs(samples)))
     largest = float(samples[where])
     time = to_float(peak.time.strip()) if is_number(peak.time.strip()) else None
-    said = f"{written}" + (f" at {time:g} s" if time is not None else "")
+    text = f"{written}" + (f" at {time:g} s" if time is not None else "")
     if abs(abs(largest) - abs(stated)) > tolerance:
         raise RecordFormatError(
-            f"peak of {file} must be {said}, as its header says; got {largest / peak.factor:.7g} at {where * dt:.6g} s"
+            f"peak of {file} must be {text}, as its header says; got {largest / peak.factor:.7g} at {where * dt:.6g} s"
         )
     near = np.abs(np.abs(samples) - abs(stated)) <= tolerance
     if peak.signed and not np.any(near & (np.sign(samples) == np.sign(stated))):
         if stated < 0.0:
             raise RecordFormatError(
-                f"peak of {file} must be {said}, as its header says; got {largest / peak.factor:.7g}, of the other sign"
+                f"peak of {file} must be {text}, as its header says; got {largest / peak.factor:.7g}, of the other sign"
             )
         remarks.append(f"the peak is negative, {largest / peak.factor:.6g}; the header gives {written}")
     if time is not None and time > 0.0:
@@ -313,10 +313,10 @@ def stated_step(text: str, file: str, dt: float | None = None) -> float | None:
     """Return the step (s) that a header states, as a step or as a rate, or None where it states none; of several that
     differ `dt` decides.
     """
-    found = []
+    steps = []
     for match in _steps(text):
         written = match["step"] or match["ahead"]
-        found.append(step_in_seconds(written.replace(",", "."), _unit_of(match), file))
+        steps.append(step_in_seconds(written.replace(",", "."), _unit_of(match), file))
     for match in _RATE.finditer(text):
         kilo = (
             1000.0
@@ -324,14 +324,14 @@ def stated_step(text: str, file: str, dt: float | None = None) -> float | None:
             else 1.0
         )
         rate = kilo * to_float((match["rate"] or match["ahead"] or match["at"]).replace(",", "."))
-        found.append(step_in_seconds(repr(1.0 / rate) if rate > 0.0 else "0", "s", file))
-    others = [one for one in found if abs(one - found[0]) > COARSEST_ROUNDING and abs(one - found[0]) > 0.01 * found[0]]
+        steps.append(step_in_seconds(repr(1.0 / rate) if rate > 0.0 else "0", "s", file))
+    others = [one for one in steps if abs(one - steps[0]) > COARSEST_ROUNDING and abs(one - steps[0]) > 0.01 * steps[0]]
     if others and dt is None:
-        said = " and ".join(f"{one:g}" for one in dict.fromkeys((found[0], *others)))
-        raise RecordFormatError(f"dt of {file} must be given, its header states {said} s; got none")
+        listed = " and ".join(f"{one:g}" for one in dict.fromkeys((steps[0], *others)))
+        raise RecordFormatError(f"dt of {file} must be given, its header states {listed} s; got none")
     if others and dt is not None:
-        return min(found, key=lambda one: abs(one - dt))
-    return found[0] if found else None
+        return min(steps, key=lambda one: abs(one - dt))
+    return steps[0] if steps else None
 
 
 def _steps(text: str) -> list[re.Match[str]]:

@@ -65,12 +65,12 @@ MISSING: Final = -999.0
 
 @dataclass(frozen=True)
 class _Raw:
-    """One channel as it stands in the file."""
+    """One channel, unconverted."""
 
     kind: str
     text: list[str]
     whole: list[float | None]
-    reals: list[float | None]
+    numbers: list[float | None]
     comments: str
     data: re.Match[str]
     data_line: str
@@ -86,13 +86,13 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
     file = source.name
     refuse_skip(arguments, COSMOS.title, file)
     lines = text.splitlines()
-    at = 0
+    row = 0
     raws: list[_Raw] = []
-    while at < len(lines):
-        if not lines[at].strip():
-            at += 1
+    while row < len(lines):
+        if not lines[row].strip():
+            row += 1
             continue
-        raw, at = _read_channel(lines, at, file)
+        raw, row = _read_channel(lines, row, file)
         raws.append(raw)
     accelerations = [raw for raw in raws if _is_acceleration(raw)]
     if not accelerations:
@@ -116,58 +116,58 @@ def _read_channel(lines: list[str], start: int, file: str) -> tuple[_Raw, int]:
             f"line {start + 1} of {file} must begin a channel, as 'Corrected acceleration (Format v01.20 ...'; "
             f"got {lines[start].strip()[:40]!r}"
         )
-    at = start + int(first["lines"])
-    whole, at = _read_header(lines, at, "integer", file)
-    reals, at = _read_header(lines, at, "real", file)
-    comments = _COMMENTS.match(lines[at][:LINE_WIDTH]) if at < len(lines) else None
+    row = start + int(first["lines"])
+    whole, row = _read_header(lines, row, "integer", file)
+    numbers, row = _read_header(lines, row, "real", file)
+    comments = _COMMENTS.match(lines[row][:LINE_WIDTH]) if row < len(lines) else None
     text = ""
     if comments is not None:
         count = int(comments["count"])
-        text = "\n".join(line[:LINE_WIDTH] for line in lines[at + 1 : at + 1 + count])
-        if any(not line.lstrip().startswith("|") for line in lines[at + 1 : at + 1 + count]):
+        text = "\n".join(line[:LINE_WIDTH] for line in lines[row + 1 : row + 1 + count])
+        if any(not line.lstrip().startswith("|") for line in lines[row + 1 : row + 1 + count]):
             raise RecordFormatError(
-                f"comments of {file} must be {count} lines that start with |, from line {at + 2} on"
+                f"comments of {file} must be {count} lines that start with |, from line {row + 2} on"
             )
-        at += 1 + count
-    data = _DATA.match(lines[at][:LINE_WIDTH]) if at < len(lines) else None
+        row += 1 + count
+    data = _DATA.match(lines[row][:LINE_WIDTH]) if row < len(lines) else None
     if data is None:
-        got = lines[at].strip()[:60] if at < len(lines) else "the end of the file"
+        got = lines[row].strip()[:60] if row < len(lines) else "the end of the file"
         raise RecordFormatError(
-            f"line {at + 1} of {file} must give the points, unit and format of the data; got {got!r}"
+            f"line {row + 1} of {file} must give the points, unit and format of the data; got {got!r}"
         )
-    block = read_block(lines, at + 1, int(data["count"]), layout_of(data["edit"], file), file)
-    data_line = lines[at][:LINE_WIDTH]
-    at = block.end
-    ended = at < len(lines) and _END.fullmatch(lines[at]) is not None
-    if at < len(lines) and not ended and lines[at].strip():
+    block = read_block(lines, row + 1, int(data["count"]), layout_of(data["edit"], file), file)
+    data_line = lines[row][:LINE_WIDTH]
+    row = block.end
+    ended = row < len(lines) and _END.fullmatch(lines[row]) is not None
+    if row < len(lines) and not ended and lines[row].strip():
         raise RecordFormatError(
-            f"line {at + 1} of {file} must end the data of {data['count']} points; got {lines[at].strip()[:40]!r}"
+            f"line {row + 1} of {file} must end the data of {data['count']} points; got {lines[row].strip()[:40]!r}"
         )
     raw = _Raw(
         first["kind"].strip(),
         [line[:LINE_WIDTH] for line in lines[start : start + int(first["lines"])]],
         whole,
-        reals,
+        numbers,
         text,
         data,
         data_line,
         block,
         ended,
     )
-    return raw, at + ended
+    return raw, row + ended
 
 
-def _read_header(lines: list[str], at: int, what: str, file: str) -> tuple[list[float | None], int]:
-    match = _BLOCK.match(lines[at][:LINE_WIDTH]) if at < len(lines) else None
+def _read_header(lines: list[str], row: int, what: str, file: str) -> tuple[list[float | None], int]:
+    match = _BLOCK.match(lines[row][:LINE_WIDTH]) if row < len(lines) else None
     if match is None or match["what"].lower() != what:
-        got = lines[at].strip()[:60] if at < len(lines) else "the end of the file"
+        got = lines[row].strip()[:60] if row < len(lines) else "the end of the file"
         raise RecordFormatError(
-            f"line {at + 1} of {file} must give the count and format of the {what} header; got {got!r}"
+            f"line {row + 1} of {file} must give the count and format of the {what} header; got {got!r}"
         )
     rows, count = int(match["rows"]), int(match["count"])
     layout = layout_of(match["edit"], file)
-    numbers = header_values(lines, at + 1, rows, layout)[:count]
-    if not _NEEDED[what] <= count <= rows * layout.columns or len(numbers) < count or at + rows >= len(lines):
+    numbers = header_values(lines, row + 1, rows, layout)[:count]
+    if not _NEEDED[what] <= count <= rows * layout.columns or len(numbers) < count or row + rows >= len(lines):
         raise RecordFormatError(
             f"{what} header of {file} must be at least {_NEEDED[what]} values, {count} in {rows} lines; "
             f"got {len(numbers)}"
@@ -175,7 +175,7 @@ def _read_header(lines: list[str], at: int, what: str, file: str) -> tuple[list[
     if any(number is None for number in numbers):
         wrong = numbers.index(None)
         raise RecordFormatError(f"value {wrong + 1} of the {what} header of {file} must be a number; got none")
-    return numbers, at + 1 + rows
+    return numbers, row + 1 + rows
 
 
 def _known(number: float | None) -> float | None:
@@ -188,9 +188,9 @@ def _channel(raw: _Raw, source: Path, arguments: Arguments, number: int, several
     points = len(raw.block.values)
     remarks: list[str] = []
     dt = _step(raw, arguments.dt, points, file)
-    maximum = _known(raw.reals[63])
+    maximum = _known(raw.numbers[63])
     if maximum is not None:
-        time = _known(raw.reals[64])
+        time = _known(raw.numbers[64])
         peak = StatedPeak(_written(raw, 63), "" if time is None else _written(raw, 64))
         digit = digit_of_peak(raw.block.values, raw.block.fields)
         check_peak(raw.block.values, peak, dt, digit, file, remarks)
@@ -234,13 +234,13 @@ def _channel(raw: _Raw, source: Path, arguments: Arguments, number: int, several
 
 def _location(lines: list[str]) -> str:
     """Return where the sensor stands, as the line of the channel has it."""
-    found = _LOCATION.search("\n".join(lines))
-    return printable(" ".join(found[1].split())) if found else ""
+    match = _LOCATION.search("\n".join(lines))
+    return printable(" ".join(match[1].split())) if match else ""
 
 
 def _written(raw: _Raw, index: int) -> str:
     """Return a real of the header to the digits that it has there at least."""
-    number = raw.reals[index] or 0.0
+    number = raw.numbers[index] or 0.0
     return f"{number:.6f}" if abs(number) < 1e6 else f"{number:.0f}"
 
 
@@ -268,15 +268,15 @@ def _unit(raw: _Raw, file: str) -> str:
 
 def _step(raw: _Raw, dt: float | None, points: int, file: str) -> float:
     """Return the step, real 62 in ms, which must agree with the length of the series, real 63 in s."""
-    milliseconds, length = _known(raw.reals[61]), _known(raw.reals[62])
+    milliseconds, length = _known(raw.numbers[61]), _known(raw.numbers[62])
     step = milliseconds / 1000.0 if milliseconds else None
     if step is None and length:
         step = float(f"{length / points:.9g}")
     if step is not None and not 1e-5 <= step <= 1.0:
         raise RecordFormatError(f"step of {file} must be between 0.01 and 1000 ms; got {step * 1000.0:g}")
     step = agreed_step(step, dt, f"{(step or 0.0) * 1000.0:g} ms", file)
-    about = _APPROXIMATELY.search(raw.data_line)
-    for stated, slack in ((length, 1.5 * step + 1e-3), (float(about[1]) if about else None, 1.0 + step)):
+    approximate = _APPROXIMATELY.search(raw.data_line)
+    for stated, slack in ((length, 1.5 * step + 1e-3), (float(approximate[1]) if approximate else None, 1.0 + step)):
         if stated is not None and abs(stated - points * step) > slack:
             raise RecordFormatError(
                 f"points of {file} must last {stated:g} s, as its header says; got {points} points of {step:g} s"

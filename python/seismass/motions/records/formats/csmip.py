@@ -103,36 +103,36 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
     file = source.name
     refuse_skip(arguments, CSMIP.title, file)
     lines = text.splitlines()
-    at = 0
+    row = 0
     starts: list[tuple[list[str], _Data, bool]] = []
     angles: list[float | None] = []
-    while at < len(lines):
-        if not lines[at].strip():
-            at += 1
+    while row < len(lines):
+        if not lines[row].strip():
+            row += 1
             continue
-        first = _FIRST.match(lines[at][:LINE_WIDTH])
+        first = _FIRST.match(lines[row][:LINE_WIDTH])
         if first is None:
             raise RecordFormatError(
-                f"line {at + 1} of {file} must begin a channel, as 'CORRECTED ACCELEROGRAM'; "
-                f"got {lines[at].strip()[:40]!r}"
+                f"line {row + 1} of {file} must begin a channel, as 'CORRECTED ACCELEROGRAM'; "
+                f"got {lines[row].strip()[:40]!r}"
             )
         corrected = first["un"] is None
         text_lines, header_lines = _HEADER_V2 if corrected else _HEADER_V1
-        titles = [line[:LINE_WIDTH] for line in lines[at : at + text_lines]]
-        if len(lines) <= at + header_lines:
-            raise RecordFormatError(f"header of {file} must be {header_lines} lines; got {len(lines) - at}")
-        whole = header_values(lines, at + text_lines, 2, _INTEGERS)
+        titles = [line[:LINE_WIDTH] for line in lines[row : row + text_lines]]
+        if len(lines) <= row + header_lines:
+            raise RecordFormatError(f"header of {file} must be {header_lines} lines; got {len(lines) - row}")
+        whole = header_values(lines, row + text_lines, 2, _INTEGERS)
         angles.append(whole[_ANGLE] if len(whole) > _ANGLE and whole[_ANGLE] not in _NO_ANGLE else None)
-        data = _read_data(lines, at + header_lines, titles, corrected, file)
-        at = data.end
+        data = _read_data(lines, row + header_lines, titles, corrected, file)
+        row = data.end
         if corrected:
-            at = _pass_over(lines, at, len(data.values), file)
-        ended = at < len(lines) and _END.fullmatch(lines[at]) is not None
-        if at < len(lines) and lines[at].strip() and not ended and _FIRST.match(lines[at][:LINE_WIDTH]) is None:
+            row = _pass_over(lines, row, len(data.values), file)
+        ended = row < len(lines) and _END.fullmatch(lines[row]) is not None
+        if row < len(lines) and lines[row].strip() and not ended and _FIRST.match(lines[row][:LINE_WIDTH]) is None:
             raise RecordFormatError(
-                f"line {at + 1} of {file} must end its channel; got {lines[at].strip()[:40]!r}: more data than points"
+                f"line {row + 1} of {file} must end its channel; got {lines[row].strip()[:40]!r}: more data than points"
             )
-        at += ended
+        row += ended
         starts.append((titles, data, ended))
     several = len(starts) > 1
     labels = [_label(titles, number) for number, (titles, _, _) in enumerate(starts, start=1)]
@@ -149,15 +149,15 @@ def _label(titles: list[str], number: int) -> str:
     return match["number"] if match else str(number)
 
 
-def _read_data(lines: list[str], at: int, titles: list[str], corrected: bool, file: str) -> _Data:
-    match = _DATA.match(lines[at][:LINE_WIDTH])
+def _read_data(lines: list[str], row: int, titles: list[str], corrected: bool, file: str) -> _Data:
+    match = _DATA.match(lines[row][:LINE_WIDTH])
     header = "\n".join(titles)
     if match is None and not corrected:
-        return _read_pairs(lines, at, header, file)
+        return _read_pairs(lines, row, header, file)
     if match is None or (match["what"] or "ACCEL").upper() != "ACCEL":
         raise RecordFormatError(
-            f"line {at + 1} of {file} must give the points, step and unit of its accelerations; "
-            f"got {lines[at].strip()[:40]!r}"
+            f"line {row + 1} of {file} must give the points, step and unit of its accelerations; "
+            f"got {lines[row].strip()[:40]!r}"
         )
     count = int(match["count"])
     stated = (_COUNT_V2 if corrected else _COUNT_V1).search(header)
@@ -177,7 +177,7 @@ def _read_data(lines: list[str], at: int, titles: list[str], corrected: bool, fi
         step, written = (1.0 / rate if rate > 0.0 else 0.0), f"{match['rate']} points a second"
     if not 1e-5 <= step <= 1.0:
         raise RecordFormatError(f"step of {file} must be between 1e-05 and 1 s; got {written}")
-    block = read_block(lines, at + 1, count, layout, file)
+    block = read_block(lines, row + 1, count, layout, file)
     return _Data(block.values, block.fields, step, written, unit, False, block.end)
 
 
@@ -188,13 +188,13 @@ def _unit_of(words: str) -> str | None:
     return "g" if re.search(r"UNITS(?: OF|:)\s*G\b(?!/)", words) else None
 
 
-def _read_pairs(lines: list[str], at: int, header: str, file: str) -> _Data:
+def _read_pairs(lines: list[str], row: int, header: str, file: str) -> _Data:
     """Read times and accelerations, five pairs a line, as V1 files of digitised film have them."""
     count = _COUNT_V1.search(header)
     units = _UNITS_OF.search(header)
     if count is None or units is None:
         raise RecordFormatError(f"header of {file} must give NO. OF POINTS and the unit of its accelerations; got none")
-    block = read_block(lines, at, 2 * int(count[1]), _PAIRS, file)
+    block = read_block(lines, row, 2 * int(count[1]), _PAIRS, file)
     try:
         step = uniform_step(block.values[::2], block.fields[::2], file)
     except RecordFormatError as error:
@@ -204,13 +204,13 @@ def _read_pairs(lines: list[str], at: int, header: str, file: str) -> _Data:
     return _Data(values, block.fields[1::2], step, f"times {step:g} s apart", "g", tenth, block.end)
 
 
-def _pass_over(lines: list[str], at: int, points: int, file: str) -> int:
+def _pass_over(lines: list[str], row: int, points: int, file: str) -> int:
     """Return the index of the line after velocities and displacements, whose points must be as many."""
     for what in ("VELOC", "DISPL"):
-        match = _DATA.match(lines[at][:LINE_WIDTH]) if at < len(lines) else None
+        match = _DATA.match(lines[row][:LINE_WIDTH]) if row < len(lines) else None
         if match is None or (match["what"] or "").upper() != what:
-            got = lines[at].strip()[:40] if at < len(lines) else "the end of the file"
-            raise RecordFormatError(f"line {at + 1} of {file} must begin its {what} data; got {got!r}")
+            got = lines[row].strip()[:40] if row < len(lines) else "the end of the file"
+            raise RecordFormatError(f"line {row + 1} of {file} must begin its {what} data; got {got!r}")
         edit = _EDIT.search(match["rest"])
         layout = layout_of(edit[0], file) if edit else _DEFAULT_V2
         count = int(match["count"])
@@ -218,10 +218,10 @@ def _pass_over(lines: list[str], at: int, points: int, file: str) -> int:
             raise RecordFormatError(f"points of {file} must be {points} of each quantity; got {count} of {what}")
         rows = math.ceil(count / layout.columns)
         last = (count - layout.columns * (rows - 1)) * layout.width
-        if at + rows >= len(lines) or len(lines[at + rows].rstrip()) != last:
+        if row + rows >= len(lines) or len(lines[row + rows].rstrip()) != last:
             raise RecordFormatError(f"{what} data of {file} must be {count} points; got fewer: the file is cut off")
-        at += rows + 1
-    return at
+        row += rows + 1
+    return row
 
 
 def _channel(
@@ -264,8 +264,8 @@ def _channel(
         remarks.append(f"the station has {channels[1]} channels; this file has one")
     place = _CHANNEL.search("\n".join(titles[5:9]))
     # The place in a building stands further right, with or without its word; a number at the station may be between.
-    said = _NUMBER_AT_STATION.sub("   ", place["said"]).strip() if place else ""
-    component, _, where = _WIDE_GAP.sub("\n", said).partition("\n")
+    words = _NUMBER_AT_STATION.sub("   ", place["said"]).strip() if place else ""
+    component, _, where = _WIDE_GAP.sub("\n", words).partition("\n")
     component = component.partition("(")[0].strip()
     where = re.sub(r"^Location:\s*", "", " ".join(where.split()), flags=re.IGNORECASE)
     contradiction = direction_remark(component, angle, _VERTICAL)
@@ -293,7 +293,7 @@ def _channel(
 def _before_trigger(header: str) -> float:
     """Return the seconds from the start of a record of RENADIC to its trigger, from which it counts the peaks."""
     lines = header.splitlines()[2:4] if "RENADIC" in header else []
-    clocks = [found[-1] for line in lines if (found := _CLOCK.findall(line))]
+    clocks = [clock[-1] for line in lines if (clock := _CLOCK.findall(line))]
     seconds = [3600.0 * float(hours) + 60.0 * float(minutes) + float(rest) for hours, minutes, rest in clocks]
     return seconds[1] - seconds[0] if len(seconds) == 2 and 0.0 < seconds[1] - seconds[0] < 600.0 else 0.0
 

@@ -114,7 +114,7 @@ def _is_field(field: str, layout: Layout) -> bool:
 
 def header_values(lines: Sequence[str], start: int, rows: int, layout: Layout) -> list[float | None]:
     """Return the numbers of a header block; a field that is blank or no number is None."""
-    found: list[float | None] = []
+    numbers: list[float | None] = []
     for line in lines[start : start + rows]:
         for edge in range(0, layout.columns * layout.width, layout.width):
             field = line[edge : edge + layout.width]
@@ -122,8 +122,8 @@ def header_values(lines: Sequence[str], start: int, rows: int, layout: Layout) -
                 number = float(field) if set(field) <= _CHARACTERS else None
             except ValueError:
                 number = None
-            found.append(number if number is not None and math.isfinite(number) else None)
-    return found
+            numbers.append(number if number is not None and math.isfinite(number) else None)
+    return numbers
 
 
 UNIFORMITY: Final = 0.05

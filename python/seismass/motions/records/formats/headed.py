@@ -101,21 +101,21 @@ def _parse(header: Header, text: str, source: Path, arguments: Arguments) -> tup
     dt = _step(header, words, matrix, tokens, arguments.dt, file)
     _check_length(header, words, len(matrix), dt, file, remarks)
     unit = agreed_unit(_unit(header, words, file), arguments.unit, file)
-    if points is None and not _found(header.length, words):
+    if points is None and not _text_of(header.length, words):
         remarks.append(NO_COUNT)
-    said = _found(header.remark, words)
-    if said:
-        remarks.append(f"its header says {printable(said)}")
+    stated = _text_of(header.remark, words)
+    if stated:
+        remarks.append(f"its header says {printable(stated)}")
     components = [(index, name) for index, name in enumerate(header.columns) if name] or [
-        (0, _found(header.component, words))
+        (0, _text_of(header.component, words))
     ]
     peaks = list(header.peaks.finditer(words)) if header.peaks else []
     channels = []
     for number, (index, component) in enumerate(components):
         samples = np.ascontiguousarray(matrix[:, index])
-        own = list(remarks)
+        notes = list(remarks)
         if number < len(peaks):
-            _check(samples, peaks[number], dt, tokens[index::width], file, own)
+            _check(samples, peaks[number], dt, tokens[index::width], file, notes)
         channels.append(
             Channel(
                 str(number + 1),
@@ -123,14 +123,14 @@ def _parse(header: Header, text: str, source: Path, arguments: Arguments) -> tup
                     acceleration=samples * ACCELERATION_UNITS[unit],
                     dt=dt,
                     name=printable(source.stem) + (f" channel {number + 1}" if len(components) > 1 else ""),
-                    event=printable(_found(header.event, words)),
-                    station=printable(_found(header.station, words)),
+                    event=printable(_text_of(header.event, words)),
+                    station=printable(_text_of(header.station, words)),
                     component=printable(component),
                     azimuth=azimuth_of(component),
-                    network=header.network if isinstance(header.network, str) else _found(header.network, words),
+                    network=header.network if isinstance(header.network, str) else _text_of(header.network, words),
                     source=source,
                     file_unit=unit,
-                    remarks=tuple(own),
+                    remarks=tuple(notes),
                 ),
             )
         )
@@ -160,25 +160,25 @@ def _table(header: Header, text: str, file: str) -> Table:
     return Table(file, head, rows, lines, start)
 
 
-def _found(pattern: Pattern | None, words: str) -> str:
+def _text_of(pattern: Pattern | None, words: str) -> str:
     match = pattern.search(words) if pattern else None
     return " ".join(match[1].split()) if match else ""
 
 
 def _whole(pattern: Pattern | None, words: str) -> int | None:
-    said = _found(pattern, words)
-    return int(said) if said.isascii() and said.isdigit() and len(said) < 10 else None
+    stated = _text_of(pattern, words)
+    return int(stated) if stated.isascii() and stated.isdigit() and len(stated) < 10 else None
 
 
 def _step(
     header: Header, words: str, matrix: NDArray[np.float64], tokens: list[str], dt: float | None, file: str
 ) -> float:
     """Return the step that the header, the times and the caller agree on."""
-    said, rate = _found(header.step, words), _found(header.rate, words)
+    text, rate = _text_of(header.step, words), _text_of(header.rate, words)
     stated: float | None = None
     written = ""
-    if is_number(said) and to_float(said) > 0.0:
-        stated, written = to_float(said), f"{said} s"
+    if is_number(text) and to_float(text) > 0.0:
+        stated, written = to_float(text), f"{text} s"
     elif is_number(rate) and to_float(rate) > 0.0:
         stated, written = 1.0 / to_float(rate), f"{rate} samples a second"
     if stated is not None and not SHORTEST_STEP <= stated <= LONGEST_STEP:
@@ -187,10 +187,10 @@ def _step(
         )
     if "" in header.columns:
         width = len(header.columns)
-        at = header.columns.index("")
-        times = uniform_step(matrix[:, at], tokens[at::width], file, rounding=False)
+        column = header.columns.index("")
+        times = uniform_step(matrix[:, column], tokens[column::width], file, rounding=False)
         if stated is not None and abs(times - stated) * max(len(matrix) - 1, 1) > 0.1 * stated + 0.5 * last_digit(
-            tokens[-width + at]
+            tokens[-width + column]
         ):
             raise RecordFormatError(f"times of {file} must be {stated:g} s apart, as its header says; got {times:g} s")
         if stated is None:
@@ -200,45 +200,45 @@ def _step(
 
 def _check_length(header: Header, words: str, points: int, dt: float, file: str, remarks: list[str]) -> None:
     """Hold the duration of the header against the samples; a step less is remarked."""
-    said = _found(header.length, words)
-    if not is_number(said):
+    stated = _text_of(header.length, words)
+    if not is_number(stated):
         return
-    off, rounding = abs(to_float(said) - points * dt), 0.5 * last_digit(said) + 1e-9
+    off, rounding = abs(to_float(stated) - points * dt), 0.5 * last_digit(stated) + 1e-9
     if 0.5 * dt + rounding < off <= 1.5 * dt + rounding:
-        remarks.append(f"{points} points last {points * dt:g} s; the header gives {said} s")
+        remarks.append(f"{points} points last {points * dt:g} s; the header gives {stated} s")
     if off > 1.5 * dt + rounding:
         raise RecordFormatError(
-            f"record length of {file} must be {said} s, as its header says; got {points} points of {dt:g} s"
+            f"record length of {file} must be {stated} s, as its header says; got {points} points of {dt:g} s"
         )
 
 
 def _unit(header: Header, words: str, file: str) -> str:
     if isinstance(header.unit, str):
         return header.unit
-    said = _found(header.unit, words)
-    unit = unit_by_name(said.strip(" .()")) or unit_named(said)
+    stated = _text_of(header.unit, words)
+    unit = unit_by_name(stated.strip(" .()")) or unit_named(stated)
     if unit is None:
-        raise RecordFormatError(f"unit of {file} must be one of {', '.join(ACCELERATION_UNITS)}; got {said[:30]!r}")
+        raise RecordFormatError(f"unit of {file} must be one of {', '.join(ACCELERATION_UNITS)}; got {stated[:30]!r}")
     return unit
 
 
 def _check(
     samples: NDArray[np.float64], peak: re.Match[str], dt: float, fields: list[str], file: str, remarks: list[str]
 ) -> None:
-    at = int(np.argmax(np.abs(samples)))
+    largest = int(np.argmax(np.abs(samples)))
     others = peak.groupdict()
     value = max((peak["value"], others.get("least") or "0"), key=lambda written: abs(to_float(written)))
     one_side = to_float(peak["value"])
-    close = 0.5 * last_digit(peak["value"]) + 0.5 * last_digit(fields[at])
+    close = 0.5 * last_digit(peak["value"]) + 0.5 * last_digit(fields[largest])
     if (
         "least" not in others
-        and abs(abs(one_side) - abs(samples[at])) > close
+        and abs(abs(one_side) - abs(samples[largest])) > close
         and any(abs(side - one_side) <= close for side in (np.max(samples), np.min(samples)))
     ):
-        remarks.append(f"the peak is {samples[at]:.6g}; the header gives that of the other sign, {peak['value']}")
+        remarks.append(f"the peak is {samples[largest]:.6g}; the header gives that of the other sign, {peak['value']}")
         return
     stated = StatedPeak(value, others.get("time") or "", signed=False)
-    check_peak(samples, stated, dt, last_digit(fields[at]), file, remarks)
+    check_peak(samples, stated, dt, last_digit(fields[largest]), file, remarks)
 
 
 _NUMBER: Final = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][+-]?\d+)?"

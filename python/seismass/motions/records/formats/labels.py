@@ -54,9 +54,7 @@ def azimuth_of(component: str) -> float | None:
 
 
 def direction_remark(component: str, number: float | None, vertical_codes: tuple[int, ...]) -> str | None:
-    """Return a remark where a header's text and its integer (degrees or a code; None: missing) disagree on the
-    direction of a component.
-    """
+    """Return a remark where text and integer (degrees or a code) of a header disagree on the direction."""
     azimuth = azimuth_of(component)
     if number is None or (azimuth is None and not is_vertical(component)):
         return None
@@ -193,17 +191,17 @@ def uncorrected_beside(labels: list[Label]) -> dict[int, str]:
 def place_of(label: Label) -> str:
     """Return what a label of accelerations says beside them, their direction and processing: where they are from."""
     clauses = re.split(r"[,;:]", label.words)
-    own = next((one for one in clauses if _kind(one, "") == "acceleration"), label.words)
-    return "" if is_plain(own) or len(own.split()) > 2 * SHORT_LABEL else own.strip()
+    clause = next((one for one in clauses if _kind(one, "") == "acceleration"), label.words)
+    return "" if is_plain(clause) or len(clause.split()) > 2 * SHORT_LABEL else clause.strip()
 
 
 def label_of(text: str) -> Label:
     """Return what one label says."""
     text = text.strip().strip('"').strip()
-    found = _BRACKET.search(text)
-    unit = found[1].strip() if found else ""
+    match = _BRACKET.search(text)
+    unit = match[1].strip() if match else ""
     words = _BRACKET.sub(" ", text).replace("_", " ").strip()
-    if not found:  # a unit may stand without a bracket: "NS gal", "Acc g"
+    if not match:  # a unit may stand without a bracket: "NS gal", "Acc g"
         last = words.split()[-1:] if len(words.split()) > 1 else []
         if last and (unit_by_name(last[0]) or last[0].lower() in PER_SECOND):
             unit, words = last[0], " ".join(words.split()[:-1])
@@ -219,25 +217,25 @@ def label_of(text: str) -> Label:
 
 
 def _kind(words: str, unit: str) -> str:
-    said = next((kind for kind, pattern in _WORDS if pattern.search(words)), "")
+    word = next((kind for kind, pattern in _WORDS if pattern.search(words)), "")
     tokens = re.findall(r"[^\W_]+", words.lower())
     others = [token for token in tokens if not _TIMES.fullmatch(token)]
-    if said in ("", "index") and len(others) < len(tokens) and all(map(_OF_TIMES.fullmatch, others)):
-        said = "times"
+    if word in ("", "index") and len(others) < len(tokens) and all(map(_OF_TIMES.fullmatch, others)):
+        word = "times"
     if _DATE.search(words) and not re.search("relative|elapsed", words, re.IGNORECASE):
         return "date"
-    if said == "no motion":
-        return said
+    if word == "no motion":
+        return word
     if _is_acceleration(unit):
-        return said if said in ("velocity", "displacement") else "acceleration"
+        return word if word in ("velocity", "displacement") else "acceleration"
     bare = unit.lower()
     if _VELOCITIES.fullmatch(bare):
         return "velocity"
-    if bare in _DISPLACEMENTS and said != "times":
+    if bare in _DISPLACEMENTS and word != "times":
         return "displacement"
     if bare and bare not in PER_SECOND and _UNITS_OF_NO_MOTION.fullmatch(bare):
         return "no motion"
-    return said or _BARE.get(words.strip().lower(), "")
+    return word or _BARE.get(words.strip().lower(), "")
 
 
 def _is_acceleration(unit: str) -> bool:
@@ -252,9 +250,9 @@ def _direction(words: str) -> str:
     degrees = _azimuth_in(words, paired=False)
     if degrees:
         return degrees
-    found: list[str] = _DIRECTION.findall(words)
-    known = [one for one in found if azimuth_of(one) is not None or is_vertical(one)]
-    return next(iter([*known, *found]), "")
+    directions: list[str] = _DIRECTION.findall(words)
+    known = [one for one in directions if azimuth_of(one) is not None or is_vertical(one)]
+    return next(iter([*known, *directions]), "")
 
 
 def _is_all_direction(words: str, direction: str) -> bool:
@@ -268,27 +266,25 @@ def _azimuth_in(words: str, *, paired: bool) -> str:
     """Return the number of a label that is an azimuth, or could be one of a pair, as it is written."""
     counted = not is_plain(words) or _CHANNEL_WORDS.search(words) is not None
     for pattern in _AZIMUTHS[:2] if counted else _AZIMUTHS[: 4 if paired else 3]:
-        found = pattern.search(words)
-        if found and int(found[1]) <= 360:
-            return found[1]
+        number = pattern.search(words)
+        if number and int(number[1]) <= 360:
+            return number[1]
     return ""
 
 
 def labels_of(header: list[str], columns: int) -> list[Label] | None:
-    """Return the labels of so many columns, from the last of the non-blank header lines that has as many; None where
-    none has.
-    """
+    """Return the labels of that many columns, from the last line of the header that has as many; None without one."""
     for line in reversed(header[-4:]):
         if len(line) > LINE_WIDTH or _PROSE.search(line):
             continue
         for parts, separated in _splits(_NO_NUMBERS.sub("", line), columns):
-            found = _beside_each_other([label_of(part) for part in parts])
-            named = sum(1 for label in found if label.kind)
-            if named == columns or (columns > 1 and _short(found) and _are_labels(found, separated)):
+            labels = _beside_each_other([label_of(part) for part in parts])
+            named = sum(1 for label in labels if label.kind)
+            if named == columns or (columns > 1 and _short(labels) and _are_labels(labels, separated)):
                 units = _units_below(header, line, columns)
                 return [
                     one if one.unit or not unit else label_of(f"{one.text} ({unit})")
-                    for one, unit in zip(found, units, strict=True)
+                    for one, unit in zip(labels, units, strict=True)
                 ]
     return None
 
@@ -320,9 +316,9 @@ def _beside_each_other(labels: list[Label]) -> list[Label]:
 
 def _units_below(header: list[str], line: str, columns: int) -> list[str]:
     """Return the units of a line of units alone under that of the labels, or of none."""
-    at = header.index(line) + 1
-    if at < len(header):
-        for parts, _ in _splits(_NO_NUMBERS.sub("", header[at]), columns):
+    row = header.index(line) + 1
+    if row < len(header):
+        for parts, _ in _splits(_NO_NUMBERS.sub("", header[row]), columns):
             bare = [part.strip(" ()[]") for part in parts]
             if all(one.lower() in PER_SECOND or unit_by_name(one) for one in bare):
                 return bare
@@ -391,8 +387,8 @@ _MOTION = re.compile(
 
 def spectrum_named(header: str) -> str | None:
     """Return what a header calls a spectrum or a hazard curve, where it speaks of no motion; else None."""
-    found = _SPECTRUM.search(header)
-    return found.group().lower() if found and not _MOTION.search(header) else None
+    match = _SPECTRUM.search(header)
+    return match.group().lower() if match and not _MOTION.search(header) else None
 
 
 FIRST_TIME: Final = 1.5
@@ -439,10 +435,10 @@ def step_of_times(times: Times, dt: float | None, remarks: list[str]) -> float |
             remarks.append(f"the times are {_PLAIN_UNITS.get(factor, 'minutes')} by the step that was given")
             return dt
     if not SHORTEST_STEP <= step <= LONGEST_STEP:
-        said = f"in {unit}" if unit else "whose unit no label states"
+        words = f"in {unit}" if unit else "whose unit no label states"
         raise RecordFormatError(
             f"step of {times.file} must be between {SHORTEST_STEP:g} and {LONGEST_STEP:g} s; got {step:g} s from times "
-            f"{said}: ms, minutes or a count of samples? Say dt"
+            f"{words}: ms, minutes or a count of samples? Say dt"
         )
     return step
 

@@ -41,7 +41,7 @@ _VOLUME = re.compile(r"\s*\d\s+[A-Z]", re.IGNORECASE)
 _STATION = re.compile(r"station\s*=\s*(?P<name>.*?)\s*component\s*=\s*(?P<component>.*)", re.IGNORECASE)
 _SOURCE = re.compile(r"data source\s*=\s*(.*)", re.IGNORECASE)
 
-MISSING_REAL: Final = 1e30
+MISSING_NUMBER: Final = 1e30
 """Reals that are not known are 1.7E+38 or 1.7E+39."""
 
 
@@ -70,12 +70,12 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
             f"quantity of {file} must be an uncorrected or corrected accelerogram; got {quantity}: "
             "read the SMC file of its acceleration"
         )
-    whole, reals = _numbers(lines, file)
-    at, points = _data(lines, whole, file)
-    block = read_block(lines, at, points, _DATA, file)
+    whole, numbers = _numbers(lines, file)
+    start, points = _data(lines, whole, file)
+    block = read_block(lines, start, points, _DATA, file)
     remarks: list[str] = []
-    rate = reals[1]
-    if rate is not None and 0.0 < rate < MISSING_REAL:
+    rate = numbers[1]
+    if rate is not None and 0.0 < rate < MISSING_NUMBER:
         if not 1.0 <= rate <= 1e5:
             raise RecordFormatError(f"sampling rate of {file} must be between 1 and 100000 Hz; got {rate:g}")
         dt = agreed_step(1.0 / rate, arguments.dt, f"{rate:g} samples a second", file)
@@ -86,7 +86,7 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
             f"points of {file} must be {points}, as its header says; got more in line {block.end + 1}"
         )
     agreed_unit("cm/s2", arguments.unit, file)
-    _check_peaks(block, reals, dt, lines, file, remarks)
+    _check_peaks(block, numbers, dt, lines, file, remarks)
     if quantity.startswith("un"):
         remarks.append("uncorrected accelerogram: neither filtered nor corrected for its baseline")
     if whole[17] == 1:
@@ -113,11 +113,11 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
 def _numbers(lines: list[str], file: str) -> tuple[list[float | None], list[float | None]]:
     """Return the integers and the reals of the header."""
     whole = header_values(lines, _TEXT, _INTEGERS, Layout(8, 10, True))
-    reals = header_values(lines, _TEXT + _INTEGERS, _REALS, Layout(5, 15))
-    sound = len(whole) == 8 * _INTEGERS and len(reals) == 5 * _REALS
-    if not sound or any(number is None or number % 1.0 for number in whole) or None in reals:
+    numbers = header_values(lines, _TEXT + _INTEGERS, _REALS, Layout(5, 15))
+    sound = len(whole) == 8 * _INTEGERS and len(numbers) == 5 * _REALS
+    if not sound or any(number is None or number % 1.0 for number in whole) or None in numbers:
         raise RecordFormatError(f"header of {file} must be {_INTEGERS} lines of integers and {_REALS} of reals")
-    return whole, reals
+    return whole, numbers
 
 
 def _data(lines: list[str], whole: list[float | None], file: str) -> tuple[int, int]:
@@ -155,23 +155,23 @@ def _pairs(block: Block, dt: float | None, file: str, remarks: list[str]) -> tup
 
 
 def _check_peaks(
-    block: Block, reals: list[float | None], dt: float, lines: list[str], file: str, remarks: list[str]
+    block: Block, numbers: list[float | None], dt: float, lines: list[str], file: str, remarks: list[str]
 ) -> None:
     """Hold the largest and the smallest sample against reals 30 and 32, and their times against 29 and 31."""
     tokens = [
         line[edge : edge + 15].strip() for line in lines[_TEXT + _INTEGERS :][:_REALS] for edge in range(0, 75, 15)
     ]
     for sign, value, time in ((1.0, 29, 28), (-1.0, 31, 30)):
-        stated, when = reals[value], reals[time]
-        if stated is None or abs(stated) >= MISSING_REAL:
+        stated, when = numbers[value], numbers[time]
+        if stated is None or abs(stated) >= MISSING_NUMBER:
             continue
         side = np.maximum(block.values * sign, 0.0)
         if sign * stated < 0.0 or not side.any():
             continue
         written = tokens[value].lstrip("+-")
-        at = tokens[time] if when is not None and abs(when) < MISSING_REAL else ""
+        time_text = tokens[time] if when is not None and abs(when) < MISSING_NUMBER else ""
         digit = last_digit(block.fields[int(np.argmax(side))].strip())
-        check_peak(side, StatedPeak(written, at, signed=False), dt, digit, file, remarks)
+        check_peak(side, StatedPeak(written, time_text, signed=False), dt, digit, file, remarks)
 
 
 SMC: Final = Format("smc", "SMC", _recognises, _parse)

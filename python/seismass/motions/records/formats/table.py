@@ -119,13 +119,13 @@ _SAME_BLOCK: Final = re.compile(r"acc\w*|acel\w*|beschl\w*|ivme", re.IGNORECASE)
 
 def _first_block(body: list[str], start: int, file: str, remarks: list[str]) -> list[str]:
     """Return the lines up to a title of velocities or displacements; a second block of accelerations is refused."""
-    for at, line in enumerate(body):
-        if at > EARLY and _OTHER_BLOCK.search(line):
+    for index, line in enumerate(body):
+        if index > EARLY and _OTHER_BLOCK.search(line):
             remarks.append(f"what follows {line.strip()[:40]!r} is not read")
-            return body[:at]
-        if at > EARLY and _SAME_BLOCK.search(line) and not line.lstrip().startswith(_COMMENT):
+            return body[:index]
+        if index > EARLY and _SAME_BLOCK.search(line) and not line.lstrip().startswith(_COMMENT):
             raise RecordFormatError(
-                f"line {start + at + 1} of {file} must be numbers; got a second block, {line.strip()[:40]!r}: "
+                f"line {start + index + 1} of {file} must be numbers; got a second block, {line.strip()[:40]!r}: "
                 "put each into a file of its own"
             )
     return body
@@ -193,8 +193,8 @@ def numbers_of(table: Table) -> tuple[list[str], NDArray[np.float64], list[int]]
     counts = [len(row) for row in rows]
     wrong = np.flatnonzero(~np.isfinite(values))
     if len(wrong):
-        at = int(np.searchsorted(np.cumsum(counts), wrong[0], side="right"))
-        raise RecordFormatError(f"line {table.line_number(at)} of {table.file} must be finite; got infinity")
+        number = int(np.searchsorted(np.cumsum(counts), wrong[0], side="right"))
+        raise RecordFormatError(f"line {table.line_number(number)} of {table.file} must be finite; got infinity")
     return tokens, values, counts
 
 
@@ -228,7 +228,7 @@ def without_first_numbers(table: Table, dt: float | None, remarks: list[str]) ->
     if not (SHORTEST_STEP <= step <= LONGEST_STEP and scale > 0.0):
         return table, None
     is_count = scale == len(table.rows) - taken or (
-        len(rows[0]) != len(rows[taken]) and scale == sum(len(table.row(at)) for at in range(taken, len(table.rows)))
+        len(rows[0]) != len(rows[taken]) and scale == sum(len(table.row(k)) for k in range(taken, len(table.rows)))
     )
     if len(rows[0]) != len(rows[taken]):
         stands_out = True
@@ -290,11 +290,11 @@ def columns_of(table: Table, values: NDArray[np.float64], counts: list[int], lab
         full = values[: wide * (len(counts) - 1)].reshape(-1, wide)
         if not _rises(full) and is_row_major(full):
             return 1
-    for index, found in enumerate(counts):
-        if found != columns:
+    for index, numbers in enumerate(counts):
+        if numbers != columns:
             raise RecordFormatError(
                 f"line {table.line_number(index)} of {table.file} must be {columns} number{'s' * (columns > 1)}, "
-                f"as the last line is; got {found}"
+                f"as the last line is; got {numbers}"
             )
     return columns
 

@@ -161,11 +161,11 @@ class SyntheticParameters:
         Time from the start until 45 % of it (s).
     frequency : float
         Frequency of the filter at `t_mid` (Hz), about the rate at which the process crosses zero upwards.
-    frequency_rate : float
+    frequency_rate : float, default 0.0
         Its change (Hz/s), mostly negative. The filter keeps at least 0.3 Hz.
-    damping : float
+    damping : float, default 0.3
         Damping ratio of the filter, between 0 and 1: the larger the broader the band.
-    corner : float
+    corner : float, default 0.2
         Frequency of the critically damped oscillator that takes off long periods (Hz), below `frequency`.
     pulse : NearFaultPulse, optional
         Velocity pulse that is added.
@@ -326,7 +326,7 @@ def synthetic_motion(parameters: SyntheticParameters, seed: int, dt: float = 0.0
         What the motion is like.
     seed : int
         Seed of the random numbers, those of `random.Random`; the same seed gives the same motion, to rounding.
-    dt : float
+    dt : float, default 0.01
         Time step (s); at most a tenth of the filter's shortest period.
 
     Returns

@@ -121,9 +121,9 @@ class Scenario:
         )
         corner = SHAPE_PERIODS[self.site, self.magnitude] * math.exp(SHAPE_PERIOD_SPREAD * shape)
         log_period = np.log(MATCHED_PERIODS)
-        beyond = np.maximum(log_period, 0.0) * (LONG_PERIOD_SPREAD * fall - LONG_PERIOD_FALL)
+        long_period_slope = np.maximum(log_period, 0.0) * (LONG_PERIOD_SPREAD * fall - LONG_PERIOD_FALL)
         target: Array = two_period_shape(MATCHED_PERIODS, corner) * np.exp(
-            math.log(LEVEL) + LEVEL_SPREAD * level + WANDER_SPREAD * wander_of(source, log_period) + beyond
+            math.log(LEVEL) + LEVEL_SPREAD * level + WANDER_SPREAD * wander_of(source, log_period) + long_period_slope
         )
         return parameters, target, source
 

@@ -7,7 +7,7 @@ differ between the components of a recording (Rezaeian and Der Kiureghian 2012, 
 Two things differ.
 
 1. Its noise is that of the first times rho, and noise of its own times sqrt(1 - rho^2). Axes of instruments have no
-   relation to the principal axes of the motion (Penzien and Watabe 1975), so that rho is drawn anew for each pair.
+   relation to the principal axes of the motion (Penzien and Watabe 1975), so that rho is drawn again for each pair.
 2. Its target is that of the first times a lognormal level and wander over period.
 
 The spreads were chosen such that the correlation of the accelerations and ln Sa2/Sa1 scatter as those of the 18 FEMA

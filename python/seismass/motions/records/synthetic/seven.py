@@ -9,7 +9,7 @@ Method
 3. Some motions carry a velocity pulse of Mavroeidis & Papageorgiou (`near_fault`).
 4. A taper and a baseline correction that ends the motion at rest at its starting place (`ends`).
 
-Stationary frequency content but for the pulse, one component, no source, path or site behind it.
+Stationary frequency content except for the pulse, one component, no source, path or site behind it.
 """
 
 from __future__ import annotations
@@ -242,8 +242,8 @@ def seconds_table() -> pl.DataFrame:
     rows = []
     for scenario in SCENARIOS:
         record = generate_second(scenario)
-        about = {"name": record.name, "first": scenario.name, "seed": seed_of(scenario), "note": record.remarks[0]}
-        rows.append({**about, "parameters": record.remarks[1], "dt": record.dt, "acceleration": _stored(record)})
+        labels = {"name": record.name, "first": scenario.name, "seed": seed_of(scenario), "note": record.remarks[0]}
+        rows.append({**labels, "parameters": record.remarks[1], "dt": record.dt, "acceleration": _stored(record)})
     return pl.DataFrame(rows, schema_overrides={"acceleration": pl.List(pl.Int32)})
 
 

@@ -102,18 +102,18 @@ SITE_RECIPES: Final = (
 
 def generate_site(recipe: SiteRecipe) -> Record:
     """Make one motion; the same on every machine to rounding, its random numbers being those of `random.Random`."""
-    chosen = recipe.parameters
+    parameters = recipe.parameters
     source = random.Random(recipe.seed)
     time = sample_times(round(recipe.duration / recipe.dt) + 1, recipe.dt)
     target = _target(source)
-    process = filtered_noise(chosen, normals(source, len(time)), recipe.dt, start=-QUIET)
-    process = process * chosen.standard_deviation(time - QUIET)
-    pulse = np.zeros(len(time)) if chosen.pulse is None else chosen.pulse.acceleration(time - QUIET)
+    process = filtered_noise(parameters, normals(source, len(time)), recipe.dt, start=-QUIET)
+    process = process * parameters.standard_deviation(time - QUIET)
+    pulse = np.zeros(len(time)) if parameters.pulse is None else parameters.pulse.acceleration(time - QUIET)
     for _ in range(CORRECTIONS):
-        motion = high_passed(process, recipe.dt, chosen.corner) + pulse
+        motion = high_passed(process, recipe.dt, parameters.corner) + pulse
         ratio = np.log(target / spectrum(motion, recipe.dt, MATCHED_PERIODS))
         process = shaped(process, recipe.dt, np.clip(ratio, -math.log(LARGEST_GAIN), math.log(LARGEST_GAIN)))
-    motion = tapered(high_passed(process, recipe.dt, chosen.corner) + pulse, time)
+    motion = tapered(high_passed(process, recipe.dt, parameters.corner) + pulse, time)
     return Record(
         acceleration=at_rest_in_the_end(motion, recipe.dt),
         dt=recipe.dt,
@@ -122,7 +122,7 @@ def generate_site(recipe: SiteRecipe) -> Record:
         station="none",
         component="horizontal",
         synthetic=True,
-        remarks=(recipe.note, parameters_text(chosen)),
+        remarks=(recipe.note, parameters_text(parameters)),
     )
 
 

@@ -13,7 +13,7 @@ from polars.testing import assert_frame_equal
 
 import seismass as sm
 from seismass.base.digest import inputs_digest
-from seismass.base.kept import KeptResults, kept_folder
+from seismass.base.stored_results import StoredResults, result_store
 from seismass.studies.study import StudyParameters, run_study
 
 TABLE = pl.DataFrame({"numbers": [1.0, 2.0], "words": ["a", None]})
@@ -21,13 +21,13 @@ TABLE = pl.DataFrame({"numbers": [1.0, 2.0], "words": ["a", None]})
 
 def leave(place: Path, sha256: str) -> Path:
     """Keep a part, and be interrupted; return its path."""
-    with pytest.raises(KeyboardInterrupt), kept_folder(place, "rows", sha256) as kept:
+    with pytest.raises(KeyboardInterrupt), result_store(place, "rows", sha256) as kept:
         path = kept.file("1", lambda: TABLE)
         raise KeyboardInterrupt
     return path
 
 
-def is_kept(kept: KeptResults) -> bool:
+def is_kept(kept: StoredResults) -> bool:
     """Whether the part is taken and not made again."""
     made: list[int] = []
     kept.file("1", lambda: made.append(1) or TABLE)  # type: ignore[func-returns-value]
@@ -36,7 +36,7 @@ def is_kept(kept: KeptResults) -> bool:
 
 def test_parts_stay_for_the_same_inputs_until_the_end(tmp_path: Path) -> None:
     leave(tmp_path, "a")
-    with kept_folder(tmp_path, "rows", "a") as kept:
+    with result_store(tmp_path, "rows", "a") as kept:
         assert is_kept(kept)
         assert_frame_equal(kept.of("1", pl.DataFrame), TABLE, check_exact=True)
     assert list(tmp_path.iterdir()) == []
@@ -44,28 +44,28 @@ def test_parts_stay_for_the_same_inputs_until_the_end(tmp_path: Path) -> None:
 
 def test_parts_of_other_inputs_are_removed(tmp_path: Path) -> None:
     part = leave(tmp_path, "a")
-    with kept_folder(tmp_path, "rows", "b"):
+    with result_store(tmp_path, "rows", "b"):
         assert not part.exists()
     leave(tmp_path, "a")
-    with kept_folder(tmp_path, "other", "a") as kept:
+    with result_store(tmp_path, "other", "a") as kept:
         assert not is_kept(kept)
-    with kept_folder(tmp_path, "rows", "a") as kept:
+    with result_store(tmp_path, "rows", "a") as kept:
         assert is_kept(kept)
 
 
 def test_nothing_is_kept_where_there_is_nothing(tmp_path: Path) -> None:
-    with pytest.raises(LookupError), kept_folder(tmp_path, "rows", "a"):
+    with pytest.raises(LookupError), result_store(tmp_path, "rows", "a"):
         raise LookupError
     assert list(tmp_path.iterdir()) == []
-    with pytest.raises(FileNotFoundError) as raised, kept_folder(tmp_path / "missing", "rows", "a"):
+    with pytest.raises(FileNotFoundError) as raised, result_store(tmp_path / "missing", "rows", "a"):
         pass
     assert raised.value.filename == str(tmp_path / "missing")
 
 
 def test_a_process_that_works_on_the_same_has_a_folder_of_its_own(tmp_path: Path) -> None:
-    with kept_folder(tmp_path, "rows", "a") as kept:
+    with result_store(tmp_path, "rows", "a") as kept:
         part = kept.file("1", lambda: TABLE)
-        with kept_folder(tmp_path, "rows", "a") as other:
+        with result_store(tmp_path, "rows", "a") as other:
             assert other.folder is not None
             assert other.folder != kept.folder
             assert list(other.folder.iterdir()) == []
@@ -76,13 +76,13 @@ def test_a_process_that_works_on_the_same_has_a_folder_of_its_own(tmp_path: Path
 @pytest.mark.skipif(sys.platform != "linux", reason="the start of a process is read from /proc")
 def test_parts_of_a_killed_process_are_taken(tmp_path: Path) -> None:
     program = (
-        "import os, sys\nfrom pathlib import Path\nfrom seismass.base.kept import kept_folder\n"
+        "import os, sys\nfrom pathlib import Path\nfrom seismass.base.stored_results import result_store\n"
         "import polars as pl\n"
-        "with kept_folder(Path(sys.argv[1]), 'rows', 'a') as kept:\n"
+        "with result_store(Path(sys.argv[1]), 'rows', 'a') as kept:\n"
         "    kept.file('1', lambda: pl.DataFrame({'a': [1]}))\n    os.kill(os.getpid(), 9)\n"
     )
     subprocess.run([sys.executable, "-c", program, str(tmp_path)], check=False, timeout=60)
-    with kept_folder(tmp_path, "rows", "a") as kept:
+    with result_store(tmp_path, "rows", "a") as kept:
         assert is_kept(kept)
     assert list(tmp_path.iterdir()) == []
 
@@ -94,15 +94,15 @@ def test_a_result_is_made_once(tmp_path: Path) -> None:
         made.append(1)
         return TABLE
 
-    for kept in (KeptResults(tmp_path, "a"), KeptResults(tmp_path, "a")):
+    for kept in (StoredResults(tmp_path, "a"), StoredResults(tmp_path, "a")):
         assert_frame_equal(kept.of("one", make), TABLE, check_exact=True)
     assert made == [1]
-    KeptResults().of("one", make)
+    StoredResults().of("one", make)
     assert made == [1, 1]
 
 
 def test_a_part_with_one_changed_bit_is_made_again(tmp_path: Path) -> None:
-    kept = KeptResults(tmp_path, "a")
+    kept = StoredResults(tmp_path, "a")
     path = kept.file("1", lambda: TABLE)
     whole = path.read_bytes()
     for bit in random.Random(5).sample(range(8 * len(whole)), 100):
@@ -114,8 +114,8 @@ def test_a_part_with_one_changed_bit_is_made_again(tmp_path: Path) -> None:
 
 
 def test_a_part_of_another_place_or_of_other_inputs_is_made_again(tmp_path: Path) -> None:
-    kept = KeptResults(tmp_path, "a")
-    for other, name in ((kept, "2"), (KeptResults(tmp_path, "b"), "1")):
+    kept = StoredResults(tmp_path, "a")
+    for other, name in ((kept, "2"), (StoredResults(tmp_path, "b"), "1")):
         (tmp_path / "part-1.parquet").unlink(missing_ok=True)
         other.file(name, lambda: TABLE).rename(tmp_path / "part-1.parquet")
         assert not is_kept(kept)
@@ -142,10 +142,10 @@ def test_a_study_takes_what_an_interrupted_one_has_left(tmp_path: Path, monkeypa
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run_study(suite, target, parameters, effective=True, progress=interrupt, kept=KeptResults(tmp_path))
+        run_study(suite, target, parameters, effective=True, progress=interrupt, store=StoredResults(tmp_path))
     left = {path.name for path in tmp_path.iterdir()}
     assert left == {f"part-{name}.parquet" for name in ("runs", "effective-1", "effective-2", "effective-3")}
     monkeypatch.setattr("seismass.studies.study.run.solve_many", None)
-    again = run_study(suite, target, parameters, effective=True, kept=KeptResults(tmp_path))
+    again = run_study(suite, target, parameters, effective=True, store=StoredResults(tmp_path))
     assert_frame_equal(again.responses, whole.responses, check_exact=True)
     assert_frame_equal(again.fractions, whole.fractions, check_exact=True)

@@ -1,4 +1,4 @@
-"""One's own building as an assessment takes it: structure, goods, site, code and limits, in SI units.
+"""A user's building as an assessment takes it: structure, goods, site, code and limits, in SI units.
 
 It makes the models that are compared: goods that slide, and a share of them attached as mass.
 """
@@ -152,7 +152,7 @@ class OwnBuilding(Card):
     target : TargetSpectrum or None
         Site spectrum; None where the file has none.
     code : CodeFraction
-        The code, and the fraction of the design live load that it counts as mass where a floor states none of its own.
+        The code, and the fraction of the design live load that it counts as mass where a floor states none.
     floor_codes : tuple of FloorCode
         What the file says of each floor for the code.
     code_stated : bool
@@ -263,7 +263,7 @@ class OwnBuilding(Card):
         return by_floor(self.loose, [kind.live_load for kind in self.loose], self.storeys)
 
     @property
-    def goods(self) -> FloatArray:
+    def goods_mass(self) -> FloatArray:
         """Mass of the loose goods present on each floor (kg), shape (storeys,)."""
         return by_floor(self.loose, [kind.mass for kind in self.loose], self.storeys)
 
@@ -277,7 +277,7 @@ class OwnBuilding(Card):
     def present_share(self) -> float:
         """Goods present over the design live load, of the whole building; 0 where there is no live load."""
         total = float(self.live_load.sum())
-        return float(self.goods.sum()) / total if total > 0.0 else 0.0
+        return float(self.goods_mass.sum()) / total if total > 0.0 else 0.0
 
     @property
     def code_mass(self) -> FloatArray:
@@ -340,13 +340,13 @@ class OwnBuilding(Card):
 
     def site_spectrum(self, target: TargetSpectrum | None = None) -> TargetSpectrum:
         """Return the spectrum given, or else the building's own; a missing one is refused."""
-        chosen = self.target if target is None else target
-        if not isinstance(chosen, TargetSpectrum):
+        spectrum = self.target if target is None else target
+        if not isinstance(spectrum, TargetSpectrum):
             requirement = (
                 "given: [site] in the file (sds_g and sd1_g, target or spectrum_csv), --target, or an argument"
             )
-            raise refusal(InvalidOption, "target", f"building {self.name}", requirement, brief(chosen))
-        return chosen
+            raise refusal(InvalidOption, "target", f"building {self.name}", requirement, brief(spectrum))
+        return spectrum
 
     def structure(self, target: TargetSpectrum | None = None, attached: FloatArray | None = None) -> Building:
         """Return the building without goods; strengths of a design need the site spectrum.
@@ -400,7 +400,7 @@ class OwnBuilding(Card):
         ----------
         target : TargetSpectrum, optional
             Site spectrum for strengths of a design; default the building's own.
-        mu_factor : float
+        mu_factor : float, default 1.0
             Factor of all friction coefficients.
 
         Raises

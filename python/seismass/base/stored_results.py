@@ -99,13 +99,13 @@ def _digest(file: BinaryIO) -> tuple[str, int, str]:
     if not mark or len(after) < _DIGITS:
         raise ValueError("has no digest of itself")
     file.seek(0)
-    found = hashlib.sha256()
+    sha256 = hashlib.sha256()
     left = start
     while left and (chunk := file.read(min(_CHUNK, left))):
-        found.update(chunk)
+        sha256.update(chunk)
         left -= len(chunk)
-    found.update(before + mark + _ZEROS + after[_DIGITS:])
-    return found.hexdigest(), start + len(before) + len(mark), after[:_DIGITS].decode("ascii", "replace")
+    sha256.update(before + mark + _ZEROS + after[_DIGITS:])
+    return sha256.hexdigest(), start + len(before) + len(mark), after[:_DIGITS].decode("ascii", "replace")
 
 
 _INPUTS: Final = "inputs"
@@ -116,7 +116,7 @@ _MOST_BYTES: Final = 4096
 
 
 @dataclass(frozen=True)
-class KeptResults:
+class StoredResults:
     """Tables that are made once for the same inputs, however often the work is interrupted. `sha256` is the digest of
     the inputs, `folder` is hidden (None: nothing is kept), `place` is the one that errors name.
     """
@@ -148,24 +148,24 @@ class KeptResults:
 
     def _is_kept(self, name: str) -> bool:
         path = self._path(name)
-        about = self._about(name)
-        return damage(path) is None and about.items() <= metadata_of(path).items()
+        metadata = self._metadata(name)
+        return damage(path) is None and metadata.items() <= metadata_of(path).items()
 
     def _keep(self, name: str, table: pl.DataFrame) -> None:
         path = self._path(name)
         with reported_as(self.place or path), written_whole(path, durable=True) as temporary:
-            write_checked(table, temporary, self._about(name))
+            write_checked(table, temporary, self._metadata(name))
 
-    def _about(self, name: str) -> dict[str, str]:
+    def _metadata(self, name: str) -> dict[str, str]:
         return {"inputs": self.sha256, "part": name}
 
 
-NOTHING_KEPT: Final = KeptResults()
-"""Results are made anew, and none is kept."""
+NOTHING_STORED: Final = StoredResults()
+"""Results are computed each time, and none is stored."""
 
 
 @contextmanager
-def kept_folder(place: Path, name: str, sha256: str) -> Iterator[KeptResults]:
+def result_store(place: Path, name: str, sha256: str) -> Iterator[StoredResults]:
     """Give a folder for parts of a result, removed at the end of the work: a temporary one while another process may
     work on the same. Parts of other digests are removed, but never files of another origin.
     """
@@ -175,7 +175,7 @@ def kept_folder(place: Path, name: str, sha256: str) -> Iterator[KeptResults]:
     identity = _checked(folder)
     if not _claimed(folder):
         with temporary_folder(place) as private:
-            yield KeptResults(private, sha256, place)
+            yield StoredResults(private, sha256, place)
         return
     # A copy of a folder, as of an archive, has another number than the one that was made here.
     inputs = f"{sha256} {identity}"
@@ -184,7 +184,7 @@ def kept_folder(place: Path, name: str, sha256: str) -> Iterator[KeptResults]:
             _remove_ours(folder, identity, but=(_OWNER,))
             with written_whole(folder / _INPUTS) as temporary:
                 temporary.write_text(inputs, encoding="ascii")
-        yield KeptResults(folder, sha256, place)
+        yield StoredResults(folder, sha256, place)
     except BaseException:
         if {path.name for path in folder.iterdir()} <= {_INPUTS, _OWNER}:
             _remove_ours(folder, identity)
@@ -195,21 +195,19 @@ def kept_folder(place: Path, name: str, sha256: str) -> Iterator[KeptResults]:
 
 
 def _checked(folder: Path) -> int:
-    """Return the number of a folder in its file system; refuse a link, a file, and a folder of another user or that
-    others may write to.
-    """
-    found = folder.lstat()
-    is_link = stat.S_ISLNK(found.st_mode)
+    """Return the number of a folder in its file system; refuse links, files, and folders that others may write to."""
+    status = folder.lstat()
+    is_link = stat.S_ISLNK(status.st_mode)
     # Windows has no such users and modes.
     users = hasattr(os, "geteuid")
-    if is_link or not stat.S_ISDIR(found.st_mode):
+    if is_link or not stat.S_ISDIR(status.st_mode):
         got = "a link" if is_link else "a file"
-    elif users and found.st_uid != os.geteuid():
-        got = f"one of user {found.st_uid}"
-    elif users and found.st_mode & 0o022:
-        got = f"one that others may write to (mode {stat.S_IMODE(found.st_mode):o})"
+    elif users and status.st_uid != os.geteuid():
+        got = f"one of user {status.st_uid}"
+    elif users and status.st_mode & 0o022:
+        got = f"one that others may write to (mode {stat.S_IMODE(status.st_mode):o})"
     else:
-        return found.st_ino
+        return status.st_ino
     requirement = "a folder that this user made and others cannot write to (remove it, or write elsewhere)"
     raise refusal(InvalidOption, f"hidden folder {folder}", "kept parts", requirement, got)
 

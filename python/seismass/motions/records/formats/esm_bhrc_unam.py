@@ -46,11 +46,11 @@ _LINES_OF_HEADER: Final = 64
 _NEEDED: Final = ("STATION_CODE", "SAMPLING_INTERVAL_S", "NDATA", "UNITS")
 
 
-def _recognises(head: str) -> bool:
+def _recognises_esm(head: str) -> bool:
     return head.startswith("EVENT_NAME:") and "STATION_CODE:" in head
 
 
-def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:
+def _parse_esm(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:
     file = source.name
     refuse_skip(arguments, ESM.title, file)
     lines = text.splitlines()
@@ -123,7 +123,7 @@ def _check_duration(written: str, points: int, dt: float, file: str) -> None:
         )
 
 
-ESM: Final = Format("esm", "ESM", _recognises, _parse)
+ESM: Final = Format("esm", "ESM", _recognises_esm, _parse_esm)
 
 
 _FIRST = re.compile(r"\* VOL(?P<volume>\d)\S*\s+FILE:\s*(?P<file>\S*)", re.IGNORECASE)
@@ -151,29 +151,29 @@ _RATE_AT: Final = 6
 def _parse_bhrc(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:
     refuse_skip(arguments, BHRC.title, source.name)
     lines = text.splitlines()
-    return channels_of(lines, lambda at, number: _channel(lines, at, number, source, arguments), between=_END)
+    return channels_of(lines, lambda line, number: _channel(lines, line, number, source, arguments), separator=_END)
 
 
-def _channel(lines: list[str], at: int, number: int, source: Path, arguments: Arguments) -> tuple[Channel, int]:
+def _channel(lines: list[str], start: int, number: int, source: Path, arguments: Arguments) -> tuple[Channel, int]:
     file = source.name
-    first = _FIRST.match(lines[at][:LINE_WIDTH])
-    if first is None or len(lines) <= at + _HEADER:
+    first = _FIRST.match(lines[start][:LINE_WIDTH])
+    if first is None or len(lines) <= start + _HEADER:
         raise RecordFormatError(
-            f"line {at + 1} of {file} must begin a component, as '* VOL1DS', with {_HEADER} lines; "
-            f"got {printable(lines[at].strip())[:40]!r}"
+            f"line {start + 1} of {file} must begin a component, as '* VOL1DS', with {_HEADER} lines; "
+            f"got {printable(lines[start].strip())[:40]!r}"
         )
     if first["volume"] != "1":
         raise NotRead(f"volume of {file} must be 1, uncorrected accelerations; got {first['volume']}")
-    titles = [line[:LINE_WIDTH].strip() for line in lines[at : at + _TEXT]]
+    titles = [line[:LINE_WIDTH].strip() for line in lines[start : start + _TEXT]]
     component, counted, unit = (
-        _of(pattern, titles[row], row, at, file) for pattern, row in ((_COMPONENT, 6), (_POINTS, 10), (_UNIT, 11))
+        _of(pattern, titles[row], row, start, file) for pattern, row in ((_COMPONENT, 6), (_POINTS, 10), (_UNIT, 11))
     )
     points = int(counted["points"][:12])
-    whole = header_values(lines, at + _TEXT, _INTEGERS, _WHOLE)[_POINTS_AT]
+    whole = header_values(lines, start + _TEXT, _INTEGERS, _WHOLE)[_POINTS_AT]
     if whole is not None and whole != points:
         raise RecordFormatError(f"points of {file} must be stated alike twice; got {points} and {whole:g}")
-    dt = agreed_step(*_step(counted, points, lines, at, arguments, file), file)
-    block = read_block(lines, at + _HEADER, points, _NUMBERS, file)
+    dt = agreed_step(*_step(counted, points, lines, start, arguments, file), file)
+    block = read_block(lines, start + _HEADER, points, _NUMBERS, file)
     agreed_unit("g", arguments.unit, file)
     azimuths = _AZIMUTHS.search(titles[7])
     axis = component["component"][:1].upper()  # L1, V2 and T3 of the instrument
@@ -193,26 +193,26 @@ def _channel(lines: list[str], at: int, number: int, source: Path, arguments: Ar
     return Channel(str(number), record), block.end
 
 
-def _of(pattern: re.Pattern[str], title: str, row: int, at: int, file: str) -> re.Match[str]:
+def _of(pattern: re.Pattern[str], title: str, row: int, start: int, file: str) -> re.Match[str]:
     match = pattern.search(title)
     if match is None:
         wanted = {6: "the component", 10: "points and duration", 11: "UNITS ARE SECONDS AND G/10"}[row]
-        raise RecordFormatError(f"line {at + row + 1} of {file} must be {wanted}; got {printable(title)[:40]!r}")
+        raise RecordFormatError(f"line {start + row + 1} of {file} must be {wanted}; got {printable(title)[:40]!r}")
     return match
 
 
 def _step(
-    counted: re.Match[str], points: int, lines: list[str], at: int, arguments: Arguments, file: str
+    counted: re.Match[str], points: int, lines: list[str], start: int, arguments: Arguments, file: str
 ) -> tuple[float, float | None, str]:
     """Return the step by the samples a second of the reals, held against points and duration; the given one; words."""
-    rate = header_values(lines, at + _TEXT + _INTEGERS, _HEADER - _TEXT - _INTEGERS, _REALS)[_RATE_AT] or 0.0
-    said = counted["length"]
-    length = to_float(said) if is_number(said) else 0.0
+    rate = header_values(lines, start + _TEXT + _INTEGERS, _HEADER - _TEXT - _INTEGERS, _REALS)[_RATE_AT] or 0.0
+    word = counted["length"]
+    length = to_float(word) if is_number(word) else 0.0
     if not 1.0 <= rate <= 1e5 or not length > 0.0:
         raise RecordFormatError(f"samples a second of {file} must be between 1 and 1e+05; got {rate:g}")
-    if abs(length - points / rate) > 1.5 / rate + 0.5 * last_digit(said) + SAME_STEP * length:
+    if abs(length - points / rate) > 1.5 / rate + 0.5 * last_digit(word) + SAME_STEP * length:
         raise RecordFormatError(
-            f"record length of {file} must be {said} s, as its header says; got {points} points of {1.0 / rate:g} s"
+            f"record length of {file} must be {word} s, as its header says; got {points} points of {1.0 / rate:g} s"
         )
     return 1.0 / rate, arguments.dt, f"{rate:g} samples a second"
 
@@ -240,13 +240,13 @@ def _parse_unam(text: str, source: Path, arguments: Arguments) -> tuple[Channel,
     file = source.name
     refuse_skip(arguments, UNAM.title, file)
     lines = text.splitlines()
-    start = next((at for at, line in enumerate(lines) if _DATA.match(line)), None)
-    rules = [] if start is None else [at for at in range(start, min(start + 8, len(lines))) if _RULE.match(lines[at])]
+    start = next((k for k, line in enumerate(lines) if _DATA.match(line)), None)
+    rules = [] if start is None else [k for k in range(start, min(start + 8, len(lines))) if _RULE.match(lines[k])]
     if start is None or len(rules) != 2:
         raise RecordFormatError(f"content of {file} must have DATOS DE ACELERACION and two rules; got none")
     header = _header(lines[:start])
     components = _list(header, _DIRECTION, file)
-    counts = [_whole(said, file) for said in _list(header, _POINTS_UNAM, file)]
+    counts = [_whole(word, file) for word in _list(header, _POINTS_UNAM, file)]
     steps = _list(header, _STEP, file)
     channels = len(components)
     for name, others in ((_POINTS_UNAM, counts), (_STEP, steps)):
@@ -257,32 +257,32 @@ def _parse_unam(text: str, source: Path, arguments: Arguments) -> tuple[Channel,
     if layout.columns != channels:
         raise RecordFormatError(f"format of the numbers of {file} must be {channels} a line; got {header[_LAYOUT]}")
     rows = len(lines) - rules[1] - 1
-    behind = rows - counts[0]
-    if 0 < behind * dt < 1.0 and len({line.rstrip() for line in lines[-behind - 1 :]}) == 1:
+    repeated = rows - counts[0]
+    if 0 < repeated * dt < 1.0 and len({line.rstrip() for line in lines[-repeated - 1 :]}) == 1:
         rows = counts[0]  # 17502 for 17500: the last row is repeated
     if rows != counts[0]:
         raise RecordFormatError(f"points of {file} must be {counts[0]}, as its header says; got {rows}")
     block = read_block(lines, rules[1] + 1, rows * channels, layout, file)
     unit = agreed_unit(_unit(header.get(_UNIT_UNAM, ""), file), arguments.unit, file)
     samples = block.values.reshape(-1, channels)
-    remarks = [f"{behind} repetitions of the last row left out"] if behind > 0 else []
-    for said in _list(header, _LENGTH, file)[:1]:
-        if is_number(said) and abs(to_float(said) - counts[0] * dt) > 1.5 * dt + 0.5 * last_digit(said):
+    remarks = [f"{repeated} repetitions of the last row left out"] if repeated > 0 else []
+    for word in _list(header, _LENGTH, file)[:1]:
+        if is_number(word) and abs(to_float(word) - counts[0] * dt) > 1.5 * dt + 0.5 * last_digit(word):
             raise RecordFormatError(
-                f"record length of {file} must be {said} s, as its header says; got {counts[0]} points of {dt:g} s"
+                f"record length of {file} must be {word} s, as its header says; got {counts[0]} points of {dt:g} s"
             )
     if header.get(_DECIMATION, "1") not in ("", "1"):
         remarks.append(f"decimated by {printable(header[_DECIMATION])}, as its header says")
     peaks, places = header.get(_PEAK, "").split("/")[1:], header.get(_PEAK_AT, "").split("/")[1:]
-    found = []
+    parsed = []
     for number, component in enumerate(components):
-        own = list(remarks)
+        notes = list(remarks)
         values = np.ascontiguousarray(samples[:, number])
         if number < len(peaks):
             place = places[number].strip() if number < len(places) else ""
             time = f"{(int(place) - 1) * dt:.6f}" if place.isascii() and place.isdigit() else ""
             digit = digit_of_peak(values, block.fields[number::channels])
-            check_peak(values, StatedPeak(peaks[number], time), dt, digit, file, own)
+            check_peak(values, StatedPeak(peaks[number], time), dt, digit, file, notes)
         record = Record(
             acceleration=values * ACCELERATION_UNITS[unit],
             dt=dt,
@@ -294,10 +294,10 @@ def _parse_unam(text: str, source: Path, arguments: Arguments) -> tuple[Channel,
             network="UNAM",
             source=source,
             file_unit=unit,
-            remarks=tuple(own),
+            remarks=tuple(notes),
         )
-        found.append(Channel(str(number + 1), record))
-    return tuple(found)
+        parsed.append(Channel(str(number + 1), record))
+    return tuple(parsed)
 
 
 _STATION: Final = ("CLAVE", "NOMBRE")
@@ -305,43 +305,43 @@ _STATION: Final = ("CLAVE", "NOMBRE")
 
 def _header(lines: list[str]) -> dict[str, str]:
     """Return the text after each key, in upper case; of several lines the first."""
-    found: dict[str, str] = {}
+    entries: dict[str, str] = {}
     for line in lines:
         entry = _ENTRY.match(line[:LINE_WIDTH].strip())
         if entry:
-            found.setdefault(" ".join(entry["key"].upper().split()), entry["value"].strip())
-    return found
+            entries.setdefault(" ".join(entry["key"].upper().split()), entry["value"].strip())
+    return entries
 
 
 def _list(header: dict[str, str], key: str, file: str) -> list[str]:
     """Return the values of a list as /a/b/c."""
-    said = header.get(key, "")
-    values = [value.strip() for value in said.split("/")[1:]]
+    text = header.get(key, "")
+    values = [value.strip() for value in text.split("/")[1:]]
     if not values or not all(values):
-        raise RecordFormatError(f"{key} of {file} must be as /a/b/c; got {printable(said)[:40]!r}")
+        raise RecordFormatError(f"{key} of {file} must be as /a/b/c; got {printable(text)[:40]!r}")
     return values
 
 
-def _whole(said: str, file: str) -> int:
-    if not (said.isascii() and said.isdigit() and len(said) < 10):
-        raise RecordFormatError(f"{_POINTS} of {file} must be whole numbers; got {printable(said)[:20]!r}")
-    return int(said)
+def _whole(word: str, file: str) -> int:
+    if not (word.isascii() and word.isdigit() and len(word) < 10):
+        raise RecordFormatError(f"{_POINTS} of {file} must be whole numbers; got {printable(word)[:20]!r}")
+    return int(word)
 
 
-def _step_unam(said: str, dt: float | None, file: str) -> float:
-    stated = to_float(said) if is_number(said) else 0.0
+def _step_unam(word: str, dt: float | None, file: str) -> float:
+    stated = to_float(word) if is_number(word) else 0.0
     if not SHORTEST_STEP <= stated <= LONGEST_STEP:
         raise RecordFormatError(
-            f"step of {file} must be between {SHORTEST_STEP:g} and {LONGEST_STEP:g} s; got {printable(said)[:20]!r}"
+            f"step of {file} must be between {SHORTEST_STEP:g} and {LONGEST_STEP:g} s; got {printable(word)[:20]!r}"
         )
-    return agreed_step(stated, dt, f"{said} s", file)
+    return agreed_step(stated, dt, f"{word} s", file)
 
 
-def _unit(said: str, file: str) -> str:
-    unit = unit_named(said)
+def _unit(word: str, file: str) -> str:
+    unit = unit_named(word)
     if unit is None:
         raise RecordFormatError(
-            f"unit of {file} must be one of {', '.join(ACCELERATION_UNITS)}; got {printable(said)[:30]!r}"
+            f"unit of {file} must be one of {', '.join(ACCELERATION_UNITS)}; got {printable(word)[:30]!r}"
         )
     return unit
 

@@ -1,7 +1,7 @@
 """Processes that were forked: Polars' threads do not exist in them, and what needs those would wait for ever.
 
 Only a process in which Polars had started its threads leaves its children in that state. The kernel's own threads are
-started anew.
+started again.
 """
 
 from __future__ import annotations

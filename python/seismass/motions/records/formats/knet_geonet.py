@@ -76,11 +76,11 @@ PARTS_OF_A_SECOND: Final = 1.0
 """The header rounds the duration to whole seconds."""
 
 
-def _recognises(head: str) -> bool:
+def _recognises_knet(head: str) -> bool:
     return head.startswith("Origin Time") and "Scale Factor" in head
 
 
-def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:
+def _parse_knet(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:
     file = source.name
     refuse_skip(arguments, KNET.title, file)
     lines = text.splitlines()
@@ -169,7 +169,7 @@ def _check_duration(written: str, points: int, dt: float, file: str, remarks: li
         )
 
 
-KNET: Final = Format("knet", "K-NET", _recognises, _parse)
+KNET: Final = Format("knet", "K-NET", _recognises_knet, _parse_knet)
 
 
 _TEXT: Final = 16
@@ -196,24 +196,24 @@ def _recognises_geonet(head: str) -> bool:
 def _parse_geonet(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:
     refuse_skip(arguments, GEONET.title, source.name)
     lines = text.splitlines()
-    return channels_of(lines, lambda at, number: _channel(lines, at, number, source, arguments))
+    return channels_of(lines, lambda row, number: _channel(lines, row, number, source, arguments))
 
 
-def _channel(lines: list[str], at: int, number: int, source: Path, arguments: Arguments) -> tuple[Channel, int]:
+def _channel(lines: list[str], row: int, number: int, source: Path, arguments: Arguments) -> tuple[Channel, int]:
     file = source.name
-    first = _FIRST.match(lines[at][:LINE_WIDTH])
-    if first is None or len(lines) <= at + _HEADER:
+    first = _FIRST.match(lines[row][:LINE_WIDTH])
+    if first is None or len(lines) <= row + _HEADER:
         raise RecordFormatError(
-            f"line {at + 1} of {file} must begin a component, as 'Corrected accelerogram' with {_HEADER} lines; "
-            f"got {lines[at].strip()[:40]!r}"
+            f"line {row + 1} of {file} must begin a component, as 'Corrected accelerogram' with {_HEADER} lines; "
+            f"got {lines[row].strip()[:40]!r}"
         )
-    titles = [line[:LINE_WIDTH] for line in lines[at : at + _TEXT]]
-    numbers = header_values(lines, at + _TEXT, _HEADER - _TEXT, _NUMBERS)
+    titles = [line[:LINE_WIDTH] for line in lines[row : row + _TEXT]]
+    numbers = header_values(lines, row + _TEXT, _HEADER - _TEXT, _NUMBERS)
     counts = [int(count) if count is not None else 0 for count in numbers[_COUNTS_GEONET]]
     step, factor = numbers[_STEP] or 0.0, numbers[_FACTOR] or 1.0
     if not 1e-5 <= step <= 1.0 or not 0.0 < factor < math.inf:
         raise RecordFormatError(f"step of {file} must be between 1e-05 and 1 s; got {step:g} s")
-    block = read_block(lines, at + _HEADER, counts[0], _NUMBERS, file)
+    block = read_block(lines, row + _HEADER, counts[0], _NUMBERS, file)
     end = block.end
     for count in counts[1:]:
         if count not in (0, counts[0]):
