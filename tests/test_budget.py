@@ -19,7 +19,7 @@ RAISE = "raise the number in the same commit and say in CHANGELOG.md which featu
 LINES = """
 assessment 5204   base 1707   commands 3923   design 3412   design/scaling 834   effective_mass 3020   media 1605
 model 3285   motions 377   motions/matching 1478   motions/pulses 1053   motions/records 4005
-motions/records/formats 3853   motions/records/synthetic 1118   motions/scaling 810   motions/spectra 1785   runs 3337
+motions/records/formats 3853   motions/records/synthetic 1150   motions/scaling 810   motions/spectra 1785   runs 3337
 runs/grid 1564   show 3127   show/animation 1518   show/assessment 2037   show/explore 289   show/plots 1836
 show/study 2023   studies 8   studies/campaign 1604   studies/fragility 3172   studies/risk 1594   studies/slip 1776
 studies/study 1772   studies/validation 1227   top 85

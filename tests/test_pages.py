@@ -130,8 +130,25 @@ def risk_says(names: dict[str, Any]) -> None:
     assert rows["limit", "0.5 %"]["value"] > rows["limit", "3 %"]["value"] + 0.2
 
 
+def default_suite_says(found: dict[str, Any]) -> None:
+    """The bounds that the page states, of the default suite against the recordings."""
+    for name, (default, recorded) in found["peaks"].items():
+        assert default[0] == pytest.approx(recorded[0], rel=0.3 if name.startswith("PGD (") else 0.15)
+        assert abs(default[1] - recorded[1]) < 0.2
+        assert default[2] <= recorded[2]
+    for period, (default, recorded) in found["spectra"].items():
+        assert default[0] == pytest.approx(recorded[0], rel=0.3)
+        assert abs(default[1] - recorded[1]) < 0.1
+        assert default[2] < (1.9 if period == 1.5 else 1.35) * recorded[2]
+    assert abs(found["drift"]) < 0.1
+    assert abs(found["friction as stated"]) < 0.1
+    for one in found["buildings"]:
+        assert one.collapses[0] <= one.collapses[1]
+
+
 SAYS: Final[dict[str, Callable[[Any], None]]] = {
     "study": study_says,
+    "default_suite": default_suite_says,
     "effective_mass": builtin_map_says,
     "intensity": fragility_says,
     "slip_demand": slip_says,

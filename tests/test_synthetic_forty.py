@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import dataclasses
+from itertools import combinations
+
 import numpy as np
 import polars as pl
 import pytest
+from scipy.special import ndtri
 
 import seismass as sm
 from seismass.motions.records.builtin import MICRO, data_directory
+from seismass.motions.records.synthetic import scenarios
 from seismass.motions.records.synthetic.process import end_state
-from seismass.motions.records.synthetic.scenarios import SCENARIOS, generate_scenario, two_period_shape
+from seismass.motions.records.synthetic.scenarios import RISE, SCENARIOS, START, generate_scenario, two_period_shape
 from seismass.motions.records.synthetic.second import generate_second
 from seismass.motions.spectra import corner_period, mean_spectrum, response_spectrum
 
@@ -42,11 +47,61 @@ def test_motions_end_at_rest() -> None:
         assert abs(displacement) < 3e-3
 
 
-def test_two_period_shape_is_that_of_asce_7() -> None:
+def test_two_period_shape_is_that_of_asce_7_from_its_plateau_on() -> None:
     """S_DS = 1.07 g, and T_S = S_D1/S_DS, by `TargetSpectrum.asce7` with a T_L beyond all periods."""
-    periods = np.geomspace(0.05, 5.0, 40)
+    periods = np.geomspace(RISE * 0.45, 5.0, 40)
     expected = sm.TargetSpectrum.asce7(1.07, 1.07 * 0.45, tl=20.0)(periods)
     np.testing.assert_allclose(two_period_shape(periods, 0.45), expected, rtol=1e-12)
+    below = two_period_shape(np.array([1e-12, 0.5 * RISE * 0.45]), 0.45) / expected[0]
+    np.testing.assert_allclose(below, [START, 0.5 * (1.0 + START)], rtol=1e-9)
+
+
+@pytest.mark.parametrize("seed", [1, 4000, 77_777])
+def test_parameters_are_the_quantiles_whatever_the_seed(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(scenarios, "FIRST_SEED", seed)
+    draws = scenarios.quantiles_in_random_order(9)
+    expected = ndtri((np.arange(40) + 0.5) / 40.0)  # of SciPy, where the package has those of the standard library
+    np.testing.assert_allclose(np.sort(draws, axis=1), np.tile(expected, (9, 1)), atol=1e-12)
+    # No row is in the order of another: of 40 in random order about one stands in the same place.
+    assert max(np.sum(one == other) for one, other in combinations(draws, 2)) < 10
+
+
+def test_no_motion_is_beyond_the_recordings() -> None:
+    """PGV/PGA, PGD/PGV and D5-95 of the first and second components; the bounds are those of 36 recordings."""
+    for record in (*SUITE, *(pair.second for pair in sm.records.builtin_pairs())):
+        assert record.pgv / record.pga_g <= 2.985
+        assert record.pgd / record.pgv <= 1.025
+        assert 2.0 < record.d5_95 < 51.5
+
+
+@pytest.mark.parametrize("seed", [7, 31, 555])
+def test_a_motion_beyond_the_recordings_is_drawn_again(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With half of the largest PGV/PGA hardly a first draw is within, and what is returned is, with any seed."""
+    monkeypatch.setattr(scenarios, "FIRST_SEED", seed)
+    scenario = dataclasses.replace(SCENARIOS[0])  # without what was drawn for the seed of the suite
+    first = generate_scenario(scenario)
+    bound = 0.98 * first.pgv / first.pga_g
+    monkeypatch.setattr(scenarios, "LARGEST_PGV_PGA", bound)
+    again = generate_scenario(dataclasses.replace(SCENARIOS[0]))
+    assert again.pgv / again.pga_g <= bound
+    assert (again.samples, again.remarks) == (first.samples, first.remarks)
+
+
+RECORDED = {0.3: (0.70, 0.44, 1.95, 0.31, 0.80, 1.61), 0.57: (0.60, 0.40, 1.87, 0.28, 0.81, 1.73)}
+RECORDED |= {1.0: (0.60, 0.35, 1.94, 0.29, 0.79, 1.79)}
+
+
+@pytest.mark.parametrize("period", RECORDED)
+def test_scaled_peaks_are_those_of_the_far_field_recordings(period: float) -> None:
+    """Median, standard deviation of ln and largest of PGV (m/s) and PGD (m), computed once from the 36 recordings; the
+    bounds are those that docs/default_suite.md states.
+    """
+    factors = sm.scaling.scale_asce7_10(SUITE, TARGET, period, between=False).factors
+    for name, (median, scatter, largest) in (("pgv", RECORDED[period][:3]), ("pgd", RECORDED[period][3:])):
+        peaks = factors * [getattr(record, name) for record in SUITE]
+        assert np.median(peaks) == pytest.approx(median, rel=0.15 if name == "pgv" else 0.3)
+        assert np.std(np.log(peaks), ddof=1) == pytest.approx(scatter, abs=0.15)
+        assert peaks.max() < 1.25 * largest
 
 
 def test_scatter_of_scaled_spectra_is_that_of_the_far_field_recordings() -> None:

@@ -10,6 +10,7 @@ Two things differ.
    relation to the principal axes of the motion (Penzien and Watabe 1975), so that rho is drawn again for each pair.
 2. Its target is that of the first times a lognormal level and wander over period.
 
+One whose PGV/PGA or PGD/PGV is larger than that of any far-field recording is drawn again, as the first ones are.
 The spreads were chosen such that the correlation of the accelerations and ln Sa2/Sa1 scatter as those of the 18 FEMA
 P-695 far-field pairs as recorded (docs/synthetic.md). That the correlation is the same at all times and frequencies is
 an assumption. Seeds count from `FIRST_SEED`; none was chosen.
@@ -25,7 +26,7 @@ import numpy as np
 
 from seismass.motions.records.record import Record
 from seismass.motions.records.synthetic.process import MATCHED_PERIODS, normals
-from seismass.motions.records.synthetic.scenarios import Scenario, made_of, noise_of, wander_of
+from seismass.motions.records.synthetic.scenarios import Scenario, is_within_recordings, made_of, wander_of
 
 FIRST_SEED: Final = 5000
 CORRELATION_SPREAD: Final = 0.20
@@ -34,7 +35,7 @@ MOST_CORRELATED: Final = 0.6
 """Largest coefficient: that of the recorded ones is 0.42."""
 LEVEL_SPREAD: Final = 0.10
 """Lognormal spread of the second component's level over the first's."""
-WANDER_SPREAD, LONG_PERIOD_GROWTH = 0.50, 0.30
+WANDER_SPREAD, LONG_PERIOD_GROWTH = 0.56, 0.30
 """Lognormal spread of the wander over period, at 1 s, and its growth with ln T."""
 
 
@@ -45,16 +46,18 @@ def seed_of(scenario: Scenario) -> int:
 
 def generate_second(scenario: Scenario) -> Record:
     """Make the second component of a motion; the same on every machine to rounding."""
-    parameters, target, _ = scenario.drawn
+    parameters, target, first, _ = scenario.drawn
     source = random.Random(seed_of(scenario))
     correlated, level = normals(source, 2).tolist()
     rho = max(-MOST_CORRELATED, min(CORRELATION_SPREAD * correlated, MOST_CORRELATED))
     log_period = np.log(MATCHED_PERIODS)
     growth = np.maximum(1.0 + LONG_PERIOD_GROWTH * log_period, 0.3)
-    wander = WANDER_SPREAD * growth * wander_of(source, log_period)
-    first = noise_of(scenario)
-    noise = rho * first + math.sqrt(1.0 - rho**2) * normals(source, len(first))
-    record = made_of(parameters, target * np.exp(LEVEL_SPREAD * level + wander), noise)
+    while True:
+        wander = WANDER_SPREAD * growth * wander_of(source, log_period)
+        noise = rho * first + math.sqrt(1.0 - rho**2) * normals(source, len(first))
+        record = made_of(parameters, target * np.exp(LEVEL_SPREAD * level + wander), noise)
+        if is_within_recordings(record):
+            break
     note = f"SYNTHETIC motion, not a recording; seed {seed_of(scenario)}; second component of {scenario.name}"
     return record.replace(
         name=f"{scenario.name}-second",
