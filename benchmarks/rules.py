@@ -69,7 +69,7 @@ def solved(name: str, shape: float) -> pl.DataFrame:
     return found.rules_by_period().select(
         pl.lit(name).alias("suite"),
         pl.lit(shape).alias("shape"),
-        pl.lit(round(found.metadata["corner_period"], 3)).alias("corner_period"),
+        pl.lit(round(float(found.table["corner_period"].to_numpy().mean()), 3)).alias("corner_period"),
         pl.all(),
     )
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -31,18 +33,38 @@ def small() -> sm.EffectiveMassMap:
     return sm.effective_mass_map(SUITE, TARGET, SMALL)
 
 
+def motions_of(result: sm.EffectiveMassMap, row: dict[str, Any]) -> tuple[list[sm.Record], np.ndarray[Any, Any]]:
+    """The motions of a case, scaled, and their factors."""
+    factors = result.scaling[row["building"], row["alpha"]].factors
+    return [record.scaled(float(factor)) for record, factor in zip(SUITE, factors, strict=True)], factors
+
+
+def test_motions_are_scaled_for_the_period_of_each_building_with_its_goods(small: sm.EffectiveMassMap) -> None:
+    """Goods in proportion to the masses lengthen the period by sqrt(1 + alpha); factors are those of that period."""
+    for (number, alpha), scaling in small.scaling.items():
+        if number == 2:
+            assert scaling.period == pytest.approx(0.6 * np.sqrt(1.0 + alpha), rel=1e-12)
+        alone = sm.scaling.scale_asce7_10(SUITE, TARGET, scaling.period, between=False)
+        np.testing.assert_array_equal(scaling.factors, alone.factors)
+    assert list(small.scaling) == [(1, 0.5), (1, 1.0), (2, 0.5), (2, 1.0)]
+    assert small.tables["scaling"].height == 4 * len(SUITE)
+    chosen = replace(SMALL, response_modification=(4.0,), mus=(0.2,), shares=3, scaling_period=1.0)
+    stated = sm.effective_mass_map(SUITE, TARGET, chosen)
+    at_one = sm.scaling.scale_asce7_10(SUITE, TARGET, 1.0, between=False).factors
+    assert all((scaling.factors == at_one).all() for scaling in stated.scaling.values())
+
+
 def test_cases_are_single_answers(small: sm.EffectiveMassMap) -> None:
-    factors = small.scaling.factors
-    motions = [record.scaled(factor) for record, factor in zip(SUITE, factors, strict=True)]
     assert small.table.height == 2 * 2 * 2 * 3
     for row in small.table.iter_rows(named=True):
+        motions, factors = motions_of(small, row)
         storeys = row["storeys"]
         bare = sm.Building.uniform(storeys, row["period"], mass=1.0)
         goods = np.full(storeys, row["alpha"])
         if row["roof"] == "bare":
             goods[-1] = 0.0
         shear = response_spectrum_analysis(
-            bare.mass + 0.25 * goods, bare.stiffness, lambda periods: mean_spectrum(SUITE, factors, periods)
+            bare.mass + 0.25 * goods, bare.stiffness, partial(mean_spectrum, SUITE, factors)
         ).storey_shear
         building = bare if row["R"] == 1.0 else bare.replace(yield_shear=shear / row["R"])
         answer = sm.effective_mass(sm.Scene(building, sm.blocks_on_floors(goods, row["mu"])), motions, resamples=2)
@@ -58,7 +80,6 @@ def test_cases_are_single_answers(small: sm.EffectiveMassMap) -> None:
 
 def test_intervals_are_those_of_single_answers(small: sm.EffectiveMassMap) -> None:
     """Same seed, same number of resamples: the same draws of the same curves."""
-    motions = [record.scaled(factor) for record, factor in zip(SUITE, small.scaling.factors, strict=True)]
     for row in small.table.filter((pl.col("R") == 1.0) & (pl.col("mu") > 0.0)).iter_rows(named=True):
         goods = [row["alpha"]] * row["storeys"]
         if row["roof"] == "bare":
@@ -66,6 +87,7 @@ def test_intervals_are_those_of_single_answers(small: sm.EffectiveMassMap) -> No
         scene = sm.Scene(
             sm.Building.uniform(row["storeys"], row["period"], mass=1.0), sm.blocks_on_floors(goods, row["mu"])
         )
+        motions, _ = motions_of(small, row)
         answer = sm.effective_mass(scene, motions, resamples=SMALL.resamples, seed=SMALL.seed)
         assert (row["low"], row["high"]) == pytest.approx(answer.interval, abs=1e-9)
 
@@ -83,6 +105,7 @@ def test_table(small: sm.EffectiveMassMap) -> None:
         *(
             "base_shear_coefficient_by_hand",
             "height_ratio",
+            "corner_period",
             "yields",
             "exponent",
             "slides",
@@ -125,13 +148,13 @@ def test_rules_of_eta_by_hand(small: sm.EffectiveMassMap) -> None:
 
 def test_rule_by_period_by_hand(small: sm.EffectiveMassMap) -> None:
     """The formula written out, T_c from the mean spectrum; the estimates of `effective_mass` are the same numbers."""
-    scaled = [record.scaled(factor) for record, factor in zip(SUITE, small.scaling.factors, strict=True)]
     periods = np.geomspace(0.05, 4.0, 60)
-    mean = mean_spectrum(scaled, np.ones(len(scaled)), periods)
-    corner = (mean * periods).max() / mean.max()
-    assert small.metadata["corner_period"] == pytest.approx(corner, rel=1e-12)
     shares = RULES["min(1, eta_h^p)"](small.table)
     for row, share in zip(small.table.iter_rows(named=True), shares, strict=True):
+        scaled, _ = motions_of(small, row)
+        mean = mean_spectrum(scaled, np.ones(len(scaled)), periods)
+        corner = (mean * periods).max() / mean.max()
+        assert row["corner_period"] == pytest.approx(corner, rel=1e-12)
         alpha, storeys = row["alpha"], row["storeys"]
         # Two storeys, bare roof: goods at 1, masses 1 + alpha at 1 and 1 at 2. A loaded roof: goods as the masses.
         ratio = 1.0 if row["roof"] == "loaded" else 1.0 / ((3.0 + alpha) / (2.0 + alpha))
@@ -237,6 +260,7 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"confidence": 90.0}, "confidence of effective mass map must be between 0 and 1"),
     ({"overstrength": -1.0}, "overstrength of effective mass map must be at least 0"),
     ({"seed": -1}, "seed of effective mass map must be"),
+    ({"scaling_period": 0.0}, "scaling_period of effective mass map must be above 0"),
     ({"model_damping": "own"}, "damping of effective mass map must be same or ratio"),
 ]
 

@@ -99,8 +99,7 @@ def test_a_floor_is_occupied_as_surveys_say() -> None:
     """3.5 kPa whatever the design load; the share of the table where no area is known; never above the design load."""
     building = sm.read_building(given(goods={"occupancy": "storage, sustained"}))
     assert building.goods_mass[0] == pytest.approx(3.5e3 * 500.0 / G, rel=1e-14)
-    # sqrt(2.5^2 + 6.9^2 100/500)/6.0 = 0.66.
-    assert building.kinds[0].presence.startswith("+/- 0.66 of the design live load, by storage, sustained (3.5 kPa)")
+    assert building.kinds[0].presence == "of the design live load, the mean of storage, sustained (3.5 kPa)"
     loads = given(
         goods={"occupancy": "storage, sustained", "live_load_kpa": None, "live_load_kg": 1000.0},
         building={"area_m2": None, "dead_load_kpa": None, "mass_kg": 1000.0},
@@ -267,15 +266,19 @@ def test_weights_typed_as_masses_are_a_doubt() -> None:
 
 
 def test_the_answer_says_what_to_type_and_what_is_taken_as_there() -> None:
-    """One storey with 3000 kN of design live load, nothing stated: all of it, and a remark on what surveys find."""
+    """One storey with 3000 kN of design live load, nothing stated: all of it, and a row with what surveys find."""
     result = sm.assess(given(), sm.builtin_suite("seven"), mu_factors=(1, 1), resamples=2)
-    assert result.answer.goods == "1.00 of the design live load, since nothing is stated"
+    assert result.answer.goods[0] == "1.00 of the design live load, since nothing is stated"
     one, two = result.answer.analyses
     assert one.mass_source == f"dead + {one.multipliers[0]:.2f} live"
     assert two.mass_source == "dead load alone"
-    assert any("surveys find 0.58 of the design live load in light storage" in remark for remark in result.remarks)
+    taken, surveyed = result.answer.goods[1:]
+    assert taken.startswith("full floors, 1.00 of the design live load: lambda = ")
+    assert surveyed.startswith("floors as expected, 0.58 of the design live load: lambda = ")
+    assert any("floors of storage are taken as full, since nothing is stated" in remark for remark in result.remarks)
     stated = sm.assess(given(goods={"occupied": 1.0}), sm.builtin_suite("seven"), mu_factors=(1, 1), resamples=2)
-    assert not any("surveys find" in remark for remark in stated.remarks)
+    assert [words[:11] for words in stated.answer.goods[1:]] == ["full floors"]
+    assert not any("nothing is stated" in remark for remark in stated.remarks)
     mixed = given(storeys=[{}, {"occupied": 0.5}, {"live_load_kpa": 0.0}])
     other = sm.assess(mixed, sm.builtin_suite("seven"), mu_factors=(1, 1), resamples=2)
     assert other.answer.analyses[0].mass_source == "by floor, below"

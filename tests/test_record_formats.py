@@ -581,15 +581,15 @@ def noise(samples: int = 2000, dt: float = 0.01) -> Record:
 
 def test_suspicious_samples_are_remarked() -> None:
     sound = noise()
-    assert suspicions(sound, unit_given=True) == ()
+    assert suspicions(sound, unit_is_stated=True) == ()
     a = sound.acceleration
 
-    def remark(samples: np.ndarray, unit_given: bool = False) -> str:
-        return " ".join(suspicions(Record(samples, 0.01), unit_given=unit_given))
+    def remark(samples: np.ndarray, unit_is_stated: bool = False) -> str:
+        return " ".join(suspicions(Record(samples, 0.01), unit_is_stated=unit_is_stated))
 
     assert "the largest acceleration is the last sample" in remark(np.append(a, -1.2 * sound.pga))
     assert "PGA 6 g is above 5 g: the unit, m/s2, is doubtful" in remark(a * 6.0 * STANDARD_GRAVITY / sound.pga)
-    assert "is very small" in remark(a * 1e-4, unit_given=True)
+    assert "is very small" in remark(a * 1e-4, unit_is_stated=True)
     assert remark(a * 1e-4) == ""
     assert "an offset was not removed" in remark(a + 0.3 * sound.pga)
     assert remark(0.0 * a) == "every sample is zero"

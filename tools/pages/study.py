@@ -41,7 +41,7 @@ def fill(page: Page) -> StudyResult:
     rows = placed(result.summary)
     yielding = rows.filter(pl.col("R") > 1.0)
     entries = findings(result.summary, result.fractions, result.metadata["code"]["name"])
-    page.after("![Underestimation of mean peak drift", fenced([findings_text(entries).strip()]))
+    page.after("![Underestimation of capped mean drift", fenced([findings_text(entries).strip()]))
     of_places(page, yielding)
     heavy = {name: rows.filter(place="first", R=6.0, alpha=1.5, occupancy=name) for name in ("storage", "commercial")}
     said = "alpha = 1.5 it is {} % on average over the storage buildings and {} % over the commercial ones."

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 import polars as pl
@@ -13,7 +13,9 @@ from seismass.assessment.building import DEFAULT_THETA_LIMIT, OwnBuilding
 from seismass.assessment.checks import drift_source, friction_words
 from seismass.assessment.floors import BY_RULE, LARGER, NOTHING_STATED, FloorGoods
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, SLIDING, SLIDING_ALL
+from seismass.assessment.statement import SHORT, collapsing
 from seismass.assessment.structure import base_advice, rule_advice, support_remarks
+from seismass.base.statistics import CAPPED_MEAN
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.design import THETA_THRESHOLD
 from seismass.design.scaling import ScalingResult
@@ -22,7 +24,7 @@ from seismass.effective_mass.estimate import RULE_UNKNOWN, one_direction_of_slip
 from seismass.media.text_table import numbers_text
 from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
 from seismass.model.friction import BOUND_FACTORS, BOUNDS_SOURCE, friction_pair
-from seismass.model.occupancy import STORAGE, USUAL, surveyed_load
+from seismass.model.occupancy import USUAL, surveyed_load
 from seismass.motions.spectra import TargetSpectrum
 
 
@@ -51,11 +53,7 @@ def code_mass_remarks(building: OwnBuilding) -> list[str]:
         kind.presence.endswith(NOTHING_STATED) and kind.mass and uses[kind.floor - 1] in ("storage", "archive")
         for kind in building.loose
     ):
-        remarks.append(
-            f"floors of storage are full, {NOTHING_STATED}: surveys find {surveyed_load(STORAGE).share:.2f} of "
-            "the design live load in light storage, and how much is there moves the answer more than the mechanics "
-            "do (occupied, or occupancy)"
-        )
+        remarks.append(f"floors of storage are taken as full, {NOTHING_STATED} (occupied, or occupancy)")
     full = [
         str(kind.floor)
         for kind in building.loose
@@ -93,8 +91,8 @@ def goods_remarks(building: OwnBuilding) -> list[str]:
     return [
         *lines,
         _presence_remark(building, there),
-        "Effective fraction: smallest share with a mean largest drift not below that with sliding goods, there and at "
-        "every larger share; its interval resamples the motions, and is 0.05 wider at each end for another suite.",
+        "Effective fraction: smallest share with a capped mean of the largest drift not below that with sliding goods, "
+        "there and at every larger share. Its interval resamples the motions, and is 0.05 wider for another suite.",
     ]
 
 
@@ -117,7 +115,11 @@ def _presence_remark(building: OwnBuilding, there: list[FloorGoods]) -> str:
     """How much of the goods is present, and how that is known."""
     how = presence_sentence(building)
     surveyed = any("sustained" in kind.presence for kind in there)
-    source = f" Surveys: {surveyed_load(USUAL).source}; +/- one standard deviation." if surveyed else ""
+    source = f" Surveys: {surveyed_load(USUAL).source}." if surveyed else ""
+    source += (
+        " Full floors have the mean of the survey and one standard deviation of a floor of that area, at most the "
+        "design live load; all of it where the share is stated."
+    )
     return f"Goods present: {building.present_share:.3g} of the design live load of the whole building; {how}.{source}"
 
 
@@ -145,10 +147,6 @@ def _by_floor(building: OwnBuilding) -> str:
     return ", ".join(parts)
 
 
-SHORT: Final = 1.05
-"""A storey whose goods-slide drift is more than so many times the model's is not covered by it."""
-
-
 def advice_of(
     building: OwnBuilding,
     answer: Answer,
@@ -166,11 +164,10 @@ def advice_of(
             "There are no goods on the floors: the effective fraction has no meaning, and there is no live load to "
             "attach.",
             *_checks(building, storeys, (BARE,)),
-            *_collapses(collapses, (BARE,), motions),
         )
     lines = []
     if answer.reason is not None:
-        lines += _collapses(collapses, (*sliding, ADVISED, BARE), motions)
+        lines.append(f"{collapsing(building, collapses, motions)}.")
         lines.append("A share that fits drifts says nothing of collapse: strengthen the building before it is used.")
     else:
         one, _ = answer.analyses
@@ -180,49 +177,29 @@ def advice_of(
             "keep the whole weight of the goods in P-Delta, and the damping of the building without goods. Take the "
             "larger drift of each storey."
         )
-        lines += _envelope(building, storeys, sliding)
-        lines.append(f"For strengths: {answer.design}.")
+        lines += [_envelope(building, storeys, sliding), answer.design]
         lines += rule_advice(building, effective)
     lines += _checks(building, storeys, sliding)
-    lines += _against_code(building, storeys, sliding)
+    lines.append(_against_code(building, storeys, sliding))
     lines += _slip_advice(slip, in_plane=building.other is not None)
     return (*lines, *base_advice(runs))
 
 
-def _mean(storeys: pl.DataFrame, model: str) -> list[float | None]:
-    means: list[float | None] = storeys.filter(pl.col("model") == model)["mean"].to_list()
-    return means
+def _largest_ratio(storeys: pl.DataFrame, sliding: Sequence[str], model: str) -> tuple[float, int, str]:
+    """Largest real mean over that of a model, over storeys and frictions, with its storey and friction."""
+    mean = {name: storeys.filter(model=name)["mean"].to_numpy() for name in (*sliding, model)}
+    ratios = {name: mean[name] / mean[model] for name in sliding}
+    return max((float(others.max()), int(others.argmax()) + 1, name) for name, others in ratios.items())
 
 
-def _largest_ratio(
-    storeys: pl.DataFrame, sliding: Sequence[str], models: tuple[str, ...]
-) -> tuple[float, int, str] | None:
-    """Largest real mean over the largest of the models, over storeys and frictions, with its storey and friction."""
-    ratios: list[tuple[float, int, str]] = []
-    covers = [_mean(storeys, model) for model in models]
-    for sliding_model in sliding:
-        for number, (drift, *others) in enumerate(zip(_mean(storeys, sliding_model), *covers, strict=True), start=1):
-            known = [value for value in others if value is not None]
-            if drift is not None and len(known) == len(others) and max(known) > 0.0:
-                ratios.append((drift / max(known), number, sliding_model))
-    return max(ratios, key=lambda one: one[:2]) if ratios else None
-
-
-def _envelope(building: OwnBuilding, storeys: pl.DataFrame, sliding: Sequence[str]) -> list[str]:
-    alone, both = (_largest_ratio(storeys, sliding, models) for models in ((ADVISED,), (ADVISED, BARE)))
-    if alone is None or both is None:
-        return []
-    words = friction_words(building)
-    if alone[0] <= SHORT:
-        return [
-            f"Analysis 1 alone covers every storey here: the mean drift with sliding goods is at most {alone[0]:.2f} "
-            f"times its own (storey {alone[1]}, {words[alone[2]]})."
-        ]
-    return [
-        f"Analysis 1 alone does not: with sliding goods storey {alone[1]} drifts {alone[0]:.2f} times its own "
-        f"({words[alone[2]]}). No storey drifts more than {both[0]:.2f} times the larger of both (storey {both[1]}, "
-        f"{words[both[2]]})."
-    ]
+def _envelope(building: OwnBuilding, storeys: pl.DataFrame, sliding: Sequence[str]) -> str:
+    """Whether the first analysis alone would do."""
+    ratio, storey, case = _largest_ratio(storeys, sliding, ADVISED)
+    covers = "covers every storey here" if ratio <= SHORT else "does not cover every storey"
+    return (
+        f"Analysis 1 alone {covers}: with sliding goods storey {storey} drifts {ratio:.2f} times its own "
+        f"({friction_words(building)[case]})."
+    )
 
 
 def _checks(building: OwnBuilding, storeys: pl.DataFrame, models: Any) -> list[str]:
@@ -231,23 +208,13 @@ def _checks(building: OwnBuilding, storeys: pl.DataFrame, models: Any) -> list[s
         return ["Heights are not known: drifts are in millimetres, without P-Delta and without a limit."]
     rows = storeys.filter(pl.col("model").is_in(list(models)))
     lines = []
-    missing = rows.filter(pl.col("mean").is_null())["model"].unique(maintain_order=True).to_list()
-    worst = rows.drop_nulls("mean").sort("mean", descending=True)
     limit = 100.0 * building.drift_limit
-    if missing:
-        listed = ", ".join(NAMES[model] for model in missing)
-        lines.append(
-            f"Where runs collapse ({listed}) drift and stability have no mean: no value to hold against the limit of "
-            f"{limit:g} %."
-        )
-    if worst.height:
-        row = worst.row(0, named=True)
-        verdict = "above" if row["mean_over_limit"] > 1.0 else "within"
-        ending = " of the others" if missing else ""
-        lines.append(
-            f"The mean drift ratio{ending} is {verdict} the limit of {limit:g} %: largest {100.0 * row['mean']:.2f} % "
-            f"(storey {row['storey']}, {NAMES[row['model']]}; motions above the limit: {row['motions_above_limit']})."
-        )
+    row = rows.sort("mean", descending=True).row(0, named=True)
+    verdict = "above" if row["mean_over_limit"] > 1.0 else "within"
+    lines.append(
+        f"The capped mean drift ratio is {verdict} the limit of {limit:g} %: largest {100.0 * row['mean']:.2f} % "
+        f"(storey {row['storey']}, {NAMES[row['model']]}; motions above the limit: {row['motions_above_limit']})."
+    )
     stable = rows.drop_nulls("theta").sort("theta", descending=True)
     if stable.height:
         row = stable.row(0, named=True)
@@ -262,22 +229,12 @@ def _checks(building: OwnBuilding, storeys: pl.DataFrame, models: Any) -> list[s
     return lines
 
 
-def _collapses(collapses: dict[str, int], models: Any, motions: int) -> list[str]:
-    return [
-        f"The building collapses under {collapses[model]} of {motions} motions ({NAMES[model]})."
-        for model in models
-        if collapses.get(model)
-    ]
-
-
-def _against_code(building: OwnBuilding, storeys: pl.DataFrame, sliding: Sequence[str]) -> list[str]:
-    worst = _largest_ratio(storeys, sliding, (CODE,))
-    if worst is None:
-        return []
-    return [
-        f"With sliding goods ({friction_words(building)[worst[2]]}) storey {worst[1]} drifts {worst[0]:.2f} times the "
-        f"model with the code's {building.code_share:.3g} of the design live load, more than any other storey does."
-    ]
+def _against_code(building: OwnBuilding, storeys: pl.DataFrame, sliding: Sequence[str]) -> str:
+    ratio, storey, case = _largest_ratio(storeys, sliding, CODE)
+    return (
+        f"With sliding goods ({friction_words(building)[case]}) storey {storey} drifts {ratio:.2f} times the model "
+        f"with the code's {building.code_share:.3g} of the design live load, more than any other storey does."
+    )
 
 
 def _slip_advice(slip: pl.DataFrame, *, in_plane: bool) -> list[str]:
@@ -291,10 +248,16 @@ def _slip_advice(slip: pl.DataFrame, *, in_plane: bool) -> list[str]:
     sentences = [] if in_plane else [f"{sentence[:1].upper()}{sentence[1:]}."]
     way = "in any direction" if in_plane else "each way"
     return [
-        f"Allow for {1e3 * row['peak_p84']:.0f} mm of slip {way} on floor {row['floor']} (84 % of the motions, mu = "
-        f"{row['mu_s']:.3g}; largest {1e3 * row['peak_max']:.0f} mm): edges, aisles and neighbours.",
+        f"Allow for {1e3 * row['peak_p84']:.0f}{slip_ends(row)} mm of slip {way} on floor {row['floor']} (84 % of the "
+        f"motions, mu = {row['mu_s']:.3g}; largest {1e3 * row['peak_max']:.0f} mm): edges, aisles and neighbours.",
         *sentences,
     ]
+
+
+def slip_ends(row: dict[str, Any]) -> str:
+    """Return the interval of a slip at 84 % (mm) behind it; empty where there is none."""
+    low, high = row["peak_p84_low"], row["peak_p84_high"]
+    return "" if low is None else f" [{1e3 * low:.0f}, {1e3 * high:.0f}]"
 
 
 def remarks_of(
@@ -419,5 +382,8 @@ def _limit_remarks(building: OwnBuilding) -> list[str]:
         theta = "ASCE/SEI 7-10, 12.8.7, 0.5/(beta C_d) and at most 0.25"
     return [
         f"Limits: drift ratio {building.drift_limit:g} ({drift}), stability coefficient {building.theta_limit:g} "
-        f"({theta}). Drifts are nonlinear: no C_d is applied; V is the spring force."
+        f"({theta}). Drifts are nonlinear: no C_d is applied; V is the spring force.",
+        f"Capped mean drift: {CAPPED_MEAN}; the cap is {building.drift_cap:g} of the height, as assumed (drift_cap). "
+        "No run ends there; one that collapses counts its peaks until then. There is no answer where more than a tenth "
+        "of the runs of a model collapse.",
     ]

@@ -15,9 +15,11 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass.assessment.building import OwnBuilding
-from seismass.assessment.checks import ANALYSES, few_collapses, friction_words, largest_change
+from seismass.assessment.checks import ANALYSES, drifts_of, friction_words, largest_change, largest_excess
 from seismass.assessment.floors import by_floor
 from seismass.assessment.models import ADVISED, ATTACHED, BARE, SLIDING_ALL
+from seismass.assessment.statement import NO_MATTER, PresentGoods, collapsing, statement_of
+from seismass.base.statistics import capped, few_collapses
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.design.scaling import ScalingResult
@@ -28,14 +30,18 @@ from seismass.effective_mass.runs import named_motions
 from seismass.effective_mass.search import OWNER, checked_options
 from seismass.motions.spectra import TargetSpectrum
 
-ROUNDING_STEP: Final = 0.05
-"""An advised share is the next multiple of it."""
+ROUNDING_STEP: Final = 0.01
+"""An advised share is the next multiple of it; with a coarse one the drift of analysis 1 would jump."""
+CHANGED_SHARE: Final = 0.05
+"""Change of the share by another drift cap that is told."""
 MOST_DOUBTS: Final = 3
 """Doubts that stand in the headline; the others are among the remarks."""
 ANALYSIS: Final = "analysis"
 """Name of the table of what to type into another program."""
-NO_MATTER: Final = 0.01
-"""Change of a drift below which the share does not matter."""
+PAIR: Final = "two analyses; the larger drift of each storey counts"
+"""What stands above the pair."""
+MANY: Final = ", more than a tenth"
+"""The bound above which there is no answer, `few_collapses` in words."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +82,7 @@ class Answer:
     Attributes
     ----------
     statement : str
-        The answer in one line; "no answer: ..." where there is none.
+        The answer in plain sentences, or why there is none.
     reason : str or None
         Why there is no answer.
     doubts : tuple of str
@@ -85,10 +91,15 @@ class Answer:
         The pair; empty where there is no answer.
     governs : tuple of str
         Which analysis governs which storeys, and what goods that slide drift beside it.
-    goods : str
-        What of the design live load is taken as present, and how that is known.
+    goods : tuple of str
+        How the goods present are known; then share, drift and verdict with them, and with other amounts of goods.
+    amounts : tuple of PresentGoods
+        The same in numbers, that of the assessment first.
     why : str
         The friction that decides, the fraction at it, and the rounding.
+    sensitivity : tuple of str
+        Share and governing drift with each motion left out; and with half and twice the drift cap, where the share or
+        the verdict is another one.
     design : str
         Which share goes into the weight W of a design of strengths.
     motions : str
@@ -102,8 +113,10 @@ class Answer:
     doubts: tuple[str, ...]
     analyses: tuple[Analysis, ...] = ()
     governs: tuple[str, ...] = ()
-    goods: str = ""
+    goods: tuple[str, ...] = ()
+    amounts: tuple[PresentGoods, ...] = ()
     why: str = ""
+    sensitivity: tuple[str, ...] = ()
     design: str = ""
     motions: str = ""
     matters: bool | None = None
@@ -140,7 +153,7 @@ def doubt_lines(doubts: tuple[str, ...]) -> tuple[str, ...]:
 @dataclass(frozen=True, eq=False)
 class DesignShare:
     """Share that goes into the design of the strengths: `found`, None where many runs collapse, and the `reason` why
-    there is none. Where few runs of a designed building collapse it is that of the median.
+    there is none.
     """
 
     effective: EffectiveMass | None
@@ -154,7 +167,11 @@ def answer_of(
     design: DesignShare | None,
     storeys: pl.DataFrame,
     governing: pl.DataFrame,
+    runs: pl.DataFrame,
+    left_out: pl.DataFrame,
     collapses: dict[str, int],
+    slip: pl.DataFrame,
+    amounts: tuple[PresentGoods, ...],
     suite: dict[str, Any],
     scaling: ScalingResult | None,
     doubts: tuple[str, ...],
@@ -164,29 +181,23 @@ def answer_of(
     reason = _reason(building, effective, collapses, len(suite["motions"]))
     if reason is not None or advised is None:
         why = reason or "there are no goods on the floors, and no live load could act as mass"
-        few = "" if reason is not None else _collapsing(collapses, {}, len(suite["motions"]))
-        return Answer(f"{few}no answer: {why}", why, doubts, motions=on)
-    words = friction_words(building)
-    change = largest_change(storeys, (*(name for name in SLIDING_ALL if name in effective), ATTACHED, BARE))
-    matters = change is None or change > NO_MATTER
-    statement = "two analyses; the larger drift of each storey counts"
-    if not matters:
-        assert change is not None
-        statement = (
-            f"the share does not matter: no storey's drift changes by more than {100.0 * max(change, 1e-4):.2g} %, "
-            "whether none or all of the goods act as mass"
-        )
+        few = "" if reason is not None else collapsing(building, collapses, len(suite["motions"]))
+        return Answer(f"No answer, because {why}.{f' {few}.' * bool(few)}", why, doubts, motions=on)
+    tables, motions = (storeys, governing, slip), len(suite["motions"])
+    change = largest_change(storeys, (*effective, ATTACHED, BARE))
     return Answer(
-        f"{_collapsing(collapses, words, len(suite['motions']))}{statement}",
+        statement_of(building, deciding(effective), tables, collapses, motions, amounts),
         None,
         doubts,
         analyses=(_analysis(building, 1, ADVISED, advised), _analysis(building, 2, BARE, 0.0)),
         governs=_governs(governing),
-        goods=presence_sentence(building),
-        why=_why(advised, effective, words),
+        goods=(presence_sentence(building), *(amount.words for amount in amounts)),
+        amounts=amounts,
+        why=_why(advised, effective, friction_words(building)),
+        sensitivity=(*_left_out(left_out, governing), *_at_other_caps(building, advised, effective, runs)),
         design=_design(building, advised, design),
         motions=on,
-        matters=matters,
+        matters=change is None or change > NO_MATTER,
     )
 
 
@@ -242,38 +253,16 @@ def _reason(
     if fallen:
         worst = max(fallen, key=lambda name: fallen[name])
         friction_text = "" if len(effective) == 1 else f" ({words[worst]})"
-        return f"the building collapses under {fallen[worst]} of {motions} motions{friction_text}"
+        how_many = f"{fallen[worst]} of {motions} motions{MANY}"
+        return f"the building with goods that slide{friction_text} collapses under {how_many}"
     if not effective:
         count = collapses.get(BARE, 0)
         many = not few_collapses(count, motions)
-        return f"the building collapses under {count} of {motions} motions" if many else None
+        return f"the building collapses under {count} of {motions} motions{MANY}" if many else None
     for name, called in ANALYSES.items():
         if not few_collapses(collapses.get(name, 0), motions):
-            return f"{called} collapses under {collapses[name]} of {motions} motions"
+            return f"{called} collapses under {collapses[name]} of {motions} motions{MANY}"
     return None
-
-
-def _collapsing(collapses: dict[str, int], words: dict[str, str], motions: int) -> str:
-    """Return how the statement begins where few runs collapse, and the statistic: the building first, then the
-    analyses. `words` are those of the frictions; empty for a building without goods.
-    """
-    mean = "mean drifts are 1.2 times the median or the mean of the others; "
-    fallen = {name: collapses[name] for name in SLIDING_ALL if collapses.get(name)}
-    if fallen:
-        worst = max(fallen, key=lambda name: fallen[name])
-        return (
-            f"THE BUILDING COLLAPSES under {fallen[worst]} of {motions} motions ({words[worst]}): lambda is by the "
-            f"median, {mean}"
-        )
-    if not words:
-        count = collapses.get(BARE, 0)
-        return f"THE BUILDING COLLAPSES under {count} of {motions} motions: {mean}" if count else ""
-    sentences = [
-        f"{called.upper()} COLLAPSES under {collapses[name]} of {motions} motions: its {mean}"
-        for name, called in ANALYSES.items()
-        if collapses.get(name)
-    ]
-    return "".join(sentences)
 
 
 def _analysis(building: OwnBuilding, number: int, model: str, share: float) -> Analysis:
@@ -318,10 +307,7 @@ def _governs(governing: pl.DataFrame) -> tuple[str, ...]:
         named = f" {row['name']}" if row["name"] else ""
         called = f"storey {row['storey']}{named}" if rows.height == 1 else where
         lines.append(f"{called}: {model}, {largest}{scale * row['governing']:.2f} {unit}{limit}{ending}")
-    ratio, storey, mu = max(
-        (row["sliding"] / max(row[ADVISED], row[BARE]), row["storey"], row["sliding_at"])
-        for row in governing.iter_rows(named=True)
-    )
+    ratio, storey, mu = largest_excess(governing)
     lines.append(f"with sliding goods no storey drifts more than {ratio:.2f} times the larger (storey {storey}, {mu})")
     return tuple(lines)
 
@@ -346,23 +332,56 @@ def _why(advised: float, effective: dict[str, EffectiveMass], words: dict[str, s
 
 
 def _value(result: EffectiveMass) -> str:
+    several = f", the largest of {len(result.roots)} shares from {result.roots[0]:.2f}" if len(result.roots) > 1 else ""
     if result.suite_interval is None:
-        return f"{result.value:.2f}"
-    return f"{result.value:.2f} [{result.suite_interval[0]:.2f}, {result.suite_interval[1]:.2f}]"
+        return f"{result.value:.2f}{several}"
+    return f"{result.value:.2f} [{result.suite_interval[0]:.2f}, {result.suite_interval[1]:.2f}]{several}"
+
+
+def _at_other_caps(
+    building: OwnBuilding, advised: float, effective: dict[str, EffectiveMass], runs: pl.DataFrame
+) -> list[str]:
+    """Share and governing drift at half and twice the drift cap where the share or the verdict is another one. The
+    second analysis, analysis 1 and the goods that slide are those of the answer.
+    """
+    drifts, at_cap = drifts_of(building, runs), building.drift_cap
+    values = []
+    for cap in (at_cap, 0.5 * at_cap, 2.0 * at_cap):
+        fractions = (one.metadata["share_at_drift_cap"].get(f"{cap:g}", advised) for one in effective.values())
+        values.append((rounded_up(max(fractions)), float(capped(drifts, cap).mean(axis=1).max())))
+    verdicts = {drift <= building.drift_limit for _, drift in values}
+    if len(verdicts) == 1 and max(abs(share - advised) for share, _ in values) < CHANGED_SHARE:
+        return []
+    texts = [f"{share:.2f} and {100.0 * drift:.2f} %" for share, drift in values]
+    return [
+        f"the drift cap of {100.0 * at_cap:g} % of the height decides: lambda and the governing drift are {texts[0]}, "
+        f"{texts[1]} at half and {texts[2]} at twice the cap"
+    ]
+
+
+def _left_out(left_out: pl.DataFrame, governing: pl.DataFrame) -> list[str]:
+    """The range of the fraction that decides and of the governing drift over the motions left out."""
+    if left_out["governing"].null_count():
+        return []
+    scale, unit = (1e2, "%") if governing["unit"][0] == "ratio" else (1e3, "mm")
+    share, drift = (left_out[name].to_numpy() for name in ("fraction", "governing"))
+    return [
+        f"with one motion left out the fraction is {share.min():.2f} to {share.max():.2f}, the governing drift "
+        f"{scale * drift.min():.2f} to {scale * drift.max():.2f} {unit}"
+    ]
 
 
 def _design(building: OwnBuilding, advised: float, design: DesignShare | None) -> str:
     """Which share goes into W."""
     if building.design is None or design is None:
-        return "strengths are as stated: lambda is for the analysis, not for W of a design"
-    here = f"W here has {building.design_fraction:.3g} of the design live load"
+        return f"Strengths are as stated. lambda = {advised:.2f} is for the analysis, not for the weight W of a design."
+    here = f"Strengths are designed with a weight W that counts {building.design_fraction:.3g} of the design live load."
     if design.effective is None:
-        return f"{here}: keep it; there is no share for W, since {design.reason}"
+        return f"{here} Keep it: no other share is found, since {design.reason}."
     share = rounded_up(design.effective.value)
-    median = "" if design.effective.statistic == "mean" else ", by the median since some designs collapse"
     return (
-        f"for a design of strengths {share:.2f} of the goods present ({share * building.present_share:.2f} of the "
-        f"design live load) go into W{median}; {here}, and lambda = {advised:.2f} is for the analysis of that building"
+        f"{here} If W and the analysis are to count one share, it is {share * building.present_share:.2f} "
+        f"({share:.2f} of the goods present). lambda = {advised:.2f} is for the analysis of this building."
     )
 
 
@@ -401,24 +420,25 @@ def fractions_by_friction(
     bootstrap: dict[str, Any],
     threads: int | None,
     progress: Progress | None,
+    shares: FloatArray | None = None,
 ) -> dict[str, EffectiveMass]:
-    """Return the effective fraction by factor of friction: by the mean, or the median where the building collapses."""
+    """Return the effective fraction at each friction, a factor for each model. `shares`: at which models are solved, by
+    default in steps of 0.01.
+    """
     if not frictions:
         return {}
     scenes = [building.scene(target, mu_factor=factor) for factor in frictions.values()]
     drawn = (bootstrap["confidence"], bootstrap["resamples"], bootstrap["seed"])
-    options = checked_options("mean", SAME_DAMPING, None, *drawn, threads, progress)
-    fractions = {}
+    values = ("mean", SAME_DAMPING, shares, *drawn, threads, progress)
+    options = checked_options(*values, drift_cap=building.drift_cap)
     named = named_motions(motions, OWNER, scenes[0])
-    for name, solved in zip(frictions, solved_frictions(scenes, named, options), strict=True):
-        fractions[name] = solved.answer("median" if solved.sliding.collapsed.any() else "mean")
-    return fractions
+    solved = solved_frictions(scenes, named, options)
+    return {name: one.answer() for name, one in zip(frictions, solved, strict=True)}
 
 
 def advised_share(effective: dict[str, EffectiveMass]) -> float | None:
-    """Return the largest effective fraction, rounded up to 0.05; None without goods, or where many runs collapse."""
-    many = (not few_collapses(each.collapses["real"], each.records.height) for each in effective.values())
-    if not effective or any(many):
+    """Return the largest effective fraction, rounded up to 0.01; None without goods, or where many runs collapse."""
+    if not effective or any(each.kind == "collapsed" for each in effective.values()):
         return None
     return rounded_up(effective[deciding(effective)].value)
 
@@ -447,13 +467,14 @@ def design_share(
 
     scene = building.scene(target, mu_factor=factor)
     shares = design_shares(building)
-    options = checked_options("mean", SAME_DAMPING, shares, 0.9, 1, 0, threads, progress)
+    values = ("mean", SAME_DAMPING, shares, 0.9, 1, 0, threads, progress)
+    options = checked_options(*values, drift_cap=building.drift_cap)
     named = named_motions(motions, OWNER, scene)
     solved = solved_designs(designed, scene.blocks, named, options, scene.racks, scene.collapse_drift, scene.base)
     fallen = solved.sliding.collapsed.sum(axis=1)
     if not few_collapses(int(fallen.max()), len(motions)):
         return DesignShare(None, _collapsing_shares(shares, fallen, len(motions)))
-    return DesignShare(solved.answer("median" if fallen.any() else "mean"), "")
+    return DesignShare(solved.answer(), "")
 
 
 def _collapsing_shares(shares: FloatArray, fallen: NDArray[np.int64], motions: int) -> str:

@@ -163,6 +163,8 @@ class OwnBuilding(Card):
         Row of the code that gave the limit of the drift ratio; None where it was stated, or is the default.
     collapse_drift_ratio : float or None
         Drift ratio at which a storey counts as collapsed; None: only where P-Delta says so.
+    drift_cap : float
+        Drift ratio above which a drift counts as it in capped means; no run ends there. Infinite without heights.
     scaling_period : float or None
         Period (s) for which motions are scaled; None: first period of the building with its goods attached.
     path : Path or None
@@ -210,6 +212,7 @@ class OwnBuilding(Card):
     drift_limit_rule: DriftLimit | None
     theta_limit: float
     collapse_drift_ratio: float | None
+    drift_cap: float
     scaling_period: float | None
     path: Path | None = None
     project: Project = NO_PROJECT

@@ -60,6 +60,7 @@ from seismass.base.input_table import (
     load_table,
     refuse_other_kind,
 )
+from seismass.base.statistics import DRIFT_CAP
 from seismass.base.units import FOOT, KIP, STANDARD_GRAVITY
 from seismass.base.values import as_path, printable
 from seismass.design import Combination, vibration_modes
@@ -157,6 +158,7 @@ _OF_BUILDING: Final = {
     "drift_limit": ("drift_limit", "risk_category"),
     "theta_limit": ("theta_limit",),
     "collapse": ("collapse_drift_ratio",),
+    "drift_cap": ("drift_cap",),
     "scaling_period": ("scaling_period_s",),
 }
 
@@ -253,6 +255,7 @@ KEYS: Final = {
         *LIMIT,
         "theta_limit",
         "collapse_drift_ratio",
+        "drift_cap",
         "scaling_period_s",
         *_STOREY,
     ),
@@ -371,8 +374,8 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
     if p_delta and heights is None:
         storeys[0].refuse("height_m", f"given where {building.key('p_delta')} is true", "nothing")
     collapse = _optional(building, "collapse_drift_ratio")
-    if collapse is not None and heights is None:
-        storeys[0].refuse("height_m", f"given where {building.key('collapse_drift_ratio')} is", "nothing")
+    for key in building.subset("collapse_drift_ratio", "drift_cap") if heights is None else ():
+        storeys[0].refuse("height_m", f"given where {building.key(key)} is", "nothing")
 
     def springs(name: str) -> Any:
         return np.array([_spring(storey, building, name) for storey in storeys])
@@ -424,6 +427,7 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
         drift_limit_rule=limit_rule,
         theta_limit=building.number("theta_limit", DEFAULT_THETA_LIMIT, POSITIVE),
         collapse_drift_ratio=collapse,
+        drift_cap=np.inf if heights is None else building.number("drift_cap", DRIFT_CAP, POSITIVE),
         scaling_period=_optional(building, "scaling_period_s"),
         path=path,
         project=project_of(project),

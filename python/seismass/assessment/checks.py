@@ -3,34 +3,56 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import Any, Final, Literal
+from typing import Any, Final
 
 import numpy as np
 import polars as pl
+from numpy.typing import NDArray
 
 from seismass.assessment.building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding
 from seismass.assessment.models import ADVISED, BARE, SLIDING, SLIDING_ALL, SLIDING_HIGH, SLIDING_LOW, friction_factors
-from seismass.base.statistics import QUANTILES
+from seismass.base.statistics import CAPPED_MEAN, QUANTILES, capped, statistics_of
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.design import THETA_THRESHOLD, drift_limit
-from seismass.model.codes import NOT_CHECKED, VERIFIED
+from seismass.effective_mass import EffectiveMass
+from seismass.effective_mass.models import quantile_interval
+from seismass.model.codes import FROM_MEMORY, NOT_CHECKED, VERIFIED
 from seismass.model.scene import Scene
 from seismass.motions.spectra import TargetSpectrum
 
+CAPPED_DRIFT: Final = "capped mean drift ratio"
+"""The check of drifts."""
+OF_CODE: Final = "by ASCE/SEI 7-16, 16.4"
+"""What the checks are called that this clause makes of the same runs, from memory."""
+MEDIAN_FACTOR: Final = 1.2
+"""There the mean is this times the median, and at least the mean of the others, where a run collapses."""
 
-def checks_table(building: OwnBuilding, storeys: pl.DataFrame, collapses: dict[str, int]) -> pl.DataFrame:
+
+def collapses_allowed(building: OwnBuilding, motions: int) -> int:
+    """Return how many collapses that clause allows: one of eleven motions, two of twenty; in risk categories III and IV
+    one less.
+    """
+    rule = building.drift_limit_rule
+    return max(0, (motions >= 11) + (motions >= 20) - (rule is not None and rule.risk_category in ("III", "IV")))
+
+
+def checks_table(building: OwnBuilding, storeys: pl.DataFrame, collapses: dict[str, int], motions: int) -> pl.DataFrame:
     """Return one row per check and model: the storey with the largest value, value, limit, whether it is met (null
-    where collapses leave no value), and the clause of the limit. `collapses` counts collapsed runs by model.
+    where there is no value), and the clause of the limit. `collapses` counts collapsed runs by model.
     """
     models = [model for model in (*SLIDING_ALL, ADVISED, BARE) if model in collapses]
+    allowed = collapses_allowed(building, motions)
     rows: list[dict[str, Any]] = [
-        {"check": "collapsed runs", "model": model, "value": float(collapses[model]), "limit": 0.0, "source": ""}
+        {"check": check, "model": model, "value": float(collapses[model]), "limit": float(limit), "source": source}
+        for check, limit, source in (("collapsed runs", 0, ""), (f"collapsed runs {OF_CODE}", allowed, FROM_MEMORY))
         for model in models
     ]
     if building.heights is not None:
+        of_code = f"{MEDIAN_FACTOR:g} times the median where runs collapse ({FROM_MEMORY}), limit as above"
         limits = {
-            "mean drift ratio": ("mean", building.drift_limit, drift_source(building)),
+            CAPPED_DRIFT: ("mean", building.drift_limit, f"{drift_source(building)}; {CAPPED_MEAN}"),
+            f"drift ratio {OF_CODE}": ("mean_by_code", building.drift_limit, of_code),
             "stability coefficient": ("theta", building.theta_limit, _theta_source(building)),
         }
         for check, (column, limit, source) in limits.items():
@@ -149,6 +171,7 @@ def input_document(building: OwnBuilding, target: TargetSpectrum | None) -> dict
         "drift_limit_rule": None if building.drift_limit_rule is None else asdict(building.drift_limit_rule),
         "theta_limit": building.theta_limit if building.heights is not None else None,
         "collapse_drift_ratio": building.collapse_drift_ratio,
+        "drift_cap": building.drift_cap,
         "base": None if base is None else {"mu_s": base.mu_s, "mu_k": base.mu_k, "radius": base.radius},
         "other_direction": None if building.other is None else _in_y(building.other, target),
         "walls": building.walls is not None,
@@ -172,8 +195,8 @@ def friction_words(building: OwnBuilding) -> dict[str, str]:
 
 
 def governing_table(building: OwnBuilding, storeys: pl.DataFrame) -> pl.DataFrame:
-    """Return one row per storey: mean peak drifts of both analyses and of the goods that slide (null where a run
-    collapses), which governs (null where a mean is missing), its limit and the ratio to it.
+    """Return one row per storey: capped mean drifts of both analyses and of the goods that slide, which governs, its
+    limit and the ratio to it.
     """
     words = friction_words(building)
     known = storeys["model"].unique(maintain_order=True).to_list()
@@ -186,14 +209,13 @@ def governing_table(building: OwnBuilding, storeys: pl.DataFrame) -> pl.DataFram
         drifts = {name: means[name] for name in columns}
         first = rows_of_storey.row(0, named=True)
         row = {"storey": storey, "name": first["name"], "unit": first["unit"], "limit": first["limit"], **drifts}
-        sliding = {name: drifts[name] for name in SLIDING_ALL if drifts.get(name) is not None}
+        sliding = {name: drifts[name] for name in SLIDING_ALL if name in drifts}
         if sliding:
             worst = max(sliding, key=lambda name: sliding[name])
             row |= {"sliding": sliding[worst], "sliding_at": words[worst]}
-        if all(value is not None for value in drifts.values()):
-            row |= _governing(drifts, words, 1e2 if first["unit"] == "ratio" else 1e3)
-            if first["limit"] is not None:
-                row["governing_over_limit"] = row["governing"] / first["limit"]
+        row |= _governing(drifts, words, 1e2 if first["unit"] == "ratio" else 1e3)
+        if first["limit"] is not None:
+            row["governing_over_limit"] = row["governing"] / first["limit"]
         rows.append(row)
     texts = dict.fromkeys(("name", "unit", "governed_by", "sliding_at"), pl.String)
     numbers = (*models, "governing", "sliding", "limit", "governing_over_limit")
@@ -211,45 +233,56 @@ def _governing(drifts: dict[str, float], words: dict[str, str], scale: float) ->
 
 def largest_change(storeys: pl.DataFrame, models: tuple[str, ...]) -> float | None:
     """Return the largest over the smallest mean drift of a storey among `models`, less one: the largest of any storey.
-    None without means.
+    None where nothing drifts.
     """
     changes = []
     for _, rows in storeys.filter(pl.col("model").is_in(models)).group_by("storey"):
         means = rows["mean"].to_list()
-        if any(value is None for value in means) or not means or min(means) <= 0.0:
+        if min(means) <= 0.0:
             return None
         changes.append(max(means) / min(means) - 1.0)
     return max(changes) if changes else None
 
 
-MOST_COLLAPSES: Final = 0.1
-"""Share of the motions that may bring a collapse where drifts still have a mean: one of eleven, and four of forty."""
-MEDIAN_FACTOR: Final = 1.2
-"""The mean is then this times the median, and at least the mean of the others: ASCE/SEI 7-16, 16.4 (from memory)."""
+def largest_excess(governing: pl.DataFrame) -> tuple[float, int, str]:
+    """Return the largest drift with goods that slide over the larger analysis, its storey and its friction."""
+    return max(
+        (row["sliding"] / max(row[ADVISED], row[BARE]), row["storey"], row["sliding_at"])
+        for row in governing.iter_rows(named=True)
+    )
 
 
-def drift_statistics(drifts: FloatArray) -> dict[str, float | None]:
-    """Return `statistics_of` drifts, with a mean where at most `MOST_COLLAPSES` of the runs collapsed (infinite)."""
-    known, fallen = statistics_of(drifts), np.isinf(drifts)
-    if fallen.any() and few_collapses(int(fallen.sum()), len(drifts)):
-        known["mean"] = max(MEDIAN_FACTOR * float(np.median(drifts)), float(drifts[~fallen].mean()))
-    return known
+def drift_statistics(peaks: FloatArray, collapsed: NDArray[np.bool_], cap: float) -> dict[str, float | None]:
+    """Return the statistics of a storey's peak drifts: the capped mean; quantiles, the largest, and the mean of
+    ASCE/SEI 7-16, of drifts that a collapse makes infinite (null where that decides).
+    """
+    known = statistics_of(np.where(collapsed, np.inf, peaks))
+    if collapsed.any() and known["median"] is not None:
+        known["mean"] = max(MEDIAN_FACTOR * known["median"], float(peaks[~collapsed].mean()))
+    return known | {"mean": float(capped(peaks, cap).mean()), "mean_by_code": known["mean"]}
 
 
-def few_collapses(collapsed: int, motions: int) -> bool:
-    """Whether so few runs collapsed that drifts have a mean, and an assessment an answer."""
-    return collapsed <= MOST_COLLAPSES * motions
+def drifts_of(building: OwnBuilding, runs: pl.DataFrame) -> FloatArray:
+    """Return peak drifts of both analyses and of goods that slide, shape (models, motions, storeys)."""
+    column = "peak_drift" if building.heights is None else "peak_drift_ratio"
+    rows = runs.filter(pl.col("model").is_in([ADVISED, BARE, *SLIDING_ALL]))
+    return rows[column].to_numpy().reshape(rows["model"].n_unique(), -1, building.storeys)
 
 
-def statistics_of(values: FloatArray) -> dict[str, float | None]:
-    """Return mean, quantiles and largest value over the motions; what a collapsed run (infinite) decides is null."""
-    collapsed = bool(np.isinf(values).any())
-    # Between a number and infinity nothing can be interpolated; then a quantile is the next larger value.
-    method: Literal["higher", "linear"] = "higher" if collapsed else "linear"
-    statistics = {"mean": float(values.mean())}
-    statistics |= {name: float(np.quantile(values, share, method=method)) for name, share in QUANTILES.items()}
-    statistics["max"] = float(values.max())
-    return {name: value if np.isfinite(value) else None for name, value in statistics.items()}
+def left_out_table(
+    building: OwnBuilding, runs: pl.DataFrame, effective: dict[str, EffectiveMass], columns_of_motions: dict[str, Any]
+) -> pl.DataFrame:
+    """Return one row per motion: what it is (`about`), and without it the largest effective fraction and the governing
+    drift, the largest of any storey; null for a motion alone. Analysis 1 keeps its share.
+    """
+    drifts = capped(drifts_of(building, runs), building.drift_cap)
+    others = drifts.shape[1] - 1
+    without = (drifts.sum(axis=1, keepdims=True) - drifts) / (others or np.nan)
+    columns = {"motion": pl.int_range(1, others + 2, dtype=pl.UInt32, eager=True), **columns_of_motions}
+    shares = {name: one.records["value_without"] for name, one in effective.items()}
+    columns |= {"fraction": pl.DataFrame(shares).max_horizontal() if shares else None}
+    columns |= {"governing": without.max(axis=(0, 2))}
+    return pl.DataFrame(columns, schema_overrides={"fraction": pl.Float64}).fill_nan(None)
 
 
 def gravity_of_storeys(building: OwnBuilding, scene: Scene) -> FloatArray:
@@ -260,8 +293,8 @@ def gravity_of_storeys(building: OwnBuilding, scene: Scene) -> FloatArray:
 
 
 def storey_table(building: OwnBuilding, sliding_scene: Scene, runs: pl.DataFrame) -> pl.DataFrame:
-    """Return one row per model and storey: statistics of the peak drift (null where a collapsed run decides), its
-    limit, and theta = P d/(V h) of mean peak drift and shear with its limit (null beside walls).
+    """Return one row per model and storey: `drift_statistics`, limit, and theta = P d/(V h) of the capped mean drift
+    and the mean peak shear with its limit (null beside walls).
     """
     heights = building.heights
     gravity, rows = gravity_of_storeys(building, sliding_scene), []
@@ -270,16 +303,17 @@ def storey_table(building: OwnBuilding, sliding_scene: Scene, runs: pl.DataFrame
         for storey in range(1, building.storeys + 1):
             rows_of_storey = runs.filter((pl.col("model") == model) & (pl.col("storey") == storey))
             collapsed = rows_of_storey["collapsed"].to_numpy()
-            drift = np.where(collapsed, np.inf, rows_of_storey[column].to_numpy())
-            known = drift_statistics(drift)
-            shears = rows_of_storey["peak_storey_shear"].to_numpy()[~collapsed]
-            shear = float(shears.mean()) if known["mean"] is not None else None
+            drift = rows_of_storey[column].to_numpy()
+            above_limit = collapsed | (drift > building.drift_limit)
+            known = drift_statistics(drift, collapsed, building.drift_cap)
+            shear = float(rows_of_storey["peak_storey_shear"].to_numpy().mean())
             mean, load = known["mean"], float(gravity[storey - 1])
+            assert mean is not None
             alone = building.walls is None
             elastic = None
             if heights is not None and alone:
                 elastic = load / float(building.stiffness[storey - 1] * heights[storey - 1])
-            has_theta = heights is not None and alone and mean is not None and bool(shear)
+            has_theta = heights is not None and alone and shear > 0.0
             rows.append(
                 {
                     "model": model,
@@ -288,25 +322,27 @@ def storey_table(building: OwnBuilding, sliding_scene: Scene, runs: pl.DataFrame
                     "unit": "m" if heights is None else "ratio",
                     **known,
                     "limit": None if heights is None else building.drift_limit,
-                    "mean_over_limit": None if heights is None or mean is None else mean / building.drift_limit,
-                    "motions_above_limit": None if heights is None else int((drift > building.drift_limit).sum()),
+                    "mean_over_limit": None if heights is None else mean / building.drift_limit,
+                    "motions_above_limit": None if heights is None else int(above_limit.sum()),
                     "collapsed": int(collapsed.sum()),
                     "mean_peak_shear": shear,
                     # With drift ratios the height is in the drift already.
-                    "theta": load * mean / shear if has_theta and mean is not None and shear else None,
+                    "theta": load * mean / shear if has_theta else None,
                     "theta_elastic": elastic,
                     "theta_limit": None if heights is None else building.theta_limit,
                 }
             )
-    numbers = ("mean", *QUANTILES, "max", "limit", "mean_over_limit", "mean_peak_shear", "theta", "theta_elastic")
+    numbers = ("mean", *QUANTILES, "max", "mean_by_code", "limit", "mean_over_limit", "mean_peak_shear", "theta")
     schema: dict[str, Any] = {"storey": pl.UInt32, "motions_above_limit": pl.UInt32, "collapsed": pl.UInt32}
-    schema |= dict.fromkeys((*numbers, "theta_limit"), pl.Float64)
+    schema |= dict.fromkeys((*numbers, "theta_elastic", "theta_limit"), pl.Float64)
     return pl.DataFrame(rows, schema_overrides=schema)
 
 
-def slip_table(building: OwnBuilding, slips: pl.DataFrame) -> pl.DataFrame:
+def slip_table(
+    building: OwnBuilding, slips: pl.DataFrame, counts: FloatArray | None = None, confidence: float = 0.90
+) -> pl.DataFrame:
     """Return one row per friction, kind of loose goods present and level of its rack: motions that slide, statistics of
-    peak and residual slip (m), and collapsed runs, whose slips are those until the collapse.
+    peak and residual slip (m) until a collapse, the interval of `peak_p84` by these `counts`, and collapsed runs.
     """
     words = dict(zip(SLIDING_ALL, ("as stated", "lower bound", "upper bound"), strict=True))
     rows = []
@@ -318,6 +354,7 @@ def slip_table(building: OwnBuilding, slips: pl.DataFrame) -> pl.DataFrame:
                 continue
             peak, residual = of_kind["peak_slip"].to_numpy(), np.abs(of_kind["residual_slip"].to_numpy())
             left = statistics_of(residual)
+            ends = (None, None) if counts is None else quantile_interval(peak, QUANTILES["p84"], counts, confidence)
             rows.append(
                 {
                     "model": model,
@@ -330,11 +367,13 @@ def slip_table(building: OwnBuilding, slips: pl.DataFrame) -> pl.DataFrame:
                     "mu_k": factor * kind.mu_k,
                     "motions_that_slide": int((peak > 0.0).sum()),
                     **{f"peak_{name}": value for name, value in statistics_of(peak).items()},
+                    "peak_p84_low": ends[0],
+                    "peak_p84_high": ends[1],
                     **{f"residual_{name}": left[name] for name in ("mean", "median", "p84")},
                     "collapsed": int(of_kind["collapsed"].sum()),
                 }
             )
-    numbers = [f"peak_{name}" for name in ("mean", *QUANTILES, "max")]
+    numbers = [f"peak_{name}" for name in ("mean", *QUANTILES, "max", "p84_low", "p84_high")]
     numbers += [f"residual_{name}" for name in ("mean", "median", "p84")]
     texts = ("model", "friction", "name", "goods", "contact")
     schema: dict[str, Any] = {

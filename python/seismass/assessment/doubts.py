@@ -15,6 +15,7 @@ from seismass.assessment.models import NAMES
 from seismass.assessment.structure import damping_doubts
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
+from seismass.effective_mass import EffectiveMass
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.motions.spectra import TargetSpectrum
@@ -43,6 +44,12 @@ MIN_STRENGTH: Final = 0.03
 is a tenth of what was meant."""
 MAX_DRIFT: Final = 0.1
 """Mean peak drift ratio that a model can be believed at."""
+MAX_PGV: Final = 2.5
+"""PGV of a scaled motion (m/s); the far-field recordings, scaled to S_DS = 1.0 g at 0.6 s, have at most 1.9."""
+MAX_FACTOR: Final = 4.0
+"""Factor of a scaled motion."""
+MAX_CHANGE: Final = 0.1
+"""Change of the share by one motion."""
 ROOFS: Final = ("roof", "dach", "toit", "techo", "tetto")
 """Words in the name of a floor that is the uppermost."""
 
@@ -82,6 +89,23 @@ def building_doubts(building: OwnBuilding, sliding_scene: Scene, target: TargetS
         *(() if target is None else target_remarks(target)),
     ]
     return tuple(dict.fromkeys(doubts))
+
+
+def motion_doubts(left_out: pl.DataFrame, effective: dict[str, EffectiveMass]) -> tuple[str, ...]:
+    """Return doubts about scaled motions that are like few recordings, and about a share that one motion decides."""
+
+    def listed(table: pl.DataFrame) -> str:
+        row = "motion {motion}, {record} (PGV {pgv:.2f} m/s, PGD {pgd:.2f} m, factor {factor:.2f})"
+        return "; ".join(row.format_map(values) for values in table.head(3).to_dicts()) + "; ..." * (table.height > 3)
+
+    far = left_out.filter((pl.col("pgv") > MAX_PGV) | (pl.col("factor") > MAX_FACTOR)).sort("pgv", descending=True)
+    limits = f"have a PGV above {MAX_PGV:g} m/s or a factor above {MAX_FACTOR:g}"
+    doubts = [f"{far.height} of {left_out.height} scaled motions {limits}: {listed(far)}"] * (far.height > 0)
+    value = max((one.value for one in effective.values()), default=0.0)
+    change = (pl.col("fraction") - value).abs()
+    most = left_out.filter(change > MAX_CHANGE).sort(change).tail(1)
+    doubts += [f"the share is {share:.2f} without {listed(most)}, not {value:.2f}" for share in most["fraction"]]
+    return tuple(doubts)
 
 
 def _load_doubts(building: OwnBuilding) -> list[str]:
@@ -153,21 +177,24 @@ def _limit_doubts(building: OwnBuilding) -> list[str]:
         ("collapse drift ratio", building.collapse_drift_ratio, MAX_COLLAPSE_RATIO, " of the height"),
         ("limit of the stability coefficient", building.theta_limit, MAX_THETA_LIMIT, ""),
     )
-    return [
+    below = f"the drift cap, {building.drift_cap:g}, is not above the drift limit: the check of drifts cannot fail"
+    doubts = [
         f"the {name} is {value:g}{source}: limits are ratios, not per cent"
         for name, value, largest, source in limits
         if value is not None and value > largest
     ]
+    return [*doubts, *[below] * (building.drift_cap <= building.drift_limit)]
 
 
 def _drift_doubts(storeys: pl.DataFrame) -> list[str]:
     """Drifts that no building stands."""
-    worst = storeys.filter(pl.col("unit") == "ratio").drop_nulls("mean").sort("mean", descending=True)
-    if not worst.height or worst["mean"][0] <= MAX_DRIFT:
+    # The capped mean is never above the cap.
+    worst = storeys.filter(unit="ratio").drop_nulls("mean_by_code").sort("mean_by_code", descending=True)
+    if not worst.height or worst["mean_by_code"][0] <= MAX_DRIFT:
         return []
     row = worst.row(0, named=True)
     return [
-        f"the mean drift of storey {row['storey']} is {100.0 * row['mean']:.3g} % of its height "
+        f"the mean drift of storey {row['storey']} is {100.0 * row['mean_by_code']:.3g} % of its height "
         f"({NAMES[row['model']]}), above {100.0 * MAX_DRIFT:g} %: no building stands this; are site, strengths and "
         "heights in their units?"
     ]

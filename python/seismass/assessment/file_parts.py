@@ -212,9 +212,11 @@ def _present(tables: tuple[Table, ...], live_load: float, area: float, use: str)
             f"of the design live load, by {survey.occupancy_id}, the area not being known",
             survey.occupancy_id,
         )
-    share, spread = survey.mean / design, survey.deviation(area) / design
-    scatter = f"+/- {spread:.2f} of the design live load, by {survey.occupancy_id} ({survey.mean:g} kPa)"
-    return min(1.0, share), scatter + (", which is more than all of it" if share > 1.0 else ""), survey.occupancy_id
+    share, mean = (
+        survey.mean / design,
+        f"of the design live load, the mean of {survey.occupancy_id} ({survey.mean:g} kPa)",
+    )
+    return min(1.0, share), mean + (", which is more than all of it" if share > 1.0 else ""), survey.occupancy_id
 
 
 def _friction(tables: tuple[Table, ...]) -> tuple[str, float, float]:

@@ -24,7 +24,7 @@ from seismass.motions.spectra import TargetSpectrum
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SCHEMA_VERSION: Final = 7
+SCHEMA_VERSION: Final = 8
 """Version of the tables and of the JSON of an assessment."""
 
 
@@ -32,7 +32,7 @@ def shown_figures(fractions: bool, storeys: pl.DataFrame, slip: pl.DataFrame) ->
     """Return the names of the figures with content; `fractions`: whether an effective fraction has a value."""
     shown = {
         "effective_fraction": fractions,
-        "drift": storeys["mean"].drop_nulls().len() > 0,
+        "drift": True,
         "slip": slip["peak_mean"].drop_nulls().len() > 0,
         "spectrum": True,
     }
@@ -53,7 +53,7 @@ class Assessment(Result):
         The pair of analyses, what governs which storey, why this share, on which motions; or why there is none.
     effective : dict of str to EffectiveMass
         Effective fractions of the goods present, by friction: "real" as stated, "real_mu_low" and "real_mu_high" at its
-        bounds; by the median where the building collapses under some motion. Empty without goods.
+        bounds. Empty without goods.
     design : EffectiveMass or None
         Share that a design of the strengths and the analysis have in common, at the friction that decides; see
         `seismass.effective_mass_of_design`. None where strengths are stated, and without an answer.
@@ -65,6 +65,8 @@ class Assessment(Result):
         Slip demand by friction and floor; see `seismass.assessment.checks.slip_table`.
     runs : polars.DataFrame
         Peaks of every run by storey; see `seismass.assessment.models.solve_models`.
+    left_out : polars.DataFrame
+        Share and governing drift without each motion; see `seismass.assessment.checks.left_out_table`.
     slips : polars.DataFrame
         Slips of every run by kind of goods; see there.
     collapses : dict of str to int
@@ -99,6 +101,7 @@ class Assessment(Result):
     slip: pl.DataFrame = field(repr=False)
     slips: pl.DataFrame = field(repr=False)
     runs: pl.DataFrame = field(repr=False)
+    left_out: pl.DataFrame = field(repr=False)
     collapses: dict[str, int]
     spectra: pl.DataFrame = field(repr=False)
     example: Shown = field(repr=False)
@@ -119,7 +122,7 @@ class Assessment(Result):
     def advised(self) -> float | None:
         """Share of the goods present to attach in analysis 1; None where there is no answer.
 
-        The largest of the effective fractions for friction as stated and at its bounds, rounded up to 0.05.
+        The largest of the effective fractions for friction as stated and at its bounds, rounded up to 0.01.
         """
         return self.answer.analyses[0].share_of_goods_present if self.answer.analyses else None
 
@@ -136,15 +139,18 @@ class Assessment(Result):
 
     @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """Tables by name: storeys, governing, analysis, slip, runs, slips, checks, spectra; curve, scaling if known."""
+        """Tables by name: storeys, governing, analysis, slip, runs, left_out, slips, checks, spectra; curve, scaling if
+        known.
+        """
         tables = {
             "storeys": self.storeys,
             "governing": self.governing,
             ANALYSIS: analysis_table(self.answer, self.building),
             "slip": self.slip,
             "runs": self.runs,
+            "left_out": self.left_out,
             "slips": self.slips,
-            "checks": checks_table(self.building, self.storeys, self.collapses),
+            "checks": checks_table(self.building, self.storeys, self.collapses, len(self.suite["motions"])),
             "spectra": self.spectra,
         }
         curves = [
@@ -200,6 +206,7 @@ class Assessment(Result):
             "effective": {model: result.to_dict() for model, result in self.effective.items()},
             "storeys": self.storeys.to_dicts(),
             "governing": self.governing.to_dicts(),
+            "left_out": self.left_out.to_dicts(),
             "slip": self.slip.to_dicts(),
             "collapses": self.collapses,
             "suite": self.suite,
@@ -229,8 +236,10 @@ class Assessment(Result):
             "analyses": [asdict(one) for one in answer.analyses],
             "pair": list(answer.pair),
             "governs": list(answer.governs),
-            "goods": answer.goods,
+            "goods": list(answer.goods),
+            "amounts": [asdict(one) | {"verdict": one.verdict} for one in answer.amounts],
             "why": answer.why,
+            "sensitivity": list(answer.sensitivity),
             "design": answer.design,
             "share_matters": answer.matters,
         }

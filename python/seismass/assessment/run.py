@@ -25,8 +25,8 @@ from seismass.assessment.answer import (
 )
 from seismass.assessment.building import OwnBuilding
 from seismass.assessment.building_file import read_building
-from seismass.assessment.checks import collapses_of, governing_table, slip_table, storey_table
-from seismass.assessment.doubts import doubts_of
+from seismass.assessment.checks import collapses_of, governing_table, left_out_table, slip_table, storey_table
+from seismass.assessment.doubts import doubts_of, motion_doubts
 from seismass.assessment.file_site import spectra_table
 from seismass.assessment.models import (
     ADVISED,
@@ -41,18 +41,23 @@ from seismass.assessment.models import (
     solve_models,
 )
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
+from seismass.assessment.statement import PresentGoods, governing_drifts, other_amounts, present_goods
 from seismass.base.digest import inputs_digest, motion_contents
-from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.files import without_formulas
 from seismass.base.values import brief, refusal
-from seismass.effective_mass.models import SHARES_BEYOND, goes_beyond
+from seismass.design.scaling import ScalingResult
+from seismass.effective_mass.models import SHARES_BEYOND, bootstrap_counts, check_cap, goes_beyond
+from seismass.effective_mass.runs import Stages, named_motions
 from seismass.model.codes import CodeFraction
 from seismass.model.friction import bound_factors
 from seismass.motions.motion import motion_names
-from seismass.motions.records import Pair, Pairs, Suite, builtin_pairs, builtin_suite
+from seismass.motions.records import Pair, Pairs, Record, Suite, builtin_pairs, builtin_suite
 from seismass.motions.spectra import TargetSpectrum
 from seismass.runs.simulate import instruction_set
 
+SHARES_OF_AMOUNTS: Final = np.linspace(0.0, 1.0, 21)
+"""Shares at which models are solved for another amount of goods."""
 FIXED_MODELS: Final = 4
 """Models that every assessment with goods solves beside those with goods that slide."""
 
@@ -66,6 +71,7 @@ def assess(
     *,
     code: CodeFraction | None = None,
     mu_factors: tuple[float, float] | None = None,
+    drift_cap: float | None = None,
     scaling_period: float | None = None,
     scale: bool = True,
     confidence: float = 0.90,
@@ -89,6 +95,8 @@ def assess(
         In place of the building's code, as `code_fraction` gives it.
     mu_factors : tuple of float, optional
         In place of the building's factors of friction for its lower and upper bound; (1, 1) leaves the bounds out.
+    drift_cap : float, optional
+        In place of the building's drift cap, over the storey height; see `effective_mass`.
     scaling_period : float, optional
         Period T (s) for which motions are scaled, from 0.2 T to 1.5 T; default that of the building file, else the
         first period of the building with the goods present attached.
@@ -131,19 +139,22 @@ def assess(
     ['real', 'real_mu_low', 'real_mu_high', 'advised', 'code', 'attached', 'bare']
     """
     stated = _building(building, code, mu_factors)
+    if drift_cap is not None:
+        stated = replace(stated, drift_cap=check_cap(drift_cap, "assessment"))
     in_plane = stated.other is not None
     suite = _suite((builtin_pairs() if in_plane else builtin_suite("forty")) if motions is None else motions, in_plane)
     spectrum = stated.site_spectrum(target) if scale or stated.design is not None else None
     scaling = scaled_to_site(stated, suite, spectrum, scaling_period, threads=threads) if scale else None
-    factors = np.ones(len(suite)) if scaling is None else scaling.factors
-    scaled = [motion.scaled(float(factor)) for motion, factor in zip(suite, factors, strict=True)]
+    scaled = _scaled(suite, scaling)
     loaded = bool((stated.goods_mass > 0.0).any())
     frictions = friction_factors(stated) if loaded else {}
     models = len(frictions) + FIXED_MODELS if loaded else 1
     fractions = len(frictions) + SHARES if loaded else 0
     designs = 2 * len(design_shares(stated)) if loaded and stated.design is not None else 0
     larger = len(SHARES_BEYOND) if loaded and goes_beyond(stated.scene(spectrum)) else 0
-    stages = _Stages(progress, (models + fractions + larger + designs) * len(suite))
+    floors, others = other_amounts(stated)
+    of_amount = len(frictions) + len(SHARES_OF_AMOUNTS) + larger
+    stages = Stages(progress, (models + fractions + larger + designs + len(others) * of_amount) * len(suite))
     bootstrap = {"confidence": confidence, "resamples": resamples, "seed": seed}
     effective = fractions_by_friction(
         stated, spectrum, frictions, scaled, bootstrap, threads, stages.next((fractions + larger) * len(suite))
@@ -154,6 +165,24 @@ def assess(
         factor = frictions[deciding(effective)]
         design = design_share(stated, spectrum, factor, scaled, threads, stages.next(designs * len(suite)))
     scenes = compared_models(stated, spectrum, advised)
+
+    def amount(floors: str, case: OwnBuilding) -> PresentGoods:
+        """The answer for another amount of goods, with motions scaled for it."""
+        tell = stages.next(of_amount * len(suite))
+        try:
+            of_case = scaled_to_site(case, suite, spectrum, scaling_period, threads=threads) if scale else None
+            how = (_scaled(suite, of_case), {**bootstrap, "resamples": 1}, threads, tell, SHARES_OF_AMOUNTS)
+            effective = fractions_by_friction(case, spectrum, frictions, *how)
+        except (InvalidScene, InvalidOption) as error:  # P-Delta or the site spectrum may not allow so much
+            return PresentGoods(floors, case.present_share, reason=f"{error}")
+        share = advised_share(effective)
+        if share is not None:
+            return present_goods(floors, case, share, governing_drifts(effective, share))
+        worst = max(each.collapses["real"] for each in effective.values())
+        why = f"the building with goods that slide collapses under {worst} of {len(suite)} motions"
+        return PresentGoods(floors, case.present_share, reason=why)
+
+    further = [] if advised is None else [amount(name, case) for name, case in others.items()]
     names = motion_names(suite)
     components = [record for motion in scaled for record in (tuple(motion) if in_plane else (motion,))]
     horizontal = [record for motion in scaled for record in (tuple(motion)[:2] if in_plane else (motion,))]
@@ -161,8 +190,13 @@ def assess(
         stated, scenes, scaled, names, threads=threads, progress=stages.next(models * len(suite))
     )
     sliding_scene = stated.scene(spectrum)
-    storeys, slip, collapses = storey_table(stated, sliding_scene, runs), slip_table(stated, slips), collapses_of(runs)
+    drawn = named_motions(scaled, "assessment", sliding_scene)
+    counts = bootstrap_counts(drawn.cluster_of, resamples, seed) if loaded and drawn.clusters > 1 else None
+    slip = slip_table(stated, slips, counts, confidence)
+    storeys, collapses = storey_table(stated, sliding_scene, runs), collapses_of(runs)
     governing = governing_table(stated, storeys)
+    drifts = governing["governing"].to_numpy()  # null is NaN
+    amounts = () if advised is None else (present_goods(floors, stated, advised, drifts), *further)
     place = motion_of_runs(runs)
     facts = {
         "name": suite.name if isinstance(suite, Suite | Pairs) else "motions",
@@ -172,8 +206,11 @@ def assess(
     }
     yields = effective[SLIDING].by_hand.yields if effective else None
     period = period_sentences(stated, spectrum, scaled, yields)
-    doubts = doubts_of(stated, sliding_scene, scaled, spectrum, storeys)
-    answer = answer_of(stated, advised, effective, design, storeys, governing, collapses, facts, scaling, doubts)
+    about_motions = {"record": names, "factor": np.ones(len(suite)) if scaling is None else scaling.factors}
+    left_out = left_out_table(stated, runs, effective, {**about_motions, **ground_peaks(scaled)})
+    doubts = (*doubts_of(stated, sliding_scene, scaled, spectrum, storeys), *motion_doubts(left_out, effective))
+    tables = (storeys, governing, runs, left_out, collapses, slip, amounts)
+    answer = answer_of(stated, advised, effective, design, *tables, facts, scaling, doubts)
     return Assessment(
         building=stated,
         target=spectrum,
@@ -185,9 +222,12 @@ def assess(
         slip=slip,
         slips=slips,
         runs=runs,
+        left_out=left_out,
         collapses=collapses,
         spectra=spectra_table(horizontal, spectrum, threads=threads),
-        example=Shown(sliding_scene, scaled[place], place + 1, float(factors[place])),
+        example=Shown(
+            sliding_scene, scaled[place], place + 1, 1.0 if scaling is None else float(scaling.factors[place])
+        ),
         scaling=scaling,
         suite=facts,
         advice=advice_of(stated, answer, storeys, slip, collapses, len(suite), effective.get(SLIDING), runs),
@@ -246,23 +286,20 @@ def _suite(motions: Any, in_plane: bool) -> Any:
     return suite
 
 
+def _scaled(suite: Any, scaling: ScalingResult | None) -> list[Any]:
+    factors = np.ones(len(suite)) if scaling is None else scaling.factors
+    return [motion.scaled(float(factor)) for motion, factor in zip(suite, factors, strict=True)]
+
+
+def ground_peaks(motions: list[Any]) -> dict[str, list[float]]:
+    """Return PGV (m/s) and PGD (m) of motions, of pairs the larger of both components."""
+    both = [tuple(motion)[:2] if isinstance(motion, Pair) else (motion,) for motion in motions]
+    records = [[Record(one.acceleration, one.dt) for one in components] for components in both]
+    return {name: [max(getattr(one, name) for one in component) for component in records] for name in ("pgv", "pgd")}
+
+
 def _is_synthetic(motion: Any) -> bool:
     return bool(getattr(motion.first if isinstance(motion, Pair) else motion, "synthetic", False))
-
-
-class _Stages:
-    """Progress of several batches as progress of the whole."""
-
-    def __init__(self, progress: Progress | None, total: int) -> None:
-        self._progress, self._total, self._done = progress, total, 0
-
-    def next(self, runs: int) -> Progress | None:
-        """Return what the next batch of so many runs calls."""
-        progress, first, total = self._progress, self._done, self._total
-        self._done += runs
-        if progress is None:
-            return None
-        return lambda done, _: progress(min(first + done, total), total)
 
 
 TITLES: Final = {SLIDING: "goods slide", ADVISED: "analysis 1", BARE: "analysis 2"}
@@ -277,8 +314,7 @@ def write_models(folder: str | os.PathLike[str], result: Assessment, suite: Suit
 
     share = next((one.share_of_goods_present for one in result.answer.analyses if one.model == ADVISED), None)
     scenes = compared_models(result.building, result.target, share)
-    factors = np.ones(len(suite)) if result.scaling is None else result.scaling.factors
-    motions = [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
+    motions = _scaled(suite, result.scaling)
     models = {title: scenes[name] for name, title in TITLES.items() if name in scenes}
     table = analysis_table(result.answer, result.building)
     return write_opensees(folder, models, motions, documents={f"{ANALYSIS}.csv": without_formulas(table).write_csv()})

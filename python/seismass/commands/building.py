@@ -11,6 +11,7 @@ from seismass.commands.frame import Command, progress, show
 from seismass.commands.options import (
     add_answer_options,
     add_code_options,
+    add_drift_cap_option,
     add_opensees_option,
     add_period_option,
     add_records_options,
@@ -41,7 +42,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     add_target_options(motions, stand_in=False)
     period = "motions are scaled from 0.2 T to 1.5 T (first period with the goods attached)"
     add_period_option(motions, None, period)
-    choices = parser.add_argument_group("code and friction, in place of the file's")
+    choices = parser.add_argument_group("code, friction and drift cap, in place of the file's")
     add_code_options(choices)
     choices.add_argument(
         "--mu-factors",
@@ -49,6 +50,7 @@ def options(parser: argparse.ArgumentParser) -> None:
         metavar="LOW,HIGH",
         help="bounds of friction as factors (0.67,1.5); 1,1 leaves them out",
     )
+    add_drift_cap_option(choices)
     add_answer_options(parser, "the name of FILE")
     add_opensees_option(parser, "the building, with goods that slide and of both analyses")
     # A folder of its own for each building, so that a second never replaces the first.
@@ -84,6 +86,7 @@ def run(args: argparse.Namespace) -> int:
             target,
             code=code,
             mu_factors=args.mu_factors,
+            drift_cap=args.drift_cap,
             scaling_period=args.period,
             threads=args.jobs,
             progress=tell,

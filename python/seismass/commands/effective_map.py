@@ -19,7 +19,7 @@ from seismass.commands.parser import RUNS
 
 def options(parser: argparse.ArgumentParser) -> None:
     """Add the options."""
-    add_motion_options(parser)
+    add_motion_options(parser, None, "first period of each building with its goods attached")
     grid = parser.add_argument_group("grid")
     grid.add_argument("--mu", type=numbers_option(), metavar="LIST", help="friction coefficients (0.05 to 1.2)")
     grid.add_argument("--R", type=numbers_option(), metavar="LIST", help="response modification factors (1 to 8)")

@@ -30,12 +30,12 @@ FIGURE_SUFFIXES: Final = (".png", ".svg")
 _LISTED_SINGLY: Final = 8
 
 
-def add_motion_options(parser: argparse.ArgumentParser) -> None:
-    """Add --records, --suite, --target, --sds, --sd1, --tl and --period."""
+def add_motion_options(parser: argparse.ArgumentParser, period: float | None = 1.0, owner: str = "1 s") -> None:
+    """Add --records, --suite, --target, --sds, --sd1, --tl and --period, whose default is `period`, in words `of`."""
     motions = parser.add_argument_group("motions")
     add_records_options(motions)
     add_target_options(motions)
-    add_period_option(motions, 1.0, "motions are scaled from 0.2 T to 1.5 T (1 s)")
+    add_period_option(motions, period, f"motions are scaled from 0.2 T to 1.5 T ({owner})")
 
 
 def add_period_option(group: argparse._ActionsContainer, default: float | None, help: str) -> None:
@@ -240,6 +240,12 @@ def add_code_options(group: argparse._ActionsContainer) -> None:
 
     group.add_argument("--code", metavar="ID", help=CODE_HELP)
     group.add_argument("--use", choices=get_args(Use), help="use of the floors for --code (storage)")
+
+
+def add_drift_cap_option(group: argparse._ActionsContainer) -> None:
+    """Add --drift-cap, above which a drift counts as it in means."""
+    text = "drift over height above which a drift counts as it in means over the motions (0.1); no run ends at it"
+    group.add_argument("--drift-cap", type=positive_option, metavar="RATIO", help=text)
 
 
 def add_code_share_option(group: argparse._ActionsContainer, help: str) -> None:

@@ -9,12 +9,13 @@ load the building more than all of them attached: then the smallest share above 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption, InvalidScene
+from seismass.base.statistics import DRIFT_CAP
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.effective_mass.models import (
     SAME_DAMPING,
@@ -57,12 +58,9 @@ class Solved:
     model: Peaks
     question: str
 
-    def answer(self, statistic: Statistic | None = None) -> EffectiveMass:
-        """Return the effective fraction, by the statistic of the options where none is given."""
-        search = self.search
-        if statistic is not None:
-            search = replace(search, options=replace(search.options, statistic=statistic))
-        return search.answer(self.sliding, self.model, {"question": self.question})
+    def answer(self) -> EffectiveMass:
+        """Return the effective fraction."""
+        return self.search.answer(self.sliding, self.model, {"question": self.question})
 
 
 def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Options) -> list[Solved]:
@@ -71,7 +69,7 @@ def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Op
     """
     checked = [check_any_load(scene) for scene in scenes]
     first, shares = checked[0], options.fractions
-    how: dict[str, Any] = {"drift": options.drift, "threads": options.threads}
+    how: dict[str, Any] = {"drift": options.drift, "drift_cap": options.drift_cap, "threads": options.threads}
     for number, scene in enumerate(checked[1:], start=2):
         if attached(scene, 1.0, options.damping) != attached(first, 1.0, options.damping):
             requirement = "the building and goods of scene 1, with another friction"
@@ -116,7 +114,7 @@ def solved_designs(
         requirement = "a callable that takes a share and returns a Building"
         raise refusal(InvalidOption, "design", OWNER, requirement, brief(design))
     goods, standing = tuple(blocks), tuple(racks)
-    how: dict[str, Any] = {"drift": options.drift, "threads": options.threads}
+    how: dict[str, Any] = {"drift": options.drift, "drift_cap": options.drift_cap, "threads": options.threads}
 
     def designed(share: float) -> Scene:
         building: Any = design(share)
@@ -155,6 +153,7 @@ def effective_mass(
     motions: MotionsLike,
     *,
     statistic: Statistic = "mean",
+    drift_cap: float = DRIFT_CAP,
     drift: DriftMeasure = LARGER,
     damping: ModelDamping = SAME_DAMPING,
     fractions: ArrayLike | None = None,
@@ -175,8 +174,12 @@ def effective_mass(
         The suite, scaled as it is to act; a `Suite` is one. Records of one event are resampled together. A scene in two
         directions takes pairs.
     statistic : {"mean", "median"}, default "mean"
-        What is taken of the largest drifts over the motions. With the median a collapsed run counts as infinite drift;
-        with the mean one collapse of the real building leaves no value.
+        What is taken of the largest drifts over the motions. There is no value where the real building collapses under
+        more than a tenth of the motions; with the median, under more than half.
+    drift_cap : float, default 0.10
+        Over the storey height: a drift above it counts as it, so that drift and share are continuous where a run begins
+        to collapse. Peaks of a run that collapses count up to the collapse. An assumption; no run ends at it. There is
+        none without heights, and an infinite one gives plain means.
     drift : {"larger", "vector", "x", "y"}, optional
         Of scenes in two directions, what is compared: the larger of a storey's peak drifts in x and in y; the peak
         length of its drift vector; the peak in one direction.
@@ -233,7 +236,8 @@ def effective_mass(
     """
     checked = check_any_load(scene)
     named = named_motions(motions, OWNER, checked)
-    options = checked_options(statistic, damping, fractions, confidence, resamples, seed, threads, progress, drift)
+    parameters = (statistic, damping, fractions, confidence, resamples, seed, threads, progress, drift, drift_cap)
+    options = checked_options(*parameters)
     return solved_frictions([checked], named, options)[0].answer()
 
 
@@ -245,6 +249,7 @@ def effective_mass_of_design(
     racks: Iterable[Rack] = (),
     base: SlidingBase | None = None,
     statistic: Statistic = "mean",
+    drift_cap: float = DRIFT_CAP,
     damping: ModelDamping = SAME_DAMPING,
     fractions: ArrayLike | None = None,
     confidence: float = 0.90,
@@ -268,7 +273,7 @@ def effective_mass_of_design(
         Racks with goods, the same for every design; shares above 1 are not sought.
     base : SlidingBase, optional
         Base that slides under every design.
-    motions, statistic, damping, fractions, confidence, resamples, seed, threads, progress
+    motions, statistic, drift_cap, damping, fractions, confidence, resamples, seed, threads, progress
         As for `effective_mass`.
 
     Returns
@@ -294,5 +299,6 @@ def effective_mass_of_design(
     True
     """
     named = named_motions(motions, OWNER)
-    options = checked_options(statistic, damping, fractions, confidence, resamples, seed, threads, progress)
+    parameters = (statistic, damping, fractions, confidence, resamples, seed, threads, progress, LARGER, drift_cap)
+    options = checked_options(*parameters)
     return solved_designs(design, blocks, named, options, racks, base=base).answer()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, TypeAlias, get_args
@@ -16,7 +16,7 @@ from seismass import _kernel
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import view
-from seismass.design import Combination, response_spectrum_analysis
+from seismass.design import Combination, response_spectrum_analysis, vibration_modes
 from seismass.design.scaling import ScalingResult, scale_asce7_10
 from seismass.effective_mass.estimate import (
     RULES,
@@ -50,14 +50,14 @@ from seismass.model.building import DEFAULT_DAMPING, Building
 from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
 from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
-from seismass.motions.records import Suite
+from seismass.motions.motion import motion_names
+from seismass.motions.records import Record, Suite
 from seismass.motions.spectra import TargetSpectrum, corner_period, mean_spectrum
 from seismass.motions.spectra.target import target_remarks
 from seismass.runs.simulate import instruction_set
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
 
 Roof: TypeAlias = Literal["bare", "loaded"]
 """Whether the roof carries goods as the other floors do."""
@@ -105,8 +105,8 @@ class EffectiveMassParameters:
         Share of the live load in the design of the strengths.
     overstrength, second_slope, third_slope, damping
         Of all buildings; the slopes are inferences.
-    scaling_period : float
-        Period (s) for which motions are scaled.
+    scaling_period : float or None
+        Period (s) for which motions are scaled; None: the first of each building with its goods attached.
     combination : {"srss", "cqc"}
         Modal combination of the design.
     yield_at_r1 : bool
@@ -134,7 +134,7 @@ class EffectiveMassParameters:
     second_slope: float = DEFAULT_SECOND_SLOPE
     third_slope: float = DEFAULT_THIRD_SLOPE
     damping: float = DEFAULT_DAMPING
-    scaling_period: float = 1.0
+    scaling_period: float | None = None
     combination: Combination = "srss"
     yield_at_r1: bool = False
     model_damping: ModelDamping = SAME_DAMPING
@@ -171,8 +171,10 @@ class EffectiveMassParameters:
                 raise refusal(InvalidOption, name, owner, "between 0 and 1", f"{checked[name]:g}")
         if not 0.0 < checked["confidence"] < 1.0:
             raise refusal(InvalidOption, "confidence", owner, "above 0 and below 1", f"{checked['confidence']:g}")
-        for name in ("overstrength", "second_slope", "third_slope", "damping", "scaling_period"):
+        for name in ("overstrength", "second_slope", "third_slope", "damping"):
             checked[name] = _number(getattr(self, name), name, least=0.0)
+        if self.scaling_period is not None:
+            checked["scaling_period"] = _number(self.scaling_period, "scaling_period", above=0.0)
         checked["resamples"] = as_count(self.resamples, "resamples", owner, InvalidOption, least=1)
         checked["shares"] = as_count(self.shares, "shares", owner, InvalidOption, least=2)
         checked["seed"] = as_count(self.seed, "seed", owner, InvalidOption)
@@ -195,9 +197,10 @@ def _number(value: Any, name: str, *, above: float | None = None, least: float |
     return number
 
 
-SCHEMA_VERSION: Final = 2
+SCHEMA_VERSION: Final = 3
 """Version of the tables and of the metadata of a map; see docs/effective_mass.md."""
 
+MOST_DOUBTS: Final = 3
 ETA_EDGES: Final = (0.0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0, 1.2, 1.5, 2.0, np.inf)
 """Edges of the bins of eta for which the scatter of the fraction is tabulated."""
 
@@ -210,19 +213,19 @@ class EffectiveMassMap(Result):
     ----------
     table : polars.DataFrame
         One row per case: building (from 1), storeys, period, roof, R, alpha, intensity, mu; eta,
-        base_shear_coefficient, base_shear_coefficient_by_hand; height_ratio, yields, exponent, as in `ByHand`; `slides`
-        (under any motion); value, kind, low, high (bootstrap interval); real (mean
-        largest drift, m); ratio_at_0, ratio_at_0_25, ratio_at_1 (real over model); worst_storey_ratio,
-        worst_storey_ratio_at_1 and worst_storey_envelope_ratio, the largest over the storeys of real over model at the
-        value, at 1, and over the larger of the models at the value and at 0.
+        base_shear_coefficient, base_shear_coefficient_by_hand; height_ratio, corner_period (s), yields, exponent, as
+        in `ByHand`; `slides` (under any motion); value, kind, low, high (bootstrap interval); real (mean largest drift,
+        m); ratio_at_0, ratio_at_0_25, ratio_at_1 (real over model); worst_storey_ratio, worst_storey_ratio_at_1 and
+        worst_storey_envelope_ratio, the largest over the storeys of real over model at the value, at 1, and over the
+        larger of the models at the value and at 0.
     curve_of : ndarray of int, shape (cases,)
         Row of `curves` of each case.
     curves : ndarray, shape (curves, shares)
         Mean largest drift of the model (m) at the shares of `fractions`; friction does not enter.
     fractions : ndarray, shape (shares,)
         Shares attached.
-    scaling : ScalingResult
-        Factors of the motions.
+    scaling : dict of (int, float) to ScalingResult
+        Factors of the motions, by the number of the building and alpha.
     metadata : dict
         Versions, parameters, target, motions.
     """
@@ -233,7 +236,7 @@ class EffectiveMassMap(Result):
     curve_of: NDArray[np.int64]
     curves: FloatArray
     fractions: FloatArray
-    scaling: ScalingResult
+    scaling: dict[tuple[int, float], ScalingResult]
     metadata: dict[str, Any] = field(repr=False)
 
     __repr__ = short_repr
@@ -241,7 +244,7 @@ class EffectiveMassMap(Result):
     __hash__ = content_hash
 
     def model_drift(self, shares: FloatArray) -> FloatArray:
-        """Return the mean largest drift of the model (m) of each case at its own share, interpolated on the grid."""
+        """Return the capped mean of the largest drift of the model (m) of each case at its own share, interpolated."""
         place = np.clip(np.searchsorted(self.fractions, shares, side="right") - 1, 0, len(self.fractions) - 2)
         low, high = self.fractions[place], self.fractions[place + 1]
         weight = (shares - low) / (high - low)
@@ -259,7 +262,11 @@ class EffectiveMassMap(Result):
     @property
     def tables(self) -> dict[str, pl.DataFrame]:
         """The tables by name: map, rules, rules_by_period, by_eta, scaling."""
-        return {"map": self.table, **self._named(), "scaling": self.scaling.table()}
+        scalings = [
+            table.table().select(pl.lit(number, pl.UInt32).alias("building"), pl.lit(alpha).alias("alpha"), pl.all())
+            for (number, alpha), table in self.scaling.items()
+        ]
+        return {"map": self.table, **self._named(), "scaling": pl.concat(scalings)}
 
     def _named(self) -> dict[str, pl.DataFrame]:
         return {"rules": self.rules(), "rules_by_period": self.rules_by_period(), "by_eta": self.by_eta()}
@@ -355,7 +362,7 @@ class EffectiveMassMap(Result):
 @dataclass(frozen=True, slots=True)
 class _Loaded:
     """One building with one load and one strength: its scenes differ in friction alone. `elastic` is V_e over the full
-    weight at intensity 1, `attached_period` the first period, both with all goods attached.
+    weight at intensity 1, `attached_period` the first period, both with all goods attached; `corner` is T_c.
     """
 
     labels: dict[str, Any]
@@ -363,6 +370,8 @@ class _Loaded:
     height_ratio: float
     elastic: float
     attached_period: float
+    corner: float
+    scaling: ScalingResult
 
 
 def effective_mass_map(
@@ -378,7 +387,7 @@ def effective_mass_map(
     Parameters
     ----------
     suite : Suite
-        Motions, unscaled; they are scaled to the target by `scale_asce7_10`.
+        Motions, unscaled; they are scaled to the target by `scale_asce7_10`, for each building with each load.
     target : TargetSpectrum
         Design spectrum.
     parameters : EffectiveMassParameters, optional
@@ -403,27 +412,19 @@ def effective_mass_map(
     options = EffectiveMassParameters() if parameters is None else parameters
     if not isinstance(suite, Suite):
         raise refusal(InvalidMotion, "suite", "effective mass map", "a Suite of records", brief(suite))
-    scaling = scale_asce7_10(
-        suite, target, options.scaling_period, damping=options.damping, between=False, threads=threads
-    )
-
-    def design_spectrum(periods: FloatArray) -> FloatArray:
-        return mean_spectrum(suite, scaling.factors, periods, options.damping, threads=threads)
-
-    corner = corner_period(design_spectrum)
-    buildings = [list(_loaded(options, number, design_spectrum)) for number in range(1, len(options.buildings) + 1)]
-    scaled = [record.scaled(factor) for record, factor in zip(suite, scaling.factors, strict=True)]
-    per_building = len(options.mass_ratios) * len(options.response_modification)
+    designs = [
+        list(_designs(options, number, alpha, suite, target, threads))
+        for number in range(1, len(options.buildings) + 1)
+        for alpha in options.mass_ratios
+    ]
     fractions = np.linspace(0.0, 1.0, options.shares)
-    per_load = len(fractions) + len(options.mus)
-    total = len(options.intensities) * len(buildings) * per_building * per_load * len(suite)
-    stages = Stages(progress, total)
-    rows: list[dict[str, Any]] = []
+    total = len(options.intensities) * sum(map(len, designs)) * (len(fractions) + len(options.mus)) * len(suite)
+    stages, rows = Stages(progress, total), list[dict[str, Any]]()
     curves: list[FloatArray] = []
     curve_of: list[int] = []
     for intensity in options.intensities:
-        motions = named_motions([record.scaled(intensity) for record in scaled], "effective mass map")
-        for loads in buildings:
+        for loads in designs:
+            motions = named_motions(_scaled(suite, intensity * loads[0].scaling.factors), "effective mass map")
             models = [attached(load.scenes[0], share, options.model_damping) for load in loads for share in fractions]
             model = solve(models, motions, threads=threads, progress=stages.next(len(models) * len(motions)))
             scenes = [scene for load in loads for scene in load.scenes]
@@ -431,9 +432,10 @@ def effective_mass_map(
             for number, load in enumerate(loads):
                 model_part = model.part(number * len(fractions), len(fractions))
                 sliding = all_sliding.part(number * len(options.mus), len(options.mus))
-                rows += _cases(load, {"intensity": intensity}, model_part, sliding, motions, corner, options)
+                rows += _cases(load, {"intensity": intensity}, model_part, sliding, motions, options)
                 curve_of += [len(curves)] * len(options.mus)
                 curves.append(over_records(model_part.largest, "mean"))
+    scaling = {(loads[0].labels["building"], loads[0].labels["alpha"]): loads[0].scaling for loads in designs}
     return EffectiveMassMap(
         table=pl.DataFrame(rows, schema_overrides={"building": pl.UInt32, "storeys": pl.UInt32}),
         curve_of=np.array(curve_of, dtype=np.int64),
@@ -446,60 +448,67 @@ def effective_mass_map(
             "instructions": instruction_set(),
             "parameters": asdict(options),
             "target": {"label": target.label, **target.parameters},
-            "suite": {"name": suite.name, "motions": list(scaling.names), "factors": scaling.factors.tolist()},
-            "corner_period": corner,
+            "suite": {"name": suite.name, "motions": motion_names(suite)},
             "runs": total,
-            "remarks": [
-                *target_remarks(target),
-                *scaling.doubts,
-                *motion_remarks([record.motion for record in scaled]),
-            ],
+            "remarks": [*target_remarks(target), *_remarks(scaling, suite)],
         },
     )
 
 
-def _loaded(
-    options: EffectiveMassParameters, number: int, spectrum: Callable[[FloatArray], FloatArray]
+def _remarks(scaling: dict[tuple[int, float], ScalingResult], suite: Suite) -> list[str]:
+    """Doubts about factors, the first few, and about motions at their largest factors."""
+    doubts = [(*key, doubt) for key, result in scaling.items() for doubt in result.doubts]
+    remarks = [f"building {number}, alpha = {alpha:g}: {doubt}" for number, alpha, doubt in doubts]
+    more = [f"and {len(remarks) - MOST_DOUBTS} more doubts about factors"] * (len(remarks) > MOST_DOUBTS)
+    largest = np.max([result.factors for result in scaling.values()], axis=0)
+    return [*remarks[:MOST_DOUBTS], *more, *motion_remarks(_scaled(suite, largest))]
+
+
+def _scaled(suite: Suite, factors: FloatArray) -> list[Record]:
+    return [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
+
+
+def _designs(
+    parameters: EffectiveMassParameters,
+    number: int,
+    alpha: float,
+    suite: Suite,
+    target: TargetSpectrum,
+    threads: int | None,
 ) -> Iterator[_Loaded]:
-    """Yield building `number`, counted from 1, with every load and strength."""
-    storeys, period, roof = options.buildings[number - 1]
-    bare = Building.uniform(
-        storeys,
-        period,
-        mass=1.0,
-        overstrength=options.overstrength,
-        second_slope=options.second_slope,
-        third_slope=options.third_slope,
-        damping=options.damping,
+    """Yield building `number`, counted from 1, with one load and every strength."""
+    storeys, period, roof = parameters.buildings[number - 1]
+    slopes = {name: getattr(parameters, name) for name in ("overstrength", "second_slope", "third_slope")}
+    bare = Building.uniform(storeys, period, mass=1.0, damping=parameters.damping, **slopes)
+    ratios = np.full(storeys, alpha)
+    if roof == "bare":
+        ratios[-1] = 0.0
+    attached_period = float(vibration_modes(bare.mass + ratios, bare.stiffness).periods[0])
+    scaling_period = parameters.scaling_period or attached_period
+    scaling = scale_asce7_10(suite, target, scaling_period, damping=parameters.damping, between=False, threads=threads)
+
+    def spectrum(periods: FloatArray) -> FloatArray:
+        return mean_spectrum(suite, scaling.factors, periods, parameters.damping, threads=threads)
+
+    how: dict[str, Any] = {"combination": parameters.combination, "damping": parameters.damping}
+    analysis, full = (
+        response_spectrum_analysis(bare.mass + share * ratios, bare.stiffness, spectrum, **how)
+        for share in (parameters.design_fraction, 1.0)
     )
-    for alpha in options.mass_ratios:
-        ratios = np.full(storeys, alpha)
-        if roof == "bare":
-            ratios[-1] = 0.0
-        analysis = response_spectrum_analysis(
-            bare.mass + options.design_fraction * ratios,
-            bare.stiffness,
-            spectrum,
-            combination=options.combination,
-            damping=options.damping,
+    columns, corner = {"building": number, "storeys": storeys, "period": period, "roof": roof}, corner_period(spectrum)
+    for reduction in parameters.response_modification:
+        elastic = reduction == 1.0 and not parameters.yield_at_r1
+        strength = np.full(storeys, np.inf) if elastic else analysis.storey_shear / reduction
+        scenes = [Scene(bare.replace(yield_shear=strength), blocks_on_floors(ratios, mu)) for mu in parameters.mus]
+        yield _Loaded(
+            {**columns, "R": reduction, "alpha": alpha},
+            scenes,
+            height_ratio(ratios, bare.mass),
+            full.base_shear / full_weight(scenes[0]),
+            attached_period,
+            corner,
+            scaling,
         )
-        full = response_spectrum_analysis(
-            bare.mass + ratios, bare.stiffness, spectrum, combination=options.combination, damping=options.damping
-        )
-        heights = height_ratio(ratios, bare.mass)
-        for reduction in options.response_modification:
-            elastic = reduction == 1.0 and not options.yield_at_r1
-            strength = np.full(storeys, np.inf) if elastic else analysis.storey_shear / reduction
-            building = bare.replace(yield_shear=strength)
-            labels = {"building": number, "storeys": storeys, "period": period, "roof": roof}
-            scenes = [Scene(building, blocks_on_floors(ratios, mu)) for mu in options.mus]
-            yield _Loaded(
-                {**labels, "R": reduction, "alpha": alpha},
-                scenes,
-                heights,
-                full.base_shear / full_weight(scenes[0]),
-                float(full.modes.periods[0]),
-            )
 
 
 def _cases(
@@ -508,7 +517,6 @@ def _cases(
     model: Peaks,
     sliding: Peaks,
     motions: NamedMotions,
-    corner: float,
     options: EffectiveMassParameters,
 ) -> list[dict[str, Any]]:
     """One row per friction coefficient."""
@@ -525,13 +533,13 @@ def _cases(
         building.yield_shear[0] / weight,
         load.elastic * more["intensity"],
         load.attached_period,
-        corner,
+        load.corner,
         options.second_slope,
         options.overstrength,
     )
-    yields = bool((model.drift[-1].mean(axis=0) > yield_drift(building)).any())
+    yields = bool((model.capped[-1].mean(axis=0) > yield_drift(building)).any())
     storeys_model, storeys_sliding = (
-        over_records(np.moveaxis(peaks.drift, 1, -1), "mean") for peaks in (model, sliding)
+        over_records(np.moveaxis(peaks.capped, 1, -1), "mean") for peaks in (model, sliding)
     )
     rows = []
     for case, mu in enumerate(options.mus):
@@ -548,8 +556,9 @@ def _cases(
                 "base_shear_coefficient": coefficient,
                 "base_shear_coefficient_by_hand": float(by_hand),
                 "height_ratio": load.height_ratio,
+                "corner_period": load.corner,
                 "yields": yields,
-                "exponent": float(exponent(load.labels["period"], corner, yields)),
+                "exponent": float(exponent(load.labels["period"], load.corner, yields)),
                 "slides": bool(slides[case]),
                 "value": float(values[case]),
                 "kind": kind,
@@ -574,14 +583,8 @@ def _intervals(
     if motions.clusters < 2:
         return None, None
     both = np.concatenate([model.largest, sliding.largest])
-    drawn, _ = resampled(
-        both,
-        both[:1],
-        statistic="mean",
-        cluster_of=motions.cluster_of,
-        resamples=options.resamples,
-        seed=options.seed,
-    )
+    how: dict[str, Any] = {"cluster_of": motions.cluster_of, "resamples": options.resamples, "seed": options.seed}
+    drawn, _ = resampled(both, both[:1], statistic="mean", **how)
     shares, fractions = model.scenes, np.linspace(0.0, 1.0, options.shares)
     tail = 50.0 * (1.0 - options.confidence)
     ends = np.ones((2, sliding.scenes))

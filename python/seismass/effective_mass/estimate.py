@@ -181,7 +181,7 @@ def by_hand(scene: Scene, motions: NamedMotions, full: Peaks, drift: DriftMeasur
     """
     if drift == "y" and isinstance(scene.other_direction, Building):
         scene = scene.replace(building=scene.other_direction, other_direction=True)
-    yields = bool((full.drift.mean(axis=1)[-1] > yield_drift(building_of(scene))).any())
+    yields = bool((full.capped.mean(axis=1)[-1] > yield_drift(building_of(scene))).any())
     return rule_by_hand(scene, motions, yields)
 
 

@@ -19,12 +19,14 @@ from numpy.typing import ArrayLike
 from seismass import _kernel
 from seismass.base.distributions import Distribution
 from seismass.base.errors import InvalidOption
+from seismass.base.statistics import DRIFT_CAP, few_collapses
 from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import view
 from seismass.effective_mass.models import (
     SAME_DAMPING,
     ModelDamping,
     attached,
+    check_cap,
     check_damping,
     check_fractions,
     check_loaded,
@@ -73,7 +75,7 @@ class LiveLoadUncertainty(Result):
         One row per sample: sample (from 1), mu, occupancy, real_drift, slides (share of the motions under which goods
         slide), share.
     curve : polars.DataFrame
-        fraction, model_drift: mean largest drift of the model by share of the design live load.
+        fraction, model_drift: capped mean of the largest drift of the model by share of the design live load.
     unit : {"m", "ratio"}
         Unit of drifts.
     remarks : tuple of str
@@ -111,7 +113,7 @@ class LiveLoadUncertainty(Result):
         levels = ", ".join(f"{100 * row[0]:g} % {row[1]:.2f}" for row in self.quantiles.iter_rows())
         value = f"{self.share:.3f}{low_high}: equal expected drift"
         if not math.isfinite(self.share):
-            value = "no value: the building collapses in some sample, and its expected drift has no value"
+            value = "no value: the building collapses in more than a tenth of all runs"
         lines = [
             f"share of the design live load   {value}",
             f"enough in 84 % of samples       {self.share_84:.3f}",
@@ -163,6 +165,7 @@ def live_load_uncertainty(
     occupancy: Distribution | float,
     samples: int = 200,
     seed: int = 0,
+    drift_cap: float = DRIFT_CAP,
     damping: ModelDamping = SAME_DAMPING,
     fractions: ArrayLike | None = None,
     threads: int | None = None,
@@ -184,7 +187,7 @@ def live_load_uncertainty(
         Latin hypercube samples; mu and occupancy are independent.
     seed : int, default 0
         Seed of the samples and of the bootstrap.
-    damping, fractions, threads, progress
+    drift_cap, damping, fractions, threads, progress
         As for `effective_mass`.
 
     Raises
@@ -223,9 +226,10 @@ def live_load_uncertainty(
     present = _sampled(occupancy, both[:, 1], "occupancy", 1.0)
     stages = Stages(progress, (len(shares) + len(both)) * len(named))
     models = [attached(checked, share, convention) for share in shares]
-    model = solve(models, named, threads=threads, progress=stages.next(len(models) * len(named)))
+    how: dict[str, Any] = {"drift_cap": check_cap(drift_cap, owner), "threads": threads}
+    model = solve(models, named, **how, progress=stages.next(len(models) * len(named)))
     scenes = [_with_goods(checked, friction, share) for friction, share in zip(frictions, present, strict=True)]
-    sliding = solve(scenes, named, threads=threads, progress=stages.next(len(scenes) * len(named)))
+    sliding = solve(scenes, named, **how, progress=stages.next(len(scenes) * len(named)))
     model_drift, sliding_drift = over_records(model.largest, "mean"), over_records(sliding.largest, "mean")
     shares_of_runs = interpolated(
         shares,
@@ -262,6 +266,7 @@ def live_load_uncertainty(
             "samples": count,
             "seed": start,
             "damping": convention,
+            "drift_cap": how["drift_cap"],
             "motions": len(named),
             "mu": _described(mu),
             "occupancy": _described(occupancy),
@@ -315,7 +320,7 @@ def _equal_expected(
     by_record = sliding.largest.mean(axis=0)[None, :]
     drift = over_records(model.largest, "mean")[None, :]
     expected = np.full_like(drift, over_records(by_record, "mean")[0])
-    if not np.isfinite(expected).all():
+    if not few_collapses(int(sliding.collapsed.sum()), sliding.collapsed.size):
         return float("nan"), None
     share = float(interpolated(shares, drift, expected)[0])
     if motions.clusters < 2:

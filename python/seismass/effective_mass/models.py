@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass.base.errors import InvalidOption, InvalidScene, SimulationError
+from seismass.base.statistics import interval_of
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_array, as_number, brief, is_one_of, refusal
 from seismass.effective_mass.runs import Peaks
@@ -40,6 +41,14 @@ def check_statistic(statistic: Any, owner: str) -> Statistic:
     return checked
 
 
+def check_cap(drift_cap: Any, owner: str) -> float:
+    """Return a drift cap over the storey height; an infinite one leaves drifts as they are."""
+    cap = as_number(drift_cap, "drift_cap", owner, InvalidOption)
+    if not cap > 0.0:
+        raise refusal(InvalidOption, "drift_cap", owner, "a positive number", f"{cap:g}")
+    return cap
+
+
 def check_fractions(fractions: Any, owner: str, default: FloatArray = DEFAULT_FRACTIONS) -> FloatArray:
     """Return shares in increasing order from 0 to 1, those of a default where none are given."""
     if fractions is None:
@@ -52,7 +61,7 @@ def check_fractions(fractions: Any, owner: str, default: FloatArray = DEFAULT_FR
 
 
 def over_records(values: FloatArray, statistic: Statistic) -> FloatArray:
-    """Return the mean or the median over the last axis; infinite where collapsed runs decide it."""
+    """Return the mean or the median over the last axis, of capped drifts."""
     taken: FloatArray = np.asarray(values.mean(axis=-1) if statistic == "mean" else np.median(values, axis=-1))
     return taken
 
@@ -79,38 +88,28 @@ def crossings(fractions: FloatArray, model: FloatArray, sliding: FloatArray) -> 
 
 
 def interpolated_roots(fractions: FloatArray, model: FloatArray, sliding: FloatArray) -> list[float]:
-    """Return all crossings of one curve by linear interpolation; the middle of a bracket where a run collapses."""
+    """Return all crossings of one curve by linear interpolation."""
     roots = []
     for low, high in crossings(fractions, model, sliding):
         k = int(np.searchsorted(fractions, low))
-        with np.errstate(invalid="ignore"):  # where both collapse the difference is NaN
-            ends = model[k : k + 2] - sliding[k : k + 2]
-        weight = -ends[0] / (ends[1] - ends[0]) if np.isfinite(ends).all() else 0.5
-        roots.append(low + float(weight) * (high - low))
+        ends = model[k : k + 2] - sliding[k : k + 2]
+        roots.append(low - float(ends[0] / (ends[1] - ends[0])) * (high - low))
     return roots
 
 
 def refined_root(difference: Callable[[float], float], bracket: tuple[float, float]) -> float:
-    """Return the root of a difference of drifts, relative to the real one, within a bracket. A model that collapses
-    differs by infinity, which cannot be interpolated: then the bracket is halved.
-    """
-    low, high = bracket
-    ends = difference(low), difference(high)
-    for share, value in zip(bracket, ends, strict=True):
-        if abs(value) <= ROUNDING:
+    """Return the root of a difference of drifts, relative to the real one, within a bracket."""
+    for share in bracket:
+        if abs(difference(share)) <= ROUNDING:
             return share
-    if not np.isfinite(ends).all():
-        from scipy.optimize import bisect  # slow to import
 
-        return float(bisect(lambda share: np.clip(difference(share), -1.0, 1.0), low, high, xtol=TOLERANCE))
-
-    def bounded(share: float) -> float:
+    def checked(share: float) -> float:
         value = difference(share)
         if math.isnan(value):
             raise refusal(SimulationError, "drift", f"building at share {share:g}", "finite", "a collapse")
-        return min(max(value, -1.0), 10.0)
+        return value
 
-    return _brent_root(bounded, low, high)
+    return _brent_root(checked, *bracket)
 
 
 def _brent_root(function: Callable[[float], float], low: float, high: float) -> float:
@@ -157,11 +156,9 @@ def interpolated(fractions: FloatArray, model: FloatArray, sliding: FloatArray) 
     value = np.where(below.any(axis=1), 1.0, 0.0)
     inside = np.flatnonzero(below.any(axis=1) & (last < below.shape[1] - 1))
     k = last[inside]
-    with np.errstate(invalid="ignore"):
-        low = model[inside, k] - sliding[inside, k]
-        high = model[inside, k + 1] - sliding[inside, k + 1]
-        weight = np.where(np.isfinite(high) & np.isfinite(low), -low / (high - low), 0.0)
-    value[inside] = fractions[k] + weight * (fractions[k + 1] - fractions[k])
+    low = model[inside, k] - sliding[inside, k]
+    high = model[inside, k + 1] - sliding[inside, k + 1]
+    value[inside] = fractions[k] - low / (high - low) * (fractions[k + 1] - fractions[k])
     return value
 
 
@@ -178,7 +175,7 @@ def resampled(
     records, both drawn together and the records of one cluster together.
     """
     weights = bootstrap_counts(cluster_of, resamples, seed)
-    model_drift, sliding_drift = (_weighted(values, weights, statistic) for values in (model, sliding))
+    model_drift, sliding_drift = (weighted(values, weights, statistic) for values in (model, sliding))
     return model_drift, np.broadcast_to(sliding_drift, model_drift.shape)
 
 
@@ -190,20 +187,26 @@ def bootstrap_counts(cluster_of: NDArray[np.int64], resamples: int, seed: int) -
     return counts
 
 
-def _weighted(values: FloatArray, weights: FloatArray, statistic: Statistic) -> FloatArray:
+def quantile_interval(values: FloatArray, share: float, counts: FloatArray, confidence: float) -> list[float]:
+    """Return the percentile interval of a quantile of finite values in resamples that have each value so often."""
+    order = np.argsort(values, kind="stable")
+    reached = np.cumsum(counts[:, order], axis=1)
+    place = share * (reached[:, -1] - 1.0)
+    low, high = (values[order][(reached > end[:, None]).argmax(axis=1)] for end in (np.floor(place), np.ceil(place)))
+    return [float(end) for end in interval_of(low + (place - np.floor(place)) * (high - low), confidence)]
+
+
+def weighted(values: FloatArray, weights: FloatArray, statistic: Statistic) -> FloatArray:
     """Return mean or median of rows of `values` (rows, records) under each row of whole `weights` (draws, records)."""
     total = weights.sum(axis=1)
     if statistic == "mean":
-        finite = np.where(np.isfinite(values), values, 0.0)
-        mean = (weights @ finite.T) / total[:, None]
-        infinite = (weights @ np.isinf(values).astype(np.float64).T) > 0.0
-        return np.where(infinite, np.inf, mean)
+        return np.asarray((weights @ values.T) / total[:, None])
     medians = np.empty((len(weights), len(values)))
-    for row, drifts in enumerate(values):
-        order = np.argsort(drifts, kind="stable")
+    for row, column in enumerate(values):
+        order = np.argsort(column, kind="stable")
         reached = np.cumsum(weights[:, order], axis=1)
         low, high = ((reached > (total[:, None] - shift) // 2).argmax(axis=1) for shift in (1, 0))
-        medians[:, row] = 0.5 * (drifts[order[low]] + drifts[order[high]])
+        medians[:, row] = 0.5 * (column[order[low]] + column[order[high]])
     return medians
 
 
@@ -229,6 +232,7 @@ def joined(first: Peaks, second: Peaks) -> Peaks:
         np.concatenate([first.base_shear, second.base_shear]),
         np.concatenate([first.slides, second.slides]),
         np.concatenate([first.collapsed, second.collapsed]),
+        first.cap,
     )
 
 
@@ -254,8 +258,7 @@ def extended(values: FloatArray, shares: FloatArray, model: FloatArray, sliding:
     for curve in short[~never]:
         k = int(np.argmin(below[curve])) - 1
         low, high = model[curve, k] - sliding[curve], model[curve, k + 1] - sliding[curve]
-        weight = -low / (high - low) if np.isfinite(high) else 0.0
-        crossing[curve] = shares[k] + weight * (shares[k + 1] - shares[k])
+        crossing[curve] = shares[k] - low / (high - low) * (shares[k + 1] - shares[k])
     return crossing
 
 

@@ -1,4 +1,4 @@
-"""Peaks of several scenes of one building under all motions, as arrays; a collapsed run has infinite drift."""
+"""Peaks of several scenes of one building under all motions, as arrays."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, InvalidOption, SimulationError
+from seismass.base.statistics import DRIFT_CAP, capped
 from seismass.base.values import FloatArray, as_progress, as_threads, brief, is_one_of, refusal
 from seismass.model.scene import Scene
 from seismass.motions.motion import HasMotion, Motion, as_motion, motion_names
@@ -144,14 +145,15 @@ def _event(motion: Any) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Peaks:
-    """Peaks of scenes under motions: drift (m, or ratio where heights are known; infinite after a collapse), base shear
-    (N, until a collapse, with the share of walls), and whether goods slid and the run collapsed.
+    """Peaks of scenes under motions up to a collapse: drift (m, or ratio where heights are known), base shear (N, with
+    the share of walls), whether goods slid and the run collapsed; `cap` is the drift cap in the unit of drift.
     """
 
     drift: FloatArray
     base_shear: FloatArray
     slides: NDArray[np.bool_]
     collapsed: NDArray[np.bool_]
+    cap: float
 
     @property
     def scenes(self) -> int:
@@ -165,12 +167,17 @@ class Peaks:
     def part(self, first: int, count: int) -> Peaks:
         """Return the peaks of `count` scenes from `first` on."""
         part = slice(first, first + count)
-        return Peaks(self.drift[part], self.base_shear[part], self.slides[part], self.collapsed[part])
+        return Peaks(self.drift[part], self.base_shear[part], self.slides[part], self.collapsed[part], self.cap)
+
+    @property
+    def capped(self) -> FloatArray:
+        """Drifts of which a statistic is taken, each at most the cap, shape (scenes, motions, storeys)."""
+        return capped(self.drift, self.cap)
 
     @property
     def largest(self) -> FloatArray:
-        """Largest drift over the storeys, shape (scenes, motions)."""
-        largest: FloatArray = self.drift.max(axis=2)
+        """Largest of them over the storeys, shape (scenes, motions)."""
+        largest: FloatArray = self.capped.max(axis=2)
         return largest
 
 
@@ -179,15 +186,16 @@ def solve(
     motions: NamedMotions,
     *,
     drift: DriftMeasure = LARGER,
+    drift_cap: float = DRIFT_CAP,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Peaks:
     """Solve scenes of equal number of storeys, all of one engine, under all motions. Scenes in two directions take
-    pairs, and `drift` says which drift counts; without goods each direction is solved alone.
+    pairs, and `drift` says which counts; without goods each is solved alone. There is no cap without heights.
     """
     threads, progress = as_threads(threads, "runs"), as_progress(progress, "runs")
     if scenes[0].engine == "plane" and are_uncoupled(scenes, drift):
-        return _directions_apart(scenes, motions, drift, threads, progress)
+        return _directions_apart(scenes, motions, drift, drift_cap, threads, progress)
     count, storeys = len(motions), scenes[0].storeys
     runs = np.stack(np.divmod(np.arange(len(scenes) * count), count), axis=1)
     if scenes[0].engine == "plane":
@@ -206,10 +214,11 @@ def solve(
     if heights is not None:
         ratio = ratio / heights
     return Peaks(
-        drift=np.where(collapsed[:, :, None], np.inf, ratio),
+        drift=ratio,
         base_shear=base_shear.reshape(shape),
         slides=_slides(scenes, batch, count),
         collapsed=collapsed,
+        cap=np.inf if heights is None else drift_cap,
     )
 
 
@@ -217,6 +226,7 @@ def _directions_apart(
     scenes: Sequence[Scene],
     motions: NamedMotions,
     drift: DriftMeasure,
+    drift_cap: float,
     threads: int | None,
     progress: Progress | None,
 ) -> Peaks:
@@ -229,7 +239,13 @@ def _directions_apart(
 
     pairs = in_directions(scenes)
     parts = [
-        solve(pairs[axis], motions.direction(axis), threads=threads, progress=progress_from(number * total))
+        solve(
+            pairs[axis],
+            motions.direction(axis),
+            drift_cap=drift_cap,
+            threads=threads,
+            progress=progress_from(number * total),
+        )
         for number, axis in enumerate(axes)
     ]
     if len(parts) == 1:
@@ -240,6 +256,7 @@ def _directions_apart(
         base_shear=0.5 * (x.base_shear + y.base_shear),
         slides=x.slides,
         collapsed=x.collapsed | y.collapsed,
+        cap=x.cap,
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 from seismass import _kernel
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidOption
+from seismass.base.statistics import DRIFT_CAP, few_collapses
 from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
 from seismass.effective_mass.estimate import (
     best_estimate,
@@ -29,7 +30,9 @@ from seismass.effective_mass.models import (
     ModelDamping,
     Statistic,
     attached,
+    bootstrap_counts,
     building_of,
+    check_cap,
     check_damping,
     check_fractions,
     check_statistic,
@@ -45,7 +48,7 @@ from seismass.effective_mass.models import (
     kind_of,
     over_records,
     refined_root,
-    resampled,
+    weighted,
 )
 from seismass.effective_mass.result import (
     SCHEMA_VERSION,
@@ -71,6 +74,7 @@ class Options:
 
     statistic: Statistic
     drift: DriftMeasure
+    drift_cap: float
     damping: ModelDamping
     fractions: FloatArray
     confidence: float
@@ -90,6 +94,7 @@ def checked_options(
     threads: Any,
     progress: Any,
     drift: Any = LARGER,
+    drift_cap: Any = DRIFT_CAP,
 ) -> Options:
     """Return the arguments of `effective_mass`; one that is not what it must be is refused."""
     probability = as_number(confidence, "confidence", OWNER, InvalidOption)
@@ -100,6 +105,7 @@ def checked_options(
     return Options(
         statistic=check_statistic(statistic, OWNER),
         drift=check_drift(drift, OWNER),
+        drift_cap=check_cap(drift_cap, OWNER),
         damping=check_damping(damping, OWNER),
         fractions=check_fractions(fractions, OWNER, FRACTIONS_OF_VECTORS if drift == "vector" else DEFAULT_FRACTIONS),
         confidence=probability,
@@ -156,6 +162,9 @@ class Search:
             "model_at_1": int(model.collapsed[-1].sum()),
         }
         interval, band = self._scatter(kind, sliding, model)
+        without = None
+        if kind != "collapsed" and len(self.motions) > 1:
+            without = self._shares(kind, *self._weighted(sliding, model, 1.0 - np.eye(len(self.motions))))
         return EffectiveMass(
             value=value,
             kind=kind,
@@ -174,14 +183,15 @@ class Search:
             by_hand=rule,
             curve=curve_table(*self._with_larger(model), sliding, band, options.statistic),
             storeys=storeys,
-            records=record_table(self.motions, shares, sliding, model),
+            records=record_table(self.motions, shares, sliding, model, without),
             collapses=collapses,
             remarks=(
                 *usage_remarks(scene.remarks, self.motions.components),
                 *remarks_of(kind, roots, value, excess, interval, storeys, collapses, len(self.motions)),
                 *remarks_of_structure(scene),
             ),
-            metadata=self._metadata(scene, details, difference.evaluations),
+            metadata=self._metadata(scene, details, difference.evaluations)
+            | {"share_at_drift_cap": self._at_other_caps(kind, sliding, model)},
         )
 
     def _statistics(self, model: Peaks, sliding: Peaks) -> tuple[FloatArray, FloatArray]:
@@ -204,7 +214,7 @@ class Search:
 
     def _kind(self, sliding: Peaks, model: Peaks) -> Kind:
         model_drift, sliding_drift = self._statistics(model, sliding)
-        if not np.isfinite(sliding_drift).all():
+        if not few_collapses(int(sliding.collapsed.sum(axis=1).max()), len(self.motions), self.options.statistic):
             return "collapsed"
         # Goods that do not slide on a rack that sways are not attached to the floor.
         if not sliding.slides[-1].any() and not self._on_racks():
@@ -229,7 +239,8 @@ class Search:
         if sliding.scenes > 1:  # the strength depends on the share
             options = self.options
             full = attached(scene, 1.0, options.damping)
-            return solve([full], self.motions, drift=options.drift, threads=options.threads)
+            how: dict[str, Any] = {"drift": options.drift, "drift_cap": options.drift_cap, "threads": options.threads}
+            return solve([full], self.motions, **how)
         return model.one(-1)
 
     def _scatter(
@@ -239,39 +250,45 @@ class Search:
         options = self.options
         if kind == "collapsed" or self.motions.clusters < 2:
             return None, None
-        shares, every = self._with_larger(model)
-        model_drift, sliding_drift = resampled(
-            every.largest,
-            sliding.largest,
-            statistic=options.statistic,
-            cluster_of=self.motions.cluster_of,
-            resamples=options.resamples,
-            seed=options.seed,
-        )
+        counts = bootstrap_counts(self.motions.cluster_of, options.resamples, options.seed)
+        model_drift, sliding_drift = self._weighted(sliding, model, counts)
         tail = 50.0 * (1.0 - options.confidence)
-        count = len(options.fractions)
-        values = interpolated(options.fractions, model_drift[:, :count], sliding_drift[:, :count])
-        if self.above_one is not None:
-            values = extended(values, FROM_ONE, model_drift[:, count - 1 :], sliding_drift[:, 0])
-        # Without a finite real drift no share is enough: the resample counts as the largest.
-        values[np.isinf(sliding_drift).any(axis=1)] = shares[-1]
-        if kind == "stuck":
-            values = np.ones(1)
-        elif without_friction(self.scene_at(1.0)):
-            values = np.zeros(1)
-        low, high = np.percentile(values, [tail, 100.0 - tail])
-        with np.errstate(invalid="ignore"):
-            ratios = sliding_drift / model_drift
-        if not np.isfinite(ratios).all():  # collapsed runs leave no ratio to draw
-            return (float(low), float(high)), None
-        band = np.percentile(ratios, [tail, 100.0 - tail], axis=0)
+        low, high = np.percentile(self._shares(kind, model_drift, sliding_drift), [tail, 100.0 - tail])
+        band = np.percentile(sliding_drift / model_drift, [tail, 100.0 - tail], axis=0)
         return (float(low), float(high)), band
+
+    def _shares(self, kind: Kind, model: FloatArray, sliding: FloatArray) -> FloatArray:
+        """Effective fraction of each row of drifts of model and real building, by interpolation on the grid."""
+        if kind == "stuck" or without_friction(self.scene_at(1.0)):
+            return np.full(len(model), 1.0 if kind == "stuck" else 0.0)
+        count = len(self.options.fractions)
+        values = interpolated(self.options.fractions, model[:, :count], sliding[:, :count])
+        if self.above_one is None:
+            return values
+        return extended(values, FROM_ONE, model[:, count - 1 :], sliding[:, 0])
+
+    def _weighted(self, sliding: Peaks, model: Peaks, weights: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Statistic of model and sliding drifts at every share under each row of whole weights of the motions."""
+        both = (peaks.largest for peaks in (self._with_larger(model)[1], sliding))
+        model_drift, sliding_drift = (weighted(values, weights, self.options.statistic) for values in both)
+        return model_drift, np.broadcast_to(sliding_drift, model_drift.shape)
+
+    def _at_other_caps(self, kind: Kind, sliding: Peaks, model: Peaks) -> dict[str, float]:
+        """Effective fraction at half and twice the drift cap, by interpolation on the grid."""
+        by_cap, once = {}, np.ones((1, len(self.motions)))
+        for times in (0.5, 2.0):
+            cap = times * sliding.cap
+            search = replace(self, above_one=None if self.above_one is None else replace(self.above_one, cap=cap))
+            drifts = search._weighted(replace(sliding, cap=cap), replace(model, cap=cap), once)
+            by_cap[f"{times * self.options.drift_cap:g}"] = float(self._shares(kind, *drifts)[0])
+        return by_cap
 
     def _metadata(self, scene: Scene, details: dict[str, Any], evaluations: int) -> dict[str, Any]:
         options, building = self.options, building_of(scene)
         settings = {
             **details,
             "statistic": options.statistic,
+            "drift_cap": options.drift_cap,
             **({} if self.motions.others is None else {"drift": options.drift}),
             "damping": options.damping,
             "shares": options.fractions.tolist(),

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 import polars as pl
 
+from seismass.assessment.answer import PAIR
 from seismass.assessment.models import SLIDING
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, counted
@@ -42,6 +43,7 @@ def assessment_html(result: Assessment) -> str:
     """Return a card of an assessment."""
     answer = result.answer
     pair = [line(f"{one.number}  {words}") for one, words in zip(answer.analyses, answer.pair, strict=True)]
+    pair = [line(PAIR), *pair, *map(line, answer.goods[1:])] if pair else []
     facts = [("tables", ", ".join(result.tables)), ("figures", ", ".join(result.figure_names))]
     lines = [answer.why and f"why: {answer.why}", answer.motions and f"motions: {answer.motions}"]
     return card(
@@ -55,7 +57,7 @@ def assessment_html(result: Assessment) -> str:
 
 
 def _drifts(result: Assessment) -> str:
-    """Mean peak drifts of each storey: of both analyses, of goods that slide, and the one that governs."""
+    """Capped mean drifts of each storey: of both analyses, of goods that slide, and the one that governs."""
     table = result.governing.head(MOST_ROWS)
     scale, unit = (1e3, " mm") if result.building.heights is None else (1e2, " %")
     names = {"advised": "analysis 1", "bare": "analysis 2", SLIDING: "goods slide", "governing": "governs"}
@@ -66,7 +68,7 @@ def _drifts(result: Assessment) -> str:
     labels = [f"storey {number} {name}".rstrip() for number, name in table.select("storey", "name").iter_rows()]
     left_out = result.building.storeys - table.height
     more = line(f"and {left_out} storeys above") if left_out > 0 else ""
-    return rows(("mean peak drift", *shown.values()), list(zip(labels, *drifts, strict=True))) + more
+    return rows(("capped mean drift", *shown.values()), list(zip(labels, *drifts, strict=True))) + more
 
 
 BUILDING_WIDTH: Final = 420.0

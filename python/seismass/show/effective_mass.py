@@ -446,8 +446,10 @@ def map_caption(result: EffectiveMassMap) -> str:
     name = str(suite["name"]).replace("$", r"\$")
     damping = "C of the building" if parameters["model_damping"] == "same" else "that ratio in their own modes"
     target = str(result.metadata["target"]["label"]).split(" (")[0].replace("$", r"\$")
+    stated = parameters["scaling_period"]
+    period = "the period of each building" if stated is None else f"T = {stated:g} s"
     return (
-        f"{len(suite['motions'])} motions ({name}) scaled to {target}, for T = {parameters['scaling_period']:g} s;\n"
+        f"{len(suite['motions'])} motions ({name}) scaled to {target}, for {period};\n"
         f"V_y designed with {LAMBDA} = {parameters['design_fraction']:g}; {OMEGA} = {parameters['overstrength']:g}, "
         f"r2 = {parameters['second_slope']:g}, r3 = {parameters['third_slope']:g}; damping "
         f"{100.0 * parameters['damping']:g} %, models with {damping}"

@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from seismass.assessment.answer import PAIR
 from seismass.assessment.models import ADVISED, ATTACHED, BARE, CODE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
 from seismass.assessment.result import Assessment, shown_figures
 from seismass.base.units import STANDARD_GRAVITY
@@ -101,11 +102,7 @@ def fraction_figure(result: AssessmentTables, size: Size) -> Figure:
         role, friction = MODELS[model], FRICTION_NAMES[model]
         curve = effective.curve.filter(pl.col("storey") == 0).sort("fraction")
         share = curve["fraction"].to_numpy()
-        # A model that collapses drifts without limit, of which there is no ratio to draw.
-        ratio, lowest, highest = (
-            np.where(curve["ratio"].to_numpy() > 0.0, curve[name].to_numpy(), np.nan)
-            for name in ("ratio", "ratio_low", "ratio_high")
-        )
+        ratio, lowest, highest = (curve[name].to_numpy() for name in ("ratio", "ratio_low", "ratio_high"))
         if model == SLIDING and curve["ratio_low"].null_count() == 0:
             label = f"{100.0 * effective.confidence:g} % interval over the motions, friction as stated"
             axes.fill_between(
@@ -121,7 +118,7 @@ def fraction_figure(result: AssessmentTables, size: Size) -> Figure:
     axes.set_xlim(0.0, 1.0)
     _mark_shares(axes, result, size)
     axes.set_xlabel(SHARE)
-    axes.set_ylabel(f"{OVER_MODEL}, mean largest drift\n(above 1: the model is unsafe)")
+    axes.set_ylabel(f"{OVER_MODEL}, capped mean of the largest drift\n(above 1: the model is unsafe)")
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     figure.legend(loc="outside upper center", ncols=1, frameon=False)
     shown = STORAGE_CODES if result.code["use"] == "storage" else {}
@@ -157,10 +154,10 @@ def _mark_shares(axes: Axes, result: AssessmentTables, size: Size) -> None:
 
 
 def drift_figure(result: AssessmentTables, size: Size) -> Figure:
-    """Mean peak drift of each storey by model, with 16 and 84 % over the motions, beside the limit."""
+    """Capped mean drift of each storey by model, with 16 and 84 % over the motions, beside the limit."""
     storeys, limit, names = result.storeys, result.drift_limit, result.storey_names
     scale = 1e3 if limit is None else 1e2
-    models = [model for model in DRAWN_MODELS if model in set(storeys.drop_nulls("mean")["model"])]
+    models = [model for model in DRAWN_MODELS if model in set(storeys["model"])]
     figure = Figure(figsize=(size.width, 2.2 + 0.85 * len(names)), layout="constrained")
     axes = figure.add_subplot()
     spacing = 0.15
@@ -206,7 +203,7 @@ def drift_figure(result: AssessmentTables, size: Size) -> Figure:
     axes.set_yticks(range(1, len(names) + 1), [shortened(plain(label), size.name) for label in labels])
     axes.set_ylabel("storey")
     unit = "mm" if limit is None else "% of the height"
-    axes.set_xlabel(f"peak storey drift, {unit}\n(mean over the motions, and from 16 to 84 % of them)")
+    axes.set_xlabel(f"peak storey drift, {unit}\n(capped mean over the motions, and from 16 to 84 % of them)")
     axes.grid(axis="x", color=GREY, alpha=0.25, linewidth=0.5)
     for edge in np.arange(1.5, len(names)):
         axes.axhline(edge, color=GREY, alpha=0.35, linewidth=0.6)
@@ -458,15 +455,18 @@ def answer_lines(result: AssessmentTables) -> list[Markup]:
     document, answer = result.document, result.answer
     names = result.storey_names
     lines = [Markup('<strong class="warn">{}</strong>').format(doubt) for doubt in document["doubt_lines"]]
-    lines.append(Markup("<strong>{}</strong>").format(sentence_html(_sentence(document["statement"]), names)))
+    lines.append(Markup("<strong>{}</strong>").format(sentence_html(document["statement"], names)))
     if answer is not None:
+        lines.append(sentence_html(_sentence(PAIR)))
         pair = zip(answer["analyses"], answer["pair"], strict=True)
         lines += [
             Markup("<strong>{}</strong>").format(sentence_html(f"Analysis {one['number']}: {words}."))
             for one, words in pair
         ]
-        parts = (f"Governs: {'; '.join(answer['governs'])}.", f"Why: {answer['why']}.", _sentence(answer["design"]))
-        lines += [sentence_html(line, names) for line in (parts[0], f"Goods present: {answer['goods']}.", *parts[1:])]
+        present, *amounts = answer["goods"]
+        parts = [f"Governs: {'; '.join(answer['governs'])}.", f"Goods present: {present}.", *map(_sentence, amounts)]
+        parts += [f"Why: {answer['why']}.", *map(_sentence, answer["sensitivity"]), answer["design"]]
+        lines += [sentence_html(line, names) for line in parts]
     lines.append(sentence_html(_sentence(document["on_motions"])))
     if result.effective:
         lines.append(sentence_html(_code_sentence(result)))
@@ -501,9 +501,9 @@ def _verdicts(result: AssessmentTables) -> Markup:
     failed = result.checks.filter(met=False).height
     missing = result.checks["met"].null_count()
     if not failed + missing:
-        return Markup('<span class="good">All {} checks are met, in the mean over the motions{}.</span>').format(
+        return Markup('<span class="good">All {} checks are met, in the capped mean over the motions{}.</span>').format(
             count, _single_motions(result)
         )
     sentences = [f"{failed} of {count} checks are not met"] * bool(failed)
-    sentences += [f"{missing} of {count} have no value, since runs collapse"] * bool(missing)
+    sentences += [f"{missing} of {count} have no value"] * bool(missing)
     return Markup('<span class="warn">{}.</span>').format("; ".join(sentences))

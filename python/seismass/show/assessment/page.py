@@ -12,6 +12,7 @@ from markupsafe import Markup
 
 from seismass.assessment.models import ADVISED, BARE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
 from seismass.base.files import written_whole
+from seismass.base.statistics import CAPPED_MEAN
 from seismass.effective_mass.estimate import BY_HAND, RULE, RULE_IN_WORDS, SAFE_RULE
 from seismass.effective_mass.result import KIND_TEXTS
 from seismass.media.page import (
@@ -58,11 +59,12 @@ METHOD: Final = (
     "Coulomb friction. Runs go exactly from event to event (yielding, sliding, sticking), without a time step.",
     "Motions: scaled so that the mean of their 5 % spectra is not below that of the site from 0.2 T to 1.5 T.",
     f"Share: models with a share {LAMBDA} of the goods attached as mass are solved under the same motions. The "
-    f"{EFFECTIVE} is that share at which the largest storey drift, mean over the motions, is that with goods that "
-    "slide; at friction as stated and at its bounds.",
-    f"Answer: {LAMBDA} is the largest of these fractions, rounded up to a multiple of 0.05. A second analysis has no "
+    f"{EFFECTIVE} is that share at which the capped mean of the largest storey drift is that with goods that slide; at "
+    "friction as stated and at its bounds.",
+    f"Capped mean: {CAPPED_MEAN}; peaks of a run that collapses are those until then.",
+    f"Answer: {LAMBDA} is the largest of these fractions, rounded up to a multiple of 0.01. A second analysis has no "
     "goods. The larger drift of each storey counts.",
-    "Checks: the mean peak drift of each storey, and P d/(V h) at mean peaks, beside their limits.",
+    "Checks: the capped mean drift of each storey, and P d/(V h) at mean peaks, beside their limits.",
 )
 """How the numbers came about."""
 
@@ -120,7 +122,7 @@ def _interval(fraction: Fraction) -> str:
 def _checks(result: AssessmentTables) -> Markup:
     rows = []
     for row in result.checks.iter_rows(named=True):
-        in_percent = row["check"] == "mean drift ratio"
+        in_percent = "drift ratio" in row["check"]
         scale, form, unit = (1e2, ".2f", " %") if in_percent else (1.0, ".3g", "")
         margin = "\N{EN DASH}"
         if row["value"] is not None and row["limit"]:
@@ -207,7 +209,7 @@ def _drifts(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     ratio = result.drift_limit is not None
     scale, unit = (1e2, "%") if ratio else (1e3, "mm")
     names = {name: f"{name} ({unit})" for name in ("mean", "p16", "median", "p84", "max")}
-    names["p16"], names["p84"] = f"16 % ({unit})", f"84 % ({unit})"
+    names |= {"mean": f"capped mean ({unit})", "p16": f"16 % ({unit})", "p84": f"84 % ({unit})"}
     further = ["motions_above_limit", "theta"] if ratio else []
     table = result.storeys.with_columns(
         model=pl.col("model").replace_strict(NAMES, default=pl.col("model"), return_dtype=pl.String)
@@ -217,16 +219,13 @@ def _drifts(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     headers = {**names, "collapsed": "collapsed runs"}
     if ratio:
         headers |= {"motions_above_limit": "motions above the limit", "theta": "stability coefficient"}
-    worst = result.storeys.drop_nulls("mean").sort("mean", descending=True)
-    note = "No model has a mean."
-    if worst.height:
-        row = worst.row(0, named=True)
-        note = f"The largest mean is {scale * row['mean']:.2f} {unit}, storey {row['storey']}, {NAMES[row['model']]}."
+    row = result.storeys.sort("mean", descending=True).row(0, named=True)
+    note = f"The largest is {scale * row['mean']:.2f} {unit}, storey {row['storey']}, {NAMES[row['model']]}."
     return [
         *([_governing(result, scale, unit)] if result.answer is not None else []),
         pictures.figure(
             "drift",
-            "Mean peak drift of each storey by model, with 16 to 84 % of the motions"
+            "Capped mean drift of each storey by model, with 16 to 84 % of the motions"
             + (", beside the limit." if ratio else "."),
             note,
         ),
@@ -262,7 +261,7 @@ def _governing(result: AssessmentTables, scale: float, unit: str) -> Markup:
     drifts = [name for name in shown if name != "governed_by"]
     return table_html(
         table,
-        "Mean peak drift of each storey in both analyses and with goods that slide; the largest governs.",
+        "Capped mean drift of each storey in both analyses and with goods that slide; the largest governs.",
         headers={name: headers[name] for name in shown},
         formats={
             **dict.fromkeys(drifts, lambda value: f"{scale * value:.2f}"),
@@ -306,11 +305,14 @@ def _slip(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
         "peak_mean": "peak, mean (mm)",
         "peak_median": "median (mm)",
         "peak_p84": "84 % (mm)",
+        "peak_p84_low": "its interval, from (mm)",
+        "peak_p84_high": "to (mm)",
         "peak_max": "largest (mm)",
         "residual_mean": "residual, mean (mm)",
         "residual_p84": "84 % (mm)",
     }
     largest = result.slip["peak_max"].drop_nulls().to_numpy()
+    confidence = 100.0 * result.document["metadata"]["confidence"]
     table = result.slip.select("friction", "floor", "name", "goods", "mu_s", "mu_k", "motions_that_slide", *names)
     table = table.drop([name for name in ("name", "goods") if not any(table[name])])
     return [
@@ -321,7 +323,7 @@ def _slip(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
         ),
         table_html(
             table,
-            "Peak and residual slip over the motions.",
+            f"Peak and residual slip over the motions; the interval is that of {confidence:g} % of the peak at 84 %.",
             headers={
                 **names,
                 "motions_that_slide": "motions in which goods slide",

@@ -28,6 +28,8 @@ from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
 from seismass.show.animation.html import element_html
 from seismass.show.assessment.tables import AssessmentTables
 
+LEFT_OUT: Final = ("pgv", "pgd", "fraction", "governing")
+"""Columns of the table `left_out` that stand beside factors."""
 MOST_MOTIONS: Final = 12
 """Motions that are named here."""
 
@@ -412,17 +414,21 @@ def motions_html(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
         ),
     ]
     if result.scaling is not None:
+        left_out = pl.DataFrame(result.document["left_out"], schema=dict.fromkeys(LEFT_OUT, pl.Float64))
         parts.append(
             table_html(
-                result.scaling,
-                "Scaling factors: that of each motion is its own times the common one.",
+                result.scaling.hstack(left_out),
+                "Scaling factors: that of each motion is its own times the common one. PGV and PGD when scaled; "
+                "largest effective fraction and governing drift without the motion.",
                 headers={
                     "motion": "number",
                     "record": "motion",
                     "individual_factor": "own factor",
                     "common_factor": "common factor",
+                    "pgv": "PGV (m/s)",
+                    "pgd": "PGD (m)",
                 },
-                formats=dict.fromkeys(("individual_factor", "common_factor", "factor"), ".4f"),
+                formats=dict.fromkeys(("individual_factor", "common_factor", "factor", *LEFT_OUT), ".4f"),
             )
         )
     return parts

@@ -7,6 +7,8 @@ from typing import Any, Final
 import polars as pl
 from markupsafe import Markup
 
+from seismass.assessment.advice import slip_ends
+from seismass.assessment.checks import CAPPED_DRIFT
 from seismass.assessment.models import ADVISED, BARE, NAMES
 from seismass.media.page import table_html, text_html, whole_html
 from seismass.media.roles import apart, isolated, sentence_html
@@ -23,7 +25,7 @@ MOST_STOREYS: Final = 8
 """Storeys of the table of the sheet."""
 MOST_MOTIONS: Final = 12
 """Motions that the sheet names; the others are in their table."""
-CHECKS: Final = {"mean drift ratio": "storey drift, mean", "stability coefficient": "stability coefficient P d/(V h)"}
+CHECKS: Final = {CAPPED_DRIFT: "storey drift, capped mean", "stability coefficient": "stability coefficient P d/(V h)"}
 """Checks whose largest value stands on the sheet, with their words."""
 
 
@@ -88,13 +90,11 @@ def _verdicts(result: AssessmentTables) -> Markup:
         if not rows_of_check.height:
             continue
         known = rows_of_check.drop_nulls("value").sort("value", descending=True)
-        scale, form, unit = (1e2, ".2f", " %") if check == "mean drift ratio" else (1.0, ".3f", "")
+        scale, form, unit = (1e2, ".2f", " %") if check == CAPPED_DRIFT else (1.0, ".3f", "")
         row = known.row(0, named=True) if known.height else rows_of_check.row(0, named=True)
         limit = f"{scale * row['limit']:g}{unit}"
         if known.height < rows_of_check.height:
-            rows.append(
-                {"what": words, "value": "no value", "limit": limit, "margin": "none", "where": "runs collapse"}
-            )
+            rows.append({"what": words, "value": "no value", "limit": limit, "margin": "none", "where": "beside walls"})
             continue
         margin = 100.0 * (1.0 - row["value"] / row["limit"])
         rows.append(
@@ -112,7 +112,7 @@ def _verdicts(result: AssessmentTables) -> Markup:
         rows.append(
             {
                 "what": "slip each way, 84 % of the motions",
-                "value": f"{1e3 * row['peak_p84']:.0f} mm",
+                "value": f"{1e3 * row['peak_p84']:.0f}{slip_ends(row)} mm",
                 "limit": "\N{EN DASH}",
                 "margin": "\N{EN DASH}",
                 "where": f"floor {row['floor']}, {NAMES[row['model']]}",
@@ -166,7 +166,9 @@ def _storeys(result: AssessmentTables) -> list[Markup]:
             cells["margin"] = signed_percent(100.0 * (1.0 - row["governing_over_limit"]))
         rows.append(cells)
     formats = {"margin": _margin} if ratio else {}
-    return [table_html(pl.DataFrame(rows), f"{caption} Mean peak drift.", formats={**formats, "governs": _model_name})]
+    return [
+        table_html(pl.DataFrame(rows), f"{caption} Capped mean drift.", formats={**formats, "governs": _model_name})
+    ]
 
 
 def _model_name(text: str) -> Markup:

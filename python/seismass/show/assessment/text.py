@@ -12,10 +12,12 @@ from typing import TYPE_CHECKING, Any, Final
 
 import polars as pl
 
-from seismass.assessment.answer import analysis_table
+from seismass.assessment.advice import slip_ends
+from seismass.assessment.answer import PAIR, analysis_table
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
 from seismass.assessment.result import Assessment
 from seismass.base.errors import InvalidOption
+from seismass.base.statistics import QUANTILES
 from seismass.base.values import as_path
 from seismass.effective_mass import ByHand
 from seismass.effective_mass.estimate import RULE, RULE_UNKNOWN, SAFE_RULE
@@ -62,14 +64,18 @@ def _answer(result: Assessment) -> list[str]:
     doubts = enumerate(answer.doubt_lines)
     lines = [line for number, doubt in doubts for line in _paragraph("ANSWER" if number == 0 else "", doubt)]
     lines += _paragraph("" if lines else "ANSWER", answer.statement)
+    if answer.analyses:
+        lines += _paragraph("", PAIR)
     for one, words in zip(answer.analyses, answer.pair, strict=True):
         lines += textwrap.wrap(f"{one.number}  {words}", WIDTH, initial_indent=" " * 10, subsequent_indent=" " * 13)
     for number, sentence in enumerate(answer.governs):
         lines += _paragraph("governs" if number == 0 else "", sentence)
-    if answer.goods:
-        lines += _paragraph("goods", f"present: {answer.goods}")
+    for number, sentence in enumerate(answer.goods):
+        lines += _paragraph("goods" if number == 0 else "", f"present: {sentence}" if number == 0 else sentence)
     if answer.why:
         lines += _paragraph("why", answer.why)
+    for number, sentence in enumerate(answer.sensitivity):
+        lines += _paragraph("varies" if number == 0 else "", sentence)
     if answer.design:
         lines += _paragraph("strength", answer.design)
     lines += _paragraph("motions", answer.motions)
@@ -144,7 +150,7 @@ def _drifts(result: Assessment) -> list[str]:
     limit = "" if building.heights is None else f"; limit {100.0 * building.drift_limit:g} %"
     motions = len(result.suite["motions"])
     governed = bool(result.answer.analyses)
-    lines = [f"Peak storey drift, {unit}: mean of {motions} motions{limit}"]
+    lines = [f"Peak storey drift, {unit}: capped mean of {motions} motions{limit}"]
     rows = [["storey", *(_label(result, model) for model in models), *(["governs"] if governed else [])]]
     scatter = [rows[0][: 1 + len(models)]]
     for row in result.governing.iter_rows(named=True):
@@ -156,27 +162,25 @@ def _drifts(result: Assessment) -> list[str]:
             drift = _marked(row["governing"], row["governing_over_limit"], scale)
             cells.append(f"{drift} {model_words}".rstrip())
         rows.append([label, *cells])
-        scatter.append([label, *(_range(one["p16"], one["p84"], scale) for one in values)])
+        scatter.append([label, *(_range(one, scale) for one in values)])
     if building.heights is not None:
         above = [f"{_above(result, model)} of {motions}" for model in models]
         rows.append(["motions above limit", *above, *([""] if governed else [])])
     lines += text_table(rows)
     marks = "".join("".join(row[1:]) for row in rows[1:])
     notes = [f"  * mean above the limit{limit.removeprefix('; limit')}"] * ("*" in marks)
-    notes += ["  no value: runs collapse"] * ("no value" in marks)
-    return [*lines, *notes, f"From 16 to 84 % of the motions, {unit}", *text_table(scatter)]
+    return [*lines, *notes, f"Median (from 16 to 84 % of the motions), {unit}", *text_table(scatter)]
 
 
-def _marked(mean: float | None, over_limit: float | None, scale: float) -> str:
-    if mean is None:
-        return "no value"
+def _marked(mean: float, over_limit: float | None, scale: float) -> str:
     return f"{scale * mean:.2f}" + ("*" if over_limit is not None and over_limit > 1.0 else "")
 
 
-def _range(low: float | None, high: float | None, scale: float) -> str:
-    if low is None:
+def _range(row: dict[str, Any], scale: float) -> str:
+    low, median, high = (row[name] for name in QUANTILES)
+    if low is None or median is None:
         return "no value"
-    return f"from {scale * low:.2f}" if high is None else f"{scale * low:.2f}-{scale * high:.2f}"
+    return f"{scale * median:.2f} ({scale * low:.2f}-{'' if high is None else f'{scale * high:.2f}'})"
 
 
 def _analysis(result: Assessment) -> list[str]:
@@ -228,7 +232,10 @@ def _slips(result: Assessment) -> list[str]:
                     " ".join(part for part in (str(row["floor"]), row["name"], row["goods"]) if part)[:28],
                     f"{row['mu_s']:.3g}" + (f"/{row['mu_k']:.3g}" if row["mu_k"] != row["mu_s"] else ""),
                     f"{row['motions_that_slide']} of {motions}",
-                    *(number_text(row[name], ".1f", scale=1e3) for name in names),
+                    *(
+                        number_text(row[name], ".1f", scale=1e3) + slip_ends(row) * (name == "peak_p84")
+                        for name in names
+                    ),
                 ]
             )
     return lines + text_table(rows)

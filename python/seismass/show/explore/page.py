@@ -154,8 +154,7 @@ ASSUMPTIONS: Final = (
     "leave that out.",
     "The suite: seven synthetic motions, not recordings, scaled to the default target by ASCE 7-10 for T = 1 s. The "
     "effective fraction is over this suite, whatever motion is shown; other suites give other fractions.",
-    "The interval is a percentile bootstrap over the seven motions and slightly too narrow: a 90 % interval covers 80 "
-    "to 92 %.",
+    "The interval is a percentile bootstrap over the seven motions; it says nothing of another suite.",
 )
 """What the page says it assumes."""
 

@@ -13,6 +13,7 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from seismass.base.statistics import CAPPED_MEAN
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.effective_mass.estimate import RULE, SAFE_RULE
 from seismass.media.roles import BLUE, EFFECTIVE, GREY, LAMBDA, MU, OMEGA, VERMILION
@@ -180,7 +181,7 @@ def one_line(result: StudyFrames) -> str:
     yielding = summary.filter(pl.col("R") > 1.0)
     shown = yielding if yielding.height else summary
     if not shown.height:
-        return "No storey of the study has a result: runs collapsed or failed."
+        return "No storey of the study has a result: runs failed."
     kind = "yielding" if yielding.height else "elastic"
     first = shown.filter(storey=1)
     means = ", ".join(
@@ -200,7 +201,7 @@ def answer(result: StudyFrames) -> list[Markup]:
     yielding = summary.filter(pl.col("R") > 1.0)
     shown = yielding if yielding.height else summary
     if not shown.height:
-        return [Markup("No storey of the study has a result: runs collapsed or failed.")]
+        return [Markup("No storey of the study has a result: runs failed.")]
     code = result.metadata["code"]["name"]
     several = shown["mu"].n_unique() > 1
     kind = "yielding" if yielding.height else "elastic"
@@ -376,9 +377,7 @@ def findings_text(entries: list[dict[str, Any]]) -> str:
             *_first_storey_tables(entry["first_storey"]),
         ]
         if entry["storeys_without_result"]:
-            lines.append(
-                f"  without a mean            {entry['storeys_without_result']} storeys: a run collapsed or failed"
-            )
+            lines.append(f"  without a mean            {entry['storeys_without_result']} storeys: a run failed")
     return "\n".join(lines)
 
 
@@ -464,6 +463,7 @@ def assumptions(metadata: dict[str, Any]) -> list[str]:
         "P-Delta: the whole weight of building and goods, in every model alike."
         if inputs["p_delta"]
         else "P-Delta: none.",
+        f"Capped mean drift: {CAPPED_MEAN}. The cap is {inputs['drift_cap']:g} of the height, and ends no run.",
     ]
     if inputs["collapse_drift_ratio"] is not None:
         lines.append(f"Collapse: a storey whose drift reaches {inputs['collapse_drift_ratio']:g} of its height.")
@@ -505,6 +505,7 @@ _PARAMETERS: Final = {
     "height": "Storey height",
     "p_delta": "P-Delta",
     "collapse_drift_ratio": "Collapse",
+    "drift_cap": "Drift cap",
 }
 """Parameters in words."""
 
@@ -528,7 +529,7 @@ def _option(name: str, value: Any) -> tuple[str, str]:
         text = value.upper()
     else:
         text = _plain_option(value)
-    unit = {"scaling_period": " s", "height": " m"}.get(name, "")
+    unit = {"scaling_period": " s", "height": " m", "drift_cap": " of the height"}.get(name, "")
     return _PARAMETERS[name], f"{text}{unit}"
 
 

@@ -113,7 +113,7 @@ def underestimation_figure(result: StudyFrames, mu: float, *, narrow: bool = Fal
     ]
     code = plain(result.metadata["code"]["name"])
     friction = f", {MU} = {mu:g}" if result.summary["mu"].n_unique() > 1 else ""
-    title = f"({SLIDE.name} \N{EN DASH} {CODE.name}) / {CODE.name} of mean peak drift, code: {code}{friction}"
+    title = f"({SLIDE.name} \N{EN DASH} {CODE.name}) / {CODE.name} of capped mean drift, code: {code}{friction}"
     figure.legend(
         handles=handles,
         loc="outside upper center",
@@ -266,7 +266,7 @@ LOOKS: Final[dict[Model, dict[str, Any]]] = {
 
 
 def drift_figure(result: StudyFrames, factor: float, mu: float) -> Figure:
-    """Mean peak drift of each storey for one R and mu: occupancies and alpha in columns, buildings in rows."""
+    """Capped mean drift of each storey for one R and mu: occupancies and alpha in columns, buildings in rows."""
     label = labels_of(result.summary["R"])[factor]
     summary = result.summary.filter(R=factor, mu=mu)
     alphas = labels_of(summary["alpha"])
@@ -290,7 +290,7 @@ def drift_figure(result: StudyFrames, factor: float, mu: float) -> Figure:
     for axes, (occupancy, design, analysis, alpha) in zip(grid[0], columns, strict=True):
         axes.set_title(f"{occupancy_title(occupancy, design, analysis)}\n" + f"{ALPHA} = {alphas[alpha]}")
     for axes in grid[-1]:
-        axes.set_xlabel("mean peak drift (mm)")
+        axes.set_xlabel("capped mean drift (mm)")
     behaviour = " (elastic)" if factor == 1.0 and not result.metadata["parameters"]["yield_at_r1"] else ""
     code = plain(result.metadata["code"]["name"])
     texts: dict[Model, str] = {

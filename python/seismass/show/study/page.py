@@ -274,7 +274,7 @@ def study_page(
 _MODELS: Final = (
     f"Each building is solved three times under each motion: with goods that may slide ({SLIDE.name}), with the code's "
     f"share of their mass attached to the floors ({CODE.name}), and with all of it ({ATTACHED.name}). The numbers at "
-    f"the right are ({SLIDE.name} \N{EN DASH} {CODE.name}) / {CODE.name} of the mean peak drifts."
+    f"the right are ({SLIDE.name} \N{EN DASH} {CODE.name}) / {CODE.name} of the capped mean drifts."
 )
 _UNDERESTIMATION: Final = (
     "Underestimation of drift against R: the storey with the largest, and the range over the storeys of each building. "
@@ -338,7 +338,7 @@ def _drifts(result: StudyTables, page: Pictures) -> Iterator[Section]:
             figures.append(
                 page.figure(
                     f"drift_R{label}{suffix}",
-                    f"Mean peak drift of each storey, R = {label}, {MU} = {mu:g}{_PAPER_FIGURES.get(factor, '')}.",
+                    f"Capped mean drift of each storey, R = {label}, {MU} = {mu:g}{_PAPER_FIGURES.get(factor, '')}.",
                     f"Drift by storey with sliding goods and of both models at R = {label}: underestimation {span}.",
                 )
             )

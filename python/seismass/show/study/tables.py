@@ -201,7 +201,7 @@ def storeys_table(result: StudyTables) -> Markup:
     percents = [name for name in names if name.endswith("percent")]
     return table_html(
         table,
-        f"Mean peak drift of every storey, and ({SLIDE.name} \N{EN DASH} {CODE.name}) / {CODE.name}: of the means, "
+        f"Capped mean drift of every storey, and ({SLIDE.name} \N{EN DASH} {CODE.name}) / {CODE.name}: of the means, "
         "and motion by motion.",
         headers=names,
         formats={

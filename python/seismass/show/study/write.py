@@ -153,8 +153,6 @@ def sensitivity_text(table: pl.DataFrame) -> str:
         "largest: of all first storeys. smallest R, largest R: mean of those with the largest alpha, at that\n"
         "R. mass, sliding: what the last one is made of, all attached over code and goods slide over all."
     )
-    if (table["collapses"] > 0).any():
-        notes += "\n-: runs collapsed, and there is no mean."
     return "\n".join([*blocks, notes])
 
 
@@ -188,7 +186,7 @@ def _groups(table: pl.DataFrame) -> list[tuple[str, list[list[str]]]]:
 def study_text(result: StudyResult) -> str:
     """Return the underestimation of drift by the code's model, with its scatter, as lines."""
     document = result.to_dict()
-    head = f"Underestimation of mean peak drift, (goods slide - code) / code, code: {document['code']['name']}"
+    head = f"Underestimation of capped mean drift, (goods slide - code) / code, code: {document['code']['name']}"
     return f"{head}\n{findings_text(document['findings'])}"
 
 

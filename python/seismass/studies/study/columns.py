@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Final
 
+from seismass.base.statistics import CAPPED_MEAN
+
 _MODEL_NAMES: Final = {"real": "real model", "code": "code model", "attached": "attached model"}
 
 KEY_COLUMNS: Final[dict[str, tuple[str, str]]] = {
@@ -41,12 +43,12 @@ RESPONSE_COLUMNS: Final[dict[str, tuple[str, str]]] = {
 }
 
 _DRIFT_STATISTICS: Final = {
-    "mean_peak_drift": ("m", "mean over the motions of the peak drift; null where a run collapsed or failed"),
-    "geometric_mean_peak_drift": ("m", "geometric mean; null where a run collapsed or failed"),
-    "median_peak_drift": ("m", "median, a collapsed run counting as infinite; null where a run failed"),
-    "p16_peak_drift": ("m", "16 % of the motions are below, a collapsed run counting as infinite"),
-    "p84_peak_drift": ("m", "84 % of the motions are below, a collapsed run counting as infinite"),
-    "mean_peak_drift_ratio": ("1", "mean of the peak drift over the storey height"),
+    "mean_peak_drift": ("m", f"{CAPPED_MEAN}; null where a run failed"),
+    "geometric_mean_peak_drift": ("m", "geometric mean of the same; null where a run failed"),
+    "median_peak_drift": ("m", "median of the same; null where a run failed"),
+    "p16_peak_drift": ("m", "16 % of the motions are below"),
+    "p84_peak_drift": ("m", "84 % of the motions are below"),
+    "mean_peak_drift_ratio": ("1", "the mean over the storey height"),
     "collapses": ("", "number of motions under which the building collapsed"),
 }
 
@@ -60,9 +62,9 @@ SUMMARY_COLUMNS: Final[dict[str, tuple[str, str]]] = {
         for name, (unit, meaning) in _DRIFT_STATISTICS.items()
     },
     "mean_peak_slip": ("m", "mean over the motions of the peak slip of the block on the floor above"),
-    "ratio": ("1", "mean peak drift, real over code: `ratio_mass` times `ratio_sliding`"),
-    "ratio_mass": ("1", "mean peak drift, attached over code: what the rest of the mass does"),
-    "ratio_sliding": ("1", "mean peak drift, real over attached: what sliding does"),
+    "ratio": ("1", "capped mean drift, real over code: `ratio_mass` times `ratio_sliding`"),
+    "ratio_mass": ("1", "capped mean drift, attached over code: what the rest of the mass does"),
+    "ratio_sliding": ("1", "capped mean drift, real over attached: what sliding does"),
     "underestimation_percent": ("%", "(real - code) / code of the means; negative where the code model drifts more"),
     "geometric_mean_underestimation_percent": ("%", "the same of the geometric means"),
     "median_underestimation_percent": ("%", "median over the motions of (real - code) / code, motion by motion"),
@@ -81,11 +83,11 @@ FRACTION_COLUMNS: Final[dict[str, tuple[str, str]]] = {
     "exponent": ("1", "p of the rule: 1.2 (1 + x) where the building yields, else 1 + x/2, x = T/T_c, at most 1.5"),
     "estimate": ("1", "min(1, eta_h^p), eta_h = eta/sqrt(h_g/h_m): best estimate of the effective fraction"),
     "conservative": ("1", "min(1, eta_h): its conservative estimate"),
-    "effective": ("1", "effective fraction; null without `--effective` and where a run collapsed"),
+    "effective": ("1", "effective fraction; null without `--effective`, and where many runs collapsed"),
     "kind": ("", "stuck, root, multiple, zero, one or collapsed, as `seismass.effective_mass` has it"),
     "low": ("1", "lower end of the bootstrap interval of the effective fraction over the motions"),
     "high": ("1", "its upper end"),
-    "excess": ("1", "real over attached model less 1, of the largest mean drift, where kind is one"),
+    "excess": ("1", "real over attached model less 1, of the capped mean of the largest drift, where kind is one"),
 }
 
 DESIGN_COLUMNS: Final[dict[str, tuple[str, str]]] = {
@@ -126,7 +128,7 @@ SENSITIVITY_COLUMNS: Final[dict[str, tuple[str, str]]] = {
     "most_R_percent": ("%", "mean underestimation of first storeys at the largest R and alpha"),
     "mass_percent": ("%", "attached over code model, less 1, of the same storeys: what the rest of the mass does"),
     "sliding_percent": ("%", "real over attached model, less 1, of the same storeys: what sliding does"),
-    "collapses": ("", "collapsed runs of all models; a number that needs one of them is null"),
+    "collapses": ("", "collapsed runs of all models, in which peaks count until the collapse"),
 }
 
 CLAIM_COLUMNS: Final[dict[str, tuple[str, str]]] = {

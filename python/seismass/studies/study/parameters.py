@@ -11,6 +11,7 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 import numpy as np
 
 from seismass.base.errors import InvalidOption
+from seismass.base.statistics import DRIFT_CAP
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_count, as_number, brief, refusal, short_repr
 from seismass.base.views import Card
@@ -78,6 +79,8 @@ class StudyParameters:
         the real one: a code counts mass, and the goods weigh what they weigh.
     collapse_drift_ratio : float, optional
         Drift over height at which a storey counts as collapsed and the run ends.
+    drift_cap : float
+        Drift over height above which a drift counts as it in means and their ratios.
 
     Raises
     ------
@@ -102,6 +105,7 @@ class StudyParameters:
     height: float = DEFAULT_HEIGHT
     p_delta: bool = False
     collapse_drift_ratio: float | None = None
+    drift_cap: float = DRIFT_CAP
 
     def __post_init__(self) -> None:
         """Keep numbers as Python's own, so that equal parameters have the same digest."""
@@ -131,6 +135,7 @@ class StudyParameters:
             "collapse_drift_ratio": None
             if limit is None
             else _within("collapse_drift_ratio", limit, _TINY, _HUGE, "a positive number"),
+            "drift_cap": _within("drift_cap", self.drift_cap, _TINY, _HUGE, "a positive number"),
         }
         self._unique("buildings", buildings)
         for name, choices in (("combination", get_args(Combination)), ("damping_base", get_args(DampingBase))):

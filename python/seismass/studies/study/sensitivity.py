@@ -22,7 +22,7 @@ from seismass.motions.spectra import TargetSpectrum
 from seismass.studies.study.columns import SENSITIVITY_COLUMNS
 from seismass.studies.study.parameters import MODELS, DampingBase, StudyParameters
 from seismass.studies.study.run import StudyResult, run_study
-from seismass.studies.study.tables import Drifts, drifts_of
+from seismass.studies.study.tables import Drifts, collapsed_of, drifts_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -43,6 +43,7 @@ MATCHED_TOLERANCE: Final = 0.10
 last digits decide about the next pass; the mean of the suite is closer to the target than its records."""
 _KEYS: Final = ("occupancy", "mu", "R", "alpha", "storey")
 """Columns of the summary by which its rows are grouped."""
+_COLLAPSES: Final = tuple(f"collapses_{model}" for model in MODELS)
 MOTIONS: Final = "motions"
 """The choice how motions are brought to the target."""
 
@@ -146,10 +147,10 @@ def study_sensitivity(
     changes = [*_changes(setup, target, suite), *_motion_changes(setup, target, suite, threads)]
     if as_is is None:
         as_is = run_study(suite, target, setup, threads=threads)
-    base_drifts = drifts_of(as_is.responses, len(suite))
+    base_drifts, fallen = drifts_of(as_is.responses, len(suite), setup), collapsed_of(as_is.responses, len(suite))
     summary = as_is.summary
     rows = _rows(AS_IS, "", summary, base_drifts, np.mean)
-    of_base: dict[str, Drifts] = {setup.damping_base: base_drifts}
+    of_base: dict[str, tuple[pl.DataFrame, Drifts]] = {setup.damping_base: (summary, base_drifts)}
     for number, change in enumerate(changes, start=1):
         if progress is not None:
             progress(number, len(changes) + 1)
@@ -157,16 +158,18 @@ def study_sensitivity(
         drifts: Drifts = {model: np.array(table[model].to_list()) for model in MODELS}
         rows += _rows(change.choice, change.setting, table, drifts, np.mean)
         if change.choice == DAMPING_BASE:
-            of_base[change.parameters.damping_base] = drifts
+            of_base[change.parameters.damping_base] = (table, drifts)
             if len(of_base) == len(get_args(DampingBase)):
-                mixed = {**of_base["loaded"], "code": of_base["own"]["code"]}
-                rows += _rows(DAMPING_BASE, "loaded, of the code model its own", summary, mixed, np.mean)
+                (keys, loaded), (of_own, alone) = of_base["loaded"], of_base["own"]
+                keys, mixed = keys.with_columns(of_own["collapses_code"]), {**loaded, "code": alone["code"]}
+                rows += _rows(DAMPING_BASE, "loaded, of the code model its own", keys, mixed, np.mean)
     rows += _rows("statistic", "median", summary, base_drifts, np.median)
     rows += _rows("statistic", "geometric mean", summary, base_drifts, _geometric_mean)
     for left_out in _heaviest(as_is):
         name = as_is.metadata["suite"]["motions"][left_out]["record"]
         others: Drifts = {model: np.delete(values, left_out, axis=1) for model, values in base_drifts.items()}
-        rows += _rows("one record left out", name, summary, others, np.mean)
+        counts = {f"collapses_{model}": np.delete(fell, left_out, axis=1).sum(axis=1) for model, fell in fallen.items()}
+        rows += _rows("one record left out", name, summary.with_columns(**counts), others, np.mean)
     if progress is not None:
         progress(len(changes) + 1, len(changes) + 1)
     rows_of_changes = pl.DataFrame(rows, schema=list(SENSITIVITY_COLUMNS), orient="row").with_columns(
@@ -179,9 +182,9 @@ def _study_of(change: _Change, threads: int | None) -> pl.DataFrame:
     """Keys of the summary of a changed study, and the drifts of each model as a column of lists."""
     suite, scaling = change.motions()
     result = run_study(suite, change.target, change.parameters, scaling=scaling, threads=threads)
-    drifts = drifts_of(result.responses, len(suite))
+    drifts = drifts_of(result.responses, len(suite), change.parameters)
     lists = {model: pl.Series(values.tolist(), dtype=pl.List(pl.Float64)) for model, values in drifts.items()}
-    return result.summary.select(_KEYS).with_columns(**lists)
+    return result.summary.select(_KEYS, *_COLLAPSES).with_columns(**lists)
 
 
 def _changes(setup: StudyParameters, target: TargetSpectrum, suite: Suite) -> Iterator[_Change]:
@@ -279,10 +282,8 @@ def _rows(
             "mass": 100.0 * (attached / code - 1.0),
             "sliding": 100.0 * (sliding / attached - 1.0),
         }
-    collapses = sum(np.isinf(values).sum(axis=1) for values in drifts.values())
-    frame = keys.select(_KEYS).with_columns(
-        **{name: pl.Series(np.where(np.isfinite(values), values, np.nan)) for name, values in compared.items()},
-        collapses=pl.Series(collapses),
+    frame = keys.select(*_KEYS, collapses=pl.sum_horizontal(_COLLAPSES)).with_columns(
+        **{name: pl.Series(values) for name, values in compared.items()}
     )
     rows = []
     for (occupancy, mu), first in frame.filter(storey=1).group_by("occupancy", "mu", maintain_order=True):

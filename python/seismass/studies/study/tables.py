@@ -10,7 +10,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from seismass.base.statistics import quantile
+from seismass.base.statistics import QUANTILES, capped, quantile
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
@@ -23,7 +23,7 @@ from seismass.studies.study.columns import DESIGN_COLUMNS, FRACTION_COLUMNS, RES
 from seismass.studies.study.parameters import KEYS, MODELS, Model, StudyBuilding, StudyParameters
 
 Drifts: TypeAlias = dict[Model, FloatArray]
-"""Peak drifts (m) by model, shape (rows, motions): infinite where the run collapsed, NaN where it failed."""
+"""Capped peak drifts (m) by model, shape (rows, motions), until a collapse; NaN where a run failed."""
 
 _PER_STOREY: Final = (
     "peak_drift",
@@ -105,24 +105,34 @@ def responses_table(
     )
 
 
-def drifts_of(responses: pl.DataFrame, motions: int) -> Drifts:
+def drifts_of(responses: pl.DataFrame, motions: int, parameters: StudyParameters) -> Drifts:
     """Return the peak drifts of a table of responses, one row per building and storey, as the summary has them."""
-    drifts: Drifts = {}
-    value = pl.when(pl.col("status") == "collapsed").then(np.inf).otherwise("peak_drift").fill_null(np.nan)
+    drifts = _by_model(responses, motions, pl.col("peak_drift").fill_null(np.nan))
+    return {model: capped(values, parameters.drift_cap * parameters.height) for model, values in drifts.items()}
+
+
+def collapsed_of(responses: pl.DataFrame, motions: int) -> dict[Model, NDArray[np.bool_]]:
+    """Return which runs collapsed, in the order of `drifts_of`."""
+    return _by_model(responses, motions, pl.col("status").fill_null("") == "collapsed")
+
+
+def _by_model(responses: pl.DataFrame, motions: int, value: pl.Expr) -> dict[Model, Any]:
+    """A value of each run by model, shape (rows, motions)."""
     ordered = responses.sort("building", "storey", "motion", maintain_order=True)
-    for model in MODELS:
-        rows = ordered.filter(pl.col("model") == model).select(value.alias("drift"))["drift"]
-        drifts[model] = rows.to_numpy().reshape(-1, motions)
-    return drifts
+    return {
+        model: ordered.filter(model=model).select(value.alias("value"))["value"].to_numpy().reshape(-1, motions)
+        for model in MODELS
+    }
 
 
 def summary_table(
     buildings: list[StudyBuilding], responses: pl.DataFrame, names: list[str], parameters: StudyParameters
 ) -> pl.DataFrame:
-    """One row per building and storey: means, scatter, and what one record carries. A failed run makes statistics of
-    its model null; a collapse makes means null and counts as infinite drift in percentiles.
+    """One row per building and storey: capped means, scatter, and what one record carries. A failed run makes
+    statistics of its model null.
     """
-    drifts = drifts_of(responses, len(names))
+    drifts = drifts_of(responses, len(names), parameters)
+    fallen = collapsed_of(responses, len(names))
     storeys = np.array([building.labels["storeys"] for building in buildings])
     columns: dict[str, Any] = {
         **key_columns(buildings, storeys),
@@ -130,15 +140,13 @@ def summary_table(
         "motions": np.full(storeys.sum(), len(names)),
     }
     for model, values in drifts.items():
-        means = _mean(values)
+        means = values.mean(axis=1)
         columns |= {
             f"mean_peak_drift_{model}": means,
             f"geometric_mean_peak_drift_{model}": _geometric_mean(values),
-            f"median_peak_drift_{model}": quantile(values, 0.5),
-            f"p16_peak_drift_{model}": quantile(values, 0.16),
-            f"p84_peak_drift_{model}": quantile(values, 0.84),
+            **{f"{name}_peak_drift_{model}": quantile(values, share) for name, share in QUANTILES.items()},
             f"mean_peak_drift_ratio_{model}": means / parameters.height,
-            f"collapses_{model}": np.isinf(values).sum(axis=1),
+            f"collapses_{model}": fallen[model].sum(axis=1),
         }
     slips = (
         responses.filter(model="real")
@@ -146,7 +154,7 @@ def summary_table(
         .to_numpy()
         .reshape(-1, len(names))
     )
-    columns["mean_peak_slip"] = np.where(np.isfinite(drifts["real"]).all(axis=1), slips.mean(axis=1), np.nan)
+    columns["mean_peak_slip"] = slips.mean(axis=1)
     columns |= _comparison(drifts, names)
     return typed(columns, list(SUMMARY_COLUMNS))
 
@@ -155,7 +163,7 @@ def _comparison(drifts: Drifts, names: list[str]) -> dict[str, Any]:
     """The models against each other."""
     sliding, code = drifts["real"], drifts["code"]
     with np.errstate(divide="ignore", invalid="ignore"):
-        means = {model: _mean(values) for model, values in drifts.items()}
+        means = {model: values.mean(axis=1) for model, values in drifts.items()}
         ratio = means["real"] / means["code"]
         each = 100.0 * (sliding / code - 1.0)
         columns: dict[str, Any] = {
@@ -185,15 +193,9 @@ def _sum(values: FloatArray) -> FloatArray:
     return total
 
 
-def _mean(values: FloatArray) -> FloatArray:
-    """Mean over the motions; NaN where one has no finite value."""
-    return np.where(np.isfinite(values).all(axis=1), values.mean(axis=1), np.nan)
-
-
 def _geometric_mean(values: FloatArray) -> FloatArray:
-    with np.errstate(divide="ignore", invalid="ignore"):
-        mean = np.exp(np.log(values).mean(axis=1))
-    return np.where(np.isfinite(values).all(axis=1), mean, np.nan)
+    with np.errstate(divide="ignore"):
+        return np.asarray(np.exp(np.log(values).mean(axis=1)))
 
 
 def designs_table(buildings: list[StudyBuilding], parameters: StudyParameters) -> pl.DataFrame:
@@ -247,10 +249,10 @@ def fractions_table(
     corner: float,
 ) -> pl.DataFrame:
     """One row per building: C1, eta, both estimates, and lambda_eff where computed. C1 is the mean peak base shear of
-    the fully attached model over the full weight; null where a run of it collapsed or failed.
+    the fully attached model over the full weight; null where a run of it failed.
     """
     runs = run_of.reshape(len(buildings), len(MODELS), -1)[:, MODELS.index("attached")]
-    completed = (table["status"] == "completed").to_numpy()[runs].all(axis=1)
+    completed = (table["status"] != "failed").to_numpy()[runs].all(axis=1)
     shear = table["peak_base_shear"].to_numpy()[runs].mean(axis=1)
     weight = STANDARD_GRAVITY * np.array([_attached_mass(building.scenes["attached"]) for building in buildings])
     coefficient = np.where(completed, shear / weight, np.nan)
@@ -311,7 +313,7 @@ def effective_fractions(
     damping: Literal["same", "ratio"] = "ratio" if parameters.damping_base == "own" else "same"
     fractions = {}
     for number, scene in enumerate(scenes, start=1):
-        solve = partial(_solved, scene, records, damping, threads)
+        solve = partial(_solved, scene, records, damping, parameters.drift_cap, threads)
         fractions[scene] = Fraction(*store.of(f"effective-{number}", solve).row(0))
         if progress is not None:
             progress(number, len(scenes))
@@ -319,10 +321,11 @@ def effective_fractions(
 
 
 def _solved(
-    scene: Scene, records: list[Record], damping: Literal["same", "ratio"], threads: int | None
+    scene: Scene, records: list[Record], damping: Literal["same", "ratio"], drift_cap: float, threads: int | None
 ) -> pl.DataFrame:
     """A `Fraction` as a table of one row."""
-    one = effective_mass(scene, records, damping=damping, fractions=SHARES, threads=threads)
+    how: dict[str, Any] = {"damping": damping, "drift_cap": drift_cap, "fractions": SHARES, "threads": threads}
+    one = effective_mass(scene, records, **how)
     low, high = one.interval or (None, None)
     types = {"value": pl.Float64, "kind": pl.String, "low": pl.Float64, "high": pl.Float64, "excess": pl.Float64}
     return pl.DataFrame([Fraction(one.value, one.kind, low, high, one.excess)], schema=types, orient="row")
