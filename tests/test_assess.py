@@ -623,7 +623,7 @@ def test_command_prints_page_and_json(tmp_path: Path, capsys: pytest.CaptureFixt
     assert main(["building", str(file), "--out", out, "--no-figures", "--mu-factors", "1", "1"]) == 0
     page = capsys.readouterr().out
     assert "two analyses; the larger drift" in page
-    assert page.rstrip().splitlines()[-1].startswith("25 files in ")
+    assert page.rstrip().splitlines()[-1].startswith("27 files in ")
     options = ["--json", "--no-figures", "--sds", "0.8", "--sd1", "0.5", "--code", "nbc", "--period", "0.6"]
     assert main(["building", str(file), "--out", out, *options]) == 0
     document = json.loads(capsys.readouterr().out)

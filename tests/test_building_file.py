@@ -488,7 +488,7 @@ MORE_WRONG: list[tuple[dict[str, Any], str]] = [
     ),
     (
         {"storeys": [{"use": "office"}, {}]},
-        r"storeys\[1\].use of building must be one of storage, ordinary, .*; got 'offi",
+        r"storeys\[1\].use of building must be one of storage, archive, .*; got 'offi",
     ),
     (
         {"storeys": [{"use": "ordinary"}, {}], "code": {"fraction": 0.1}},

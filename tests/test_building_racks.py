@@ -83,7 +83,10 @@ def test_walls_of_a_file() -> None:
     wall = sm.design.Wall.of_alpha_h(frame, 2.0)
     np.testing.assert_allclose(building.walls, wall.stiffness_matrix, rtol=1e-12)
     analysis = building.analysis()
-    np.testing.assert_allclose(building.structure().yield_shear, analysis.spring_shear / 4.0, rtol=1e-14)
+    # The base shear of the modes is below 85 % of that of lateral forces (ASCE/SEI 7-10, 12.9.4.1).
+    scale = building.code_design().scale
+    assert scale > 1.0
+    np.testing.assert_allclose(building.structure().yield_shear, scale * analysis.spring_shear / 4.0, rtol=1e-14)
     assert building.structure().periods[0] == pytest.approx(0.47, rel=1e-12)
 
 

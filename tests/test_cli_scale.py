@@ -147,7 +147,7 @@ def test_a_building_gives_period_and_pushover(tmp_path: Path, capsys: pytest.Cap
             ["--method", "mps", "--building", "b.toml", "--reduction", "4"],
             "--reduction of scale must be left out with --building; got 4",
         ),
-        (["--pairs"], "--pairs of scale must be given with --method asce7-16 and --records; got asce7-10"),
+        (["--pairs"], "--pairs of scale must be given with a rule of a code and --records; got asce7-10 without"),
         (
             ["--pairs", "--method", "asce7-16", "--records", ".", "--select", "3"],
             "--select of scale must be left out with --pairs; got 3",

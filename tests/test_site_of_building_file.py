@@ -31,7 +31,26 @@ CASES = {
     "strong": {"site": {"sds_g": 2.2, "sd1_g": 1.32}},
     "stated period": {"building": {"scaling_period_s": 0.8}},
     "two directions": {"other_direction": {"period_s": 0.65}},
+    "class III of Eurocode 8": {
+        "site": {"sds_g": None, "sd1_g": None, "target": "ec8:1:B:0.3"},
+        "code": {"id": "ec8"},
+        "building": {"risk_category": "III"},
+    },
+    "level 4 of New Zealand in two directions": {
+        "site": {"sds_g": None, "sd1_g": None, "target": "nzs1170:C:0.3"},
+        "code": {"id": "nzs1170.5"},
+        "building": {"risk_category": "IV"},
+        "other_direction": {"period_s": 0.65},
+    },
+    "category IV at MCE_R": {"code": {"id": "asce7-16"}, "building": {"risk_category": "IV"}},
 }
+RULES = {
+    "ec8": ("Eurocode 8", "Eurocode 8 elastic, type 1, ground B, a_gR = 0.3 g, gamma_I = 1.2"),
+    "nzs1170.5": ("NZS 1170.5", "NZS 1170.5 site class C, Z = 0.3, R = 1.8"),
+    "asce7-16": ("ASCE 7-16", "1.5 times ASCE 7 shape"),
+    "asce7-10": ("ASCE 7-10", "ASCE 7 shape"),
+}
+"""Rule of scaling of each code, and how the label of its spectrum begins or goes on."""
 
 
 @dataclass(frozen=True)
@@ -64,12 +83,14 @@ def case(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
         "storeys": [{}, {"live_load_kpa": 0}],
     }
     for name, changes in CASES[request.param].items():
-        tables[name] = tables.get(name, {}) | changes
+        merged = tables.get(name, {}) | changes
+        tables[name] = {key: value for key, value in merged.items() if value is not None}
     file, records = folder / "shed.json", folder / "records"
     file.write_text(json.dumps(tables))
     records.mkdir()
     own = sm.read_building(file)
-    for number, pair in enumerate(sm.records.builtin_pairs()[:3], start=1):
+    count = 11 if request.param == "category IV at MCE_R" else 3
+    for number, pair in enumerate(sm.records.builtin_pairs()[:count], start=1):
         for angle, record in list(zip(("000", "090"), pair, strict=False))[: 1 if own.other is None else 2]:
             peak = int(np.argmax(np.abs(pair.first.acceleration)))
             strong = record.acceleration[max(0, peak - round(2.0 / record.dt)) : peak + round(3.0 / record.dt)]
@@ -100,7 +121,8 @@ def printed(capsys: pytest.CaptureFixture[str], *words: object) -> str:
 
 def in_words(case: Case) -> str:
     """How motions are scaled, as every command says it."""
-    return f"ASCE 7-10 to {case.answer.target.label}, for T = {case.answer.scaling.period:.3g} s"
+    scaling = case.answer.scaling
+    return f"{RULES[case.own.code.code_id][0]} to {scaling.target_label}, for T = {scaling.period:.3g} s"
 
 
 def shared_by_building(case: Case, *_: Any) -> None:
@@ -108,10 +130,31 @@ def shared_by_building(case: Case, *_: Any) -> None:
     periods = [each.period(case.own.goods_mass) for each in (case.own, case.own.other) if each is not None]
     periods = [0.8] if case.own.scaling_period else periods
     target = case.own.site_spectrum()
-    within = (0.2 * min(periods) / max(periods), 1.5)
-    found = sm.scaling.scale_asce7_10(case.motions, target, max(periods), period_range=within, between=False)
+    code = case.own.code.code_id
+    assert RULES[code][1] in case.answer.scaling.target_label
+    assert case.answer.scaling.method == RULES[code][0]
+    if code == "asce7-10":
+        within = (0.2 * min(periods) / max(periods), 1.5)
+        found = sm.scaling.scale_asce7_10(case.motions, target, max(periods), period_range=within, between=False)
+    else:
+        lowest = [each.modes(case.own.goods_mass) for each in (case.own, case.own.other) if each is not None]
+        found = sm.scaling.scale_by_code(
+            case.motions,
+            target.times(1.5) if code == "asce7-16" else target,
+            max(periods),
+            code_id=code,
+            shortest_period=min(periods),
+            lowest_period=min(float(modes.periods[modes.modes_needed(0.9) - 1]) for modes in lowest),
+            ductility=3.0,
+            between=False,
+        )
     # 0.2 a/b in another order of its operations moves the ends of the range by rounding.
     np.testing.assert_allclose(case.answer.scaling.factors, found.factors, rtol=1e-12)
+    # The strengths are those of the code, with the importance factor of the category.
+    design = case.own.code_design()
+    direction = "x" if case.plane else ""
+    strengths = case.answer.tables["design"].filter(quantity="V_y", direction=direction)["value"]
+    assert strengths.to_list() == design.yield_shear.tolist()
 
 
 def shared_by_slip(case: Case, capsys: pytest.CaptureFixture[str], _: Any) -> None:
@@ -132,12 +175,13 @@ def shared_by_animate(case: Case, capsys: pytest.CaptureFixture[str], _: Any) ->
     words = ("animate", case.file, "--records", case.records, "--out", out, *(("--fps", "0.5") if case.plane else ()))
     shown = case.answer.example
     said = printed(capsys, *words)
-    assert f"Motion: {shown.motion.name} x {shown.factor:.3g}, motion {shown.number} of 3, that with the med" in said
+    place = f"motion {shown.number} of {len(case.motions)}, that with the med"
+    assert f"Motion: {shown.motion.name} x {shown.factor:.3g}, {place}" in said
     assert f"Scaling: {in_words(case)}." in said
     slip = 1e3 * sm.simulate(shown.scene, shown.motion).peak_slip
     largest = f"largest slip {slip[:, 2].max() if case.plane else slip.max():.3g} mm"
     assert largest in said
-    assert re.search(r" x 2, motion \d of 3.*\nScaling: motions x 2\.", printed(capsys, *words, "--factor", "2"))
+    assert re.search(r" x 2, motion \d+ of \d+.*\nScaling: motions x 2\.", printed(capsys, *words, "--factor", "2"))
 
 
 def shared_by_fragility(case: Case, capsys: pytest.CaptureFixture[str], _: Any) -> None:
@@ -199,10 +243,14 @@ def shared_by_risk(case: Case, capsys: pytest.CaptureFixture[str], monkeypatch: 
 
 
 def shared_by_scale(case: Case, capsys: pytest.CaptureFixture[str], _: Any) -> None:
-    words = ("scale", "--method", "mps", "--building", case.file, "--records", case.records, "--json")
-    document = json.loads(printed(capsys, *words))
+    words = ("scale", "--building", case.file, "--records", case.records, "--json")
+    document = json.loads(printed(capsys, *words, "--method", "mps"))
     assert document["period"] == pytest.approx(case.own.period(case.own.goods_mass), rel=1e-12)
-    assert document["target"] == case.answer.target.label
+    target = case.own.site_spectrum()
+    assert document["target"] == target.label
+    document = json.loads(printed(capsys, *words, *(["--pairs"] if case.plane else [])))
+    assert [row["factor"] for row in document["motions"]] == case.answer.scaling.factors.tolist()
+    assert document["method"] == case.answer.scaling.method
 
 
 def shared_by_target(case: Case, capsys: pytest.CaptureFixture[str], _: Any) -> None:
@@ -264,6 +312,10 @@ def test_a_target_stands_in_place_of_the_site(name: str, case: Case, capsys: pyt
     words += ["--measure", "scale", "--method", "stripes", "--intensity", "1"] if name == "fragility" else []
     out = "t.gif" if case.plane else "t.html"
     words += ["--out", str(case.folder / out), *(["--fps", "0.5"] * case.plane)] if name == "animate" else []
-    assert "ASCE 7-10 to Eurocode 8 elastic, type 1, ground C, a_gR = 0.3 g, for T = 0.4 s" in printed(capsys, *words)
+    own = case.own.motion_target(sm.TargetSpectrum.eurocode8(1, "C", agr_g=0.3))
+    method = RULES[case.own.code.code_id][0]
+    said = printed(capsys, *words)
+    assert own.label.removesuffix(", gamma_I = 1.2") in said
+    assert re.search(rf"{method} to .*, for T = 0\.4 s", said)
     assert main([*words, "--factor", "1"]) == 2
     assert f"--factor of {name} must be left out where a target is given; got 1" in capsys.readouterr().err

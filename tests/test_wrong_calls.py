@@ -169,6 +169,7 @@ CALLS: dict[str, tuple[Callable[..., Any], dict[str, Any]]] = {
     "mean_spectrum": (sm.spectra.mean_spectrum, {"motions": SUITE, "factors": [1.0, 1.0, 1.0], "periods": [0.5]}),
     "inelastic_spectrum": (sm.spectra.inelastic_spectrum, {"motions": RECORD, "periods": [0.5], "strength": [0.1]}),
     "scale_asce7_10": (sm.scaling.scale_asce7_10, {"records": SUITE, "target": TARGET, "period": 0.5}),
+    "scale_by_code": (sm.scaling.scale_by_code, {"records": MANY, "target": TARGET, "period": 0.5, "code_id": "ec8"}),
     "scale_asce7_16": (sm.scaling.scale_asce7_16, {"records": MANY, "target": TARGET, "period": 0.5}),
     "scale_sa_t1": (sm.scaling.scale_sa_t1, {"records": SUITE, "target": TARGET, "period": 0.5}),
     "scale_least_squares": (sm.scaling.scale_least_squares, {"records": SUITE, "target": TARGET, "period": 0.5}),

@@ -40,6 +40,7 @@ def fill(page: Page) -> None:
         periods,
         design.distribution_table().select("code_id", pl.col("exponent").alias("k"), "top", "clause", "status"),
         limits.select("code_id", "structure", "I", "II", "III", "IV", *index[2:]),
+        design.rules_table().drop("code").rename({"code_id": "code"}),
         design.system_table().select("system_id", "system", "R", "omega_0", "C_d"),
     ):
         page.tables(table(" | ".join(frame.columns), (map(cell, row) for row in frame.iter_rows())))

@@ -9,7 +9,7 @@ import numpy as np
 import polars as pl
 
 from seismass.assessment.answer import Answer, presence_sentence
-from seismass.assessment.building import DEFAULT_THETA_LIMIT, OwnBuilding
+from seismass.assessment.building import DEFAULT_RULES, DEFAULT_THETA_LIMIT, OwnBuilding
 from seismass.assessment.checks import drift_source, friction_words
 from seismass.assessment.floors import BY_RULE, LARGER, NOTHING_STATED, FloorGoods
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, SLIDING, SLIDING_ALL
@@ -18,11 +18,12 @@ from seismass.assessment.structure import base_advice, rule_advice, support_rema
 from seismass.base.statistics import CAPPED_MEAN
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.design import THETA_THRESHOLD
-from seismass.design.scaling import ScalingResult
+from seismass.design.rules import rule_of, weakest
+from seismass.design.scaling import GEOMETRIC_MEAN, ScalingResult
 from seismass.effective_mass import EffectiveMass
 from seismass.effective_mass.estimate import RULE_UNKNOWN, one_direction_of_slip
 from seismass.media.text_table import numbers_text
-from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
+from seismass.model.codes import AS_STATED, CODE_NAMES, NOT_CHECKED, STORED, VERIFIED
 from seismass.model.friction import BOUND_FACTORS, BOUNDS_SOURCE, friction_pair
 from seismass.model.occupancy import USUAL, surveyed_load
 from seismass.motions.spectra import TargetSpectrum
@@ -48,16 +49,15 @@ def code_mass_remarks(building: OwnBuilding) -> list[str]:
             f"{code.code} has {code.low:g} to {code.high:g} for the use {code.use}, and {code.fraction:g} is taken: "
             f"{code.note} (another use, or fraction)"
         )
-    uses = [one.use or building.code.use for one in building.floor_codes]
     if any(
-        kind.presence.endswith(NOTHING_STATED) and kind.mass and uses[kind.floor - 1] in ("storage", "archive")
+        kind.presence.endswith(NOTHING_STATED) and kind.mass and (kind.use or code.use) in STORED
         for kind in building.loose
     ):
         remarks.append(f"floors of storage are taken as full, {NOTHING_STATED} (occupied, or occupancy)")
     full = [
         str(kind.floor)
         for kind in building.loose
-        if uses[kind.floor - 1] == "ordinary" and kind.occupied == 1.0 and kind.mass
+        if (kind.use or code.use) == "ordinary" and kind.occupied == 1.0 and kind.mass
     ]
     if full:
         usual = surveyed_load(USUAL)
@@ -126,7 +126,7 @@ def _presence_remark(building: OwnBuilding, there: list[FloorGoods]) -> str:
 def code_remark(building: OwnBuilding) -> str:
     """Return what the code counts, floor by floor where they differ."""
     code = building.code
-    parts = [f"{code.code}, {code.use}" + " (none was stated)" * (not building.code_stated)]
+    parts = [f"{code.code}, {building.uses}" + " (none was stated)" * (not building.code_stated)]
     parts[0] += f", {code.fraction:g} of the design live load"
     if any(one != (code.fraction, "") for one in building.counted):
         parts[0] += (
@@ -307,7 +307,7 @@ def assumptions_of(
     """Return everything that was assumed, sentence by sentence; `period` is the sentence on the first period."""
     return (
         *_motion_remarks(building, target, scaling, suite),
-        *_structure_remarks(building),
+        *_structure_remarks(building, target),
         *period,
         *_limit_remarks(building),
         *goods_remarks(building),
@@ -339,15 +339,36 @@ def _motion_remarks(
     fits = abs(period / longest_period - 1.0) < 1e-9
     direction = " of the more flexible direction" if building.other is not None else ""
     which = f"first period{direction} with the goods present attached" if fits else "as asked for"
-    both = "one factor for both components, geometric " if suite["pairs"] else ""
     return [
         *lines,
-        f"Scaling: ASCE/SEI 7-10, 16.1.3.1, {both}mean not below the target from {shortest:.3g} to {longest:.3g} s, "
-        f"for T = {period:.3g} s ({which}).",
+        f"Scaling: {_rule_of_scaling(building, pairs=suite['pairs'])} from {shortest:.3g} to {longest:.3g} s, for T = "
+        f"{period:.3g} s ({which}).",
+        *(f"Scaling, note: {note}." for note in scaling.notes),
     ]
 
 
-def _structure_remarks(building: OwnBuilding) -> list[str]:
+def _rule_of_scaling(building: OwnBuilding, *, pairs: bool) -> str:
+    """The rule by which motions are scaled, with its clauses and how they were checked."""
+    name = building.scaling_code
+    base = DEFAULT_RULES if name == GEOMETRIC_MEAN else name
+    parts = [rule_of(base, "pairs")] if pairs else []
+    parts += [rule_of(base, "share of target", "pairs")] if pairs else []
+    parts += [rule_of(base, "k2" if name == "nzs1170.5" else "share of target")]
+    rules = [rule for rule in parts if rule is not None]
+    clauses, status = ", ".join(dict.fromkeys(rule.clause for rule in rules)), weakest([rule.status for rule in rules])
+    words = [f"{rules[0].code}, {clauses}" + (f" ({status})" if status != VERIFIED else "")]
+    if building.code.code_id != name and not building.scaling:
+        words.append(f"as no rule of {building.code.code} is known here")
+    if pairs:
+        value = "geometric mean" if name == GEOMETRIC_MEAN else rules[0].value
+        words.append(f"one factor for both components, {value} of a pair")
+    if name == "nzs1170.5":
+        return ", ".join([*words, "k_1 of each record and k_2 of the family"])
+    least = (rules[1:] or rules)[0].number if pairs else rules[0].number
+    return ", ".join([*words, f"mean not below {'' if least == 1.0 else f'{least:g} of '}the target"])
+
+
+def _structure_remarks(building: OwnBuilding, target: TargetSpectrum | None) -> list[str]:
     lines = [
         "Shear building: rigid floors, one degree of freedom per floor, trilinear storeys with Masing unloading, no "
         "loss of strength but by P-Delta.",
@@ -359,9 +380,14 @@ def _structure_remarks(building: OwnBuilding) -> list[str]:
     else:
         rule = building.design
         lines.append(
-            f"Strength: V_y = V_e/R with R = {rule.R:g}, response spectrum analysis ({rule.combination.upper()}) under "
-            f"the site spectrum, with {building.design_fraction:g} of the design live load as mass."
+            f"Strength: V_y = V_e I/R with R = {rule.R:g}, response spectrum analysis ({rule.combination.upper()}) "
+            f"under the site spectrum, with {building.design_fraction:g} of the design live load as mass, by the rules "
+            f"of {CODE_NAMES[building.rules_code]} for category {building.risk_category}"
+            f"{' (none was stated)' * (not building.category_stated)}; the table of the design has the numbers."
         )
+        lines += [f"Not applied: {sentence}." for sentence in building.code_design(target).not_applied]
+        if building.rules_code != building.code.code_id:
+            lines.append(f"Not applied: no rule of design of {building.code.code} is known here.")
     first = building.damping_from_storey
     place = "" if first == 1 else f" above floor {first - 1}; the storeys below are not damped"
     lines.append(

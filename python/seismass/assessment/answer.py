@@ -239,7 +239,9 @@ def motions_sentence(suite: dict[str, Any], scaling: ScalingResult | None) -> st
         how = "taken as they are"
     else:
         low, high = float(np.min(scaling.factors)), float(np.max(scaling.factors))
-        how = f"scaled by {low:.2f} to {high:.2f} so that their mean is not below the site spectrum (ASCE/SEI 7-10)"
+        how = f"scaled by {low:.2f} to {high:.2f} to {scaling.target_label} by the rule of {scaling.method}"
+        if scaling.method == "ASCE 7-10":
+            how = f"scaled by {low:.2f} to {high:.2f} so that their mean is not below the site spectrum (ASCE/SEI 7-10)"
     advice = "; use recordings of the site's hazard for a decision" if synthetic else ""
     return f"on {kind}, {how}{advice}"
 

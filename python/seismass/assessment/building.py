@@ -5,7 +5,7 @@ It makes the models that are compared: goods that slide, and a share of them att
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import date, datetime
 from pathlib import Path
 from typing import Final
@@ -20,19 +20,27 @@ from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, content_hash, printable, refusal, same_content, short_repr
 from seismass.base.views import Card
 from seismass.design import (
+    DRIFT_LIMIT_CODES,
     THETA_CAP,
+    CodeDesign,
     Combination,
     DriftLimit,
+    Modes,
     PeriodRule,
     SpectrumAnalysis,
+    design_by_code,
+    drift_limit,
     response_spectrum_analysis,
     vibration_modes,
 )
+from seismass.design.rules import RULES, rule_of
+from seismass.design.scaling.by_code import SCALING_CODES
 from seismass.model.block import Block, SlidingBase
 from seismass.model.building import DEFAULT_DAMPING, Building
 from seismass.model.codes import CodeFraction
 from seismass.model.scene import Scene
 from seismass.motions.spectra import TargetSpectrum
+from seismass.motions.spectra.target import target_of_parameters
 
 PROJECT: Final = ("name", "number", "author", "checker", "date")
 """Keys of the table."""
@@ -82,20 +90,24 @@ def _date(table: Table) -> str:
         table.refuse("date", "a date, such as 2026-11-25", brief(value))
 
 
-DEFAULT_DRIFT_LIMIT: Final = 0.020
-"""Allowable drift ratio: ASCE/SEI 7-10, table 12.12-1, other structures of risk category I or II."""
 DEFAULT_THETA_LIMIT: Final = THETA_CAP
 """Largest stability coefficient of ASCE/SEI 7-10, 12.8.7: 0.5/(beta C_d), at most 0.25."""
 
 
+RULE_CODES: Final = tuple(dict.fromkeys(rule.code_id for rule in RULES))
+"""Codes of which some rule of design is known here."""
+DEFAULT_RULES: Final = "asce7-10"
+"""Code whose rules hold where those of the file's code are not known here."""
+
+
 @dataclass(frozen=True)
 class DesignRule:
-    """How strengths are found where they are not stated: V_y = V_e/R by response spectrum analysis.
+    """How strengths are found where they are not stated: by the rules of the code, with response spectrum analysis.
 
     Attributes
     ----------
     R : float
-        Response modification factor, at least 1.
+        The code's reduction of forces, at least 1: R, q in Eurocode 8, R_d R_o in NBC, mu in NZS 1170.5.
     fraction : float or None
         Fraction of the design live load in the mass of the design; None: that of the code.
     combination : {"srss", "cqc"}
@@ -181,6 +193,16 @@ class OwnBuilding(Card):
         What the building slides on; None on firm ground.
     other : OwnBuilding or None
         The building in y, where there are two directions: with the same masses, goods and limits.
+    risk_category : {"I", "II", "III", "IV"}
+        Risk category, importance class or level, by which the code's importance factor and limits are taken.
+    category_stated : bool
+        Whether the file states it.
+    system : str
+        Structural system, whose approximate period limits the period of the design; empty where none is stated.
+    s_1 : float or None
+        Mapped spectral acceleration at 1 s (g), for the least base shear of ASCE 7 near faults.
+    scaling : str
+        Rule of scaling that the file states; empty: that of the code.
     """
 
     name: str
@@ -221,6 +243,11 @@ class OwnBuilding(Card):
     walls_stated: str = ""
     base: SlidingBase | None = None
     other: OwnBuilding | None = None
+    risk_category: str = "II"
+    category_stated: bool = False
+    system: str = ""
+    s_1: float | None = None
+    scaling: str = ""
 
     __repr__ = short_repr
     __eq__ = same_content
@@ -283,6 +310,18 @@ class OwnBuilding(Card):
         return float(self.goods_mass.sum()) / total if total > 0.0 else 0.0
 
     @property
+    def uses(self) -> str:
+        """Uses of the goods in words, with their floors where there are several."""
+        floors: dict[str, list[int]] = {}
+        for kind in self.loose:
+            if kind.live_load > 0.0:
+                floors.setdefault(kind.use or self.code.use, []).append(kind.floor)
+        if len(floors) < 2:
+            return next(iter(floors), self.code.use)
+        listed = {use: ", ".join(map(str, dict.fromkeys(floor_kinds))) for use, floor_kinds in floors.items()}
+        return " and ".join(f"{use} (floor {floor_kinds})" for use, floor_kinds in listed.items())
+
+    @property
     def code_mass(self) -> FloatArray:
         """What the code counts of the live load on each floor (kg), shape (storeys,)."""
         counted: FloatArray = np.array([one.fraction for one in self.counted]) * self.live_load
@@ -312,10 +351,38 @@ class OwnBuilding(Card):
         stated = None if self.design is None else self.design.fraction
         return self.code_share if stated is None else stated
 
+    def modes(self, attached: FloatArray | float = 0.0) -> Modes:
+        """Return the vibration modes with a mass attached to each floor (kg)."""
+        mass = self.mass + self.frames + attached
+        return vibration_modes(mass, self.stiffness, stiffness_matrix=self.walls)
+
     def period(self, attached: FloatArray | float = 0.0) -> float:
         """Return the first period (s) with a mass attached to each floor (kg)."""
-        mass = self.mass + self.frames + attached
-        return float(vibration_modes(mass, self.stiffness, stiffness_matrix=self.walls).periods[0])
+        return float(self.modes(attached).periods[0])
+
+    @property
+    def rules_code(self) -> str:
+        """The code whose rules of design hold: that of the file, or ASCE 7-10 where none of its rules are known."""
+        return self.code.code_id if self.code.code_id in RULE_CODES else DEFAULT_RULES
+
+    @property
+    def scaling_code(self) -> str:
+        """The rule by which motions are scaled: that of the file, else that of the code, else that of ASCE 7-10."""
+        if self.scaling:
+            return self.scaling
+        return self.rules_code if self.rules_code in SCALING_CODES else DEFAULT_RULES
+
+    @property
+    def pairs_as(self) -> str:
+        """What stands for a pair of motions in that rule: "srss", "maximum direction", ..."""
+        rule = rule_of(self.scaling_code, "pairs")
+        return "geometric mean" if rule is None or rule.value == "principal" else rule.value
+
+    def motion_target(self, target: TargetSpectrum | None = None) -> TargetSpectrum:
+        """Return the spectrum of the level that motions are scaled to: in ASCE 7-16 and 7-22 MCE_R."""
+        level = rule_of(self.scaling_code, "level")
+        spectrum = self.site_spectrum(target)
+        return spectrum if level is None or level.number == 1.0 else spectrum.times(level.number)
 
     def analysis(self, target: TargetSpectrum | None = None, attached: FloatArray | None = None) -> SpectrumAnalysis:
         """Return the response spectrum analysis of the building with the mass of its design.
@@ -341,9 +408,45 @@ class OwnBuilding(Card):
             damping=self.damping or DEFAULT_DAMPING,
         )
 
+    def code_design(self, target: TargetSpectrum | None = None, attached: FloatArray | None = None) -> CodeDesign:
+        """Return the design of the strengths by the code.
+
+        Parameters
+        ----------
+        target, attached
+            As for `analysis`.
+
+        Raises
+        ------
+        InvalidOption
+            As for `analysis`, or the strengths are stated and not designed.
+        """
+        if self.design is None:
+            requirement = "designed (building.design = true); they are as stated"
+            raise refusal(InvalidOption, "strengths", f"building {self.name}", requirement, "no design")
+        return design_by_code(
+            self.mass + self.frames + (self.design_mass if attached is None else attached),
+            self.stiffness,
+            self.site_spectrum(target),
+            self.design.R,
+            code_id=self.rules_code,
+            risk_category=self.risk_category,
+            system=self.system,
+            height=None if self.heights is None else float(self.heights.sum()),
+            s_1=self.s_1,
+            stiffness_matrix=self.walls,
+            combination=self.design.combination,
+            damping=self.damping or DEFAULT_DAMPING,
+        )
+
     def site_spectrum(self, target: TargetSpectrum | None = None) -> TargetSpectrum:
-        """Return the spectrum given, or else the building's own; a missing one is refused."""
+        """Return the spectrum given, or else the building's own; a missing one is refused. The importance factor of
+        Eurocode 8 and the return period factor of NZS 1170.5 are those of the category where the spectrum has none.
+        """
         spectrum = self.target if target is None else target
+        rule = rule_of(self.rules_code, "importance", "spectrum")
+        if self.category_stated and rule is not None and isinstance(spectrum, TargetSpectrum):
+            spectrum = with_importance(spectrum, rule.of(self.risk_category))
         if not isinstance(spectrum, TargetSpectrum):
             requirement = (
                 "given: [site] in the file (sds_g and sd1_g, target or spectrum_csv), --target, or an argument"
@@ -368,8 +471,7 @@ class OwnBuilding(Card):
         """
         strength = self.yield_shear
         if strength is None and self.design is not None:
-            # Without walls the springs carry the storey shear; walls stay elastic.
-            strength = self.analysis(target, attached).spring_shear / self.design.R
+            strength = self.code_design(target, attached).yield_shear
         return Building(
             self.mass,
             self.stiffness,
@@ -434,3 +536,29 @@ class OwnBuilding(Card):
             name=self.name,
             note=self.note,
         )
+
+
+def limit_at_level(row: DriftLimit, scaling: str) -> float:
+    """Return the limit of the drift ratio of a code at the level of a rule of scaling: of ASCE 7 twice it at MCE_R."""
+    factor, level = rule_of(row.code_id, "drift factor"), rule_of(scaling, "level")
+    return row.ratio if factor is None or level is None or level.number == 1.0 else factor.number * row.ratio
+
+
+def with_code(building: OwnBuilding, code: CodeFraction) -> OwnBuilding:
+    """Return the building under another code: its fraction, and its rules and limits where the file states none."""
+    changed = replace(building, code=code, code_stated=True)
+    row = building.drift_limit_rule
+    if row is not None:
+        structure = row.structure if code.code_id == row.code_id else "other"
+        known = code.code_id in DRIFT_LIMIT_CODES
+        row = drift_limit(code.code_id if known else DEFAULT_RULES, building.risk_category, structure)
+        changed = replace(changed, drift_limit=limit_at_level(row, changed.scaling_code), drift_limit_rule=row)
+    other = None if building.other is None else with_code(building.other, code)
+    return replace(changed, other=other)
+
+
+def with_importance(target: TargetSpectrum, factor: float) -> TargetSpectrum:
+    """Return a spectrum of Eurocode 8 or NZS 1170.5 with an importance or return period factor where it has none."""
+    known = target.parameters
+    name = {"eurocode8": "importance", "nzs1170": "r"}.get(known["shape"], "")
+    return target_of_parameters(known | {name: factor}) if name and known[name] == 1.0 != factor else target

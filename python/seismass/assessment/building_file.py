@@ -41,11 +41,13 @@ from seismass.assessment.file_site import (
     LIMIT,
     PERIOD,
     SITE,
+    category_of,
     check_period,
     code_of,
     floor_codes,
     limit_of,
     period_of,
+    scaling_of,
     site_of,
 )
 from seismass.assessment.floors import by_floor, counted_fractions
@@ -156,6 +158,7 @@ _OF_BUILDING: Final = {
     "design_fraction": ("design_fraction",),
     "combination": ("combination",),
     "drift_limit": ("drift_limit", "risk_category"),
+    "risk_category": ("risk_category",),
     "theta_limit": ("theta_limit",),
     "collapse": ("collapse_drift_ratio",),
     "drift_cap": ("drift_cap",),
@@ -224,7 +227,7 @@ _STOREY: Final = (
     "second_slope",
     "third_slope",
 )
-_KIND: Final = (*PRESENT, *FRICTION, "mu_k", *SUPPORT)
+_KIND: Final = ("use", *PRESENT, *FRICTION, "mu_k", *SUPPORT)
 _GOODS: Final = (*LIVE_LOAD, *_KIND)
 _DESIGN: Final = ("R", "design_fraction", "combination")
 KEYS: Final = {
@@ -244,7 +247,7 @@ KEYS: Final = {
     ),
     "project": PROJECT,
     "site": SITE,
-    "code": ("id", "use", "fraction"),
+    "code": ("id", "use", "fraction", "scaling"),
     "building": (
         *PERIOD,
         "damping",
@@ -262,7 +265,7 @@ KEYS: Final = {
     "walls": WALL_KEYS,
     "base": BASE_KEYS,
     "goods": ("mu_factors", *_GOODS),
-    "storeys": ("name", "use", "fraction", "exempt", "goods", *_STOREY, *_GOODS),
+    "storeys": ("name", "fraction", "exempt", "goods", *_STOREY, *_GOODS),
     "storeys.goods": ("name", "share", "attached", *_KIND),
     "other_direction": OTHER_DIRECTION,
 }
@@ -351,7 +354,7 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
     frame = np.array([_mass(storey, building) for storey in storeys])
     heights = _heights(storeys, building)
     fraction = code_of(code)
-    of_floors = floor_codes(storeys, fraction)
+    of_floors = floor_codes(storeys, goods_table, fraction)
     strength, design = _strength(storeys, building, frame)
     area = np.array([positive(storey, building, "area_m2", np.nan) for storey in storeys])
     kinds = tuple(
@@ -363,7 +366,7 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
             goods_table,
             live_load_of(storey, goods_table, building),
             float(area[number - 1]),
-            of_floors[number - 1].use or fraction.use,
+            (of_floors[number - 1].use, fraction.use),
         )
     )
     loose, bolted = (tuple(kind for kind in kinds if kind.attached == fixed) for fixed in (False, True))
@@ -386,7 +389,8 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
         live_load = by_floor(loose, [kind.live_load for kind in loose], len(storeys))
         shares = [one.fraction for one in counted_fractions(fraction, of_floors, mass, kinds, area)]
         counted["code share"] = fixed + np.array(shares) * live_load
-    limit, limit_rule = limit_of(building, fraction)
+    scaling = scaling_of(code)
+    limit, limit_rule = limit_of(building, fraction, scaling or fraction.code_id)
     stiffness = _stiffness(storeys, building, frame, counted[period.mass], period.value)
     wall_matrix = walls_of(walls, building, frame + counted[period.mass], stiffness, heights, period.value)
     if wall_matrix is not None and "damping_from_storey" in building.values:
@@ -422,7 +426,7 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
         target=site_of(site, Path() if path is None else path.parent),
         code=fraction,
         floor_codes=of_floors,
-        code_stated=bool(code.values),
+        code_stated=bool(code.values.keys() - {"scaling"}),
         drift_limit=limit,
         drift_limit_rule=limit_rule,
         theta_limit=building.number("theta_limit", DEFAULT_THETA_LIMIT, POSITIVE),
@@ -435,6 +439,11 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
         walls=None if wall_matrix is None else wall_matrix.matrix,
         walls_stated="" if wall_matrix is None else wall_matrix.how,
         base=base_of(base),
+        risk_category=category_of(building),
+        category_stated="risk_category" in building.values,
+        system=building.text("system"),
+        s_1=_optional(site, "s1_g"),
+        scaling=scaling,
     )
 
 

@@ -9,15 +9,17 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from seismass.assessment.building import DEFAULT_DRIFT_LIMIT, DEFAULT_THETA_LIMIT, OwnBuilding
+from seismass.assessment.building import DEFAULT_THETA_LIMIT, OwnBuilding
 from seismass.assessment.models import ADVISED, BARE, SLIDING, SLIDING_ALL, SLIDING_HIGH, SLIDING_LOW, friction_factors
+from seismass.assessment.structure import design_table
 from seismass.base.statistics import CAPPED_MEAN, QUANTILES, capped, statistics_of
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
-from seismass.design import THETA_THRESHOLD, drift_limit
+from seismass.design import THETA_THRESHOLD
+from seismass.design.rules import rule_of
 from seismass.effective_mass import EffectiveMass
 from seismass.effective_mass.models import quantile_interval
-from seismass.model.codes import FROM_MEMORY, NOT_CHECKED, VERIFIED
+from seismass.model.codes import CODE_NAMES, FROM_MEMORY, NOT_CHECKED, VERIFIED
 from seismass.model.scene import Scene
 from seismass.motions.spectra import TargetSpectrum
 
@@ -95,13 +97,15 @@ def drift_source(building: OwnBuilding) -> str:
     """Return where the limit of the drift ratio is from, what it limits there, and how it was checked."""
     row = building.drift_limit_rule
     if row is None:
-        if building.drift_limit != DEFAULT_DRIFT_LIMIT:
-            return "as stated"
-        row, categories = drift_limit("asce7-10"), "risk category I or II"
-    else:
-        categories = f"{row.structure}, risk category or importance class {row.risk_category}"
+        return "as stated"
+    categories = f"{row.structure}, risk category or importance class {row.risk_category}"
+    if not building.category_stated:
+        categories += " (none was stated)"
     checked = row.status if row.status == VERIFIED else f"{row.status}; {NOT_CHECKED}"
-    note = f"; {row.note}" if row.note and building.drift_limit_rule is not None else ""
+    note = f"; {row.note}" if row.note else ""
+    factor = rule_of(row.code_id, "drift factor")
+    if factor is not None and building.drift_limit != row.ratio:
+        note += f"; {factor.number:g} times it at MCE_R ({factor.clause}, {factor.status})"
     return f"{row.code}, {row.clause}, {categories} ({checked}); it limits {row.of}, here nonlinear drift{note}"
 
 
@@ -172,6 +176,9 @@ def input_document(building: OwnBuilding, target: TargetSpectrum | None) -> dict
         "theta_limit": building.theta_limit if building.heights is not None else None,
         "collapse_drift_ratio": building.collapse_drift_ratio,
         "drift_cap": building.drift_cap,
+        "risk_category": building.risk_category,
+        "code_of_design": CODE_NAMES[building.rules_code],
+        "code_design": design_table(building, target).to_dicts(),
         "base": None if base is None else {"mu_s": base.mu_s, "mu_k": base.mu_k, "radius": base.radius},
         "other_direction": None if building.other is None else _in_y(building.other, target),
         "walls": building.walls is not None,

@@ -152,19 +152,18 @@ def live_load_of(storey: Table, goods_table: Table, building: Table) -> float:
 
 
 def kinds_of(
-    floor: int, storey: Table, goods_table: Table, live_load: float, area: float, use: str
+    floor: int, storey: Table, goods_table: Table, live_load: float, area: float, uses: tuple[str, str]
 ) -> tuple[FloorGoods, ...]:
     """Return the goods of a floor, kind by kind. Floors count from 1; `live_load` is the design live load as a mass
-    (kg), `area` in m2, NaN where it is not known.
+    (kg), `area` in m2, NaN where it is not known, `uses` that of the floor (empty: none is stated) and of the file.
     """
     tables = storey.tables("goods")
     if not tables:
         levels = (storey, goods_table)
-        share, how, source = _present(levels, live_load, area, use)
+        share, how, source = _present(levels, live_load, area, uses[0] or uses[1])
         contact = _friction(levels) if live_load * share > 0.0 else ("", 0.0, 0.0)
-        return (
-            FloorGoods(floor, "", live_load, share, how, False, *contact, rack_of(levels), stops_of(levels), source),
-        )
+        neighbours = (rack_of(levels), stops_of(levels))
+        return (FloorGoods(floor, "", live_load, share, how, False, *contact, *neighbours, source, uses[0]),)
     shares = [table.number("share", need=SHARE) if "share" in table.values else np.nan for table in tables]
     total = sum(shares)
     if not abs(total - 1.0) <= SUM_ERROR:
@@ -180,12 +179,11 @@ def kinds_of(
             share, how, _ = _present((table,), live_load, area, "")
             kinds.append(FloorGoods(floor, name, load, share, how, True, "", 0.0, 0.0))
             continue
-        places = (table, storey, goods_table)
-        share, how, source = _present(places, live_load, area, use)
+        places, uses_of_kind = (table, storey, goods_table), table.text("use") or uses[0]
+        share, how, source = _present(places, live_load, area, uses_of_kind or uses[1])
         contact = _friction(places) if load * share > 0.0 else ("", 0.0, 0.0)
-        kinds.append(
-            FloorGoods(floor, name, load, share, how, False, *contact, rack_of(places), stops_of(places), source)
-        )
+        neighbours = (rack_of(places), stops_of(places))
+        kinds.append(FloorGoods(floor, name, load, share, how, False, *contact, *neighbours, source, uses_of_kind))
     return tuple(kinds)
 
 

@@ -9,7 +9,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 import polars as pl
 
-from seismass.assessment.building import DEFAULT_DRIFT_LIMIT
+from seismass.assessment.building import limit_at_level
 from seismass.assessment.floors import FloorCode
 from seismass.base.errors import InvalidOption
 from seismass.base.input_table import POSITIVE, SHARE, Table
@@ -24,14 +24,16 @@ from seismass.design import (
     drift_limit,
     drift_limit_table,
 )
+from seismass.design.rules import CATEGORIES
 from seismass.design.scaling.asce7 import spectra_of
+from seismass.design.scaling.by_code import SCALING_CODES
 from seismass.model.codes import AS_STATED, CodeFraction, code_fraction
 from seismass.model.plausibility import PERIOD_RANGE
 from seismass.motions.scaling.suite import target_of
 from seismass.motions.spectra import DEFAULT_TL, TargetSpectrum
 from seismass.motions.spectra.tables import file_and_words
 
-SITE: Final = ("sds_g", "sd1_g", "tl_s", "spectrum_csv", "target")
+SITE: Final = ("sds_g", "sd1_g", "tl_s", "s1_g", "spectrum_csv", "target")
 """Keys of the site."""
 PERIOD: Final = ("period_s", "system", "period_code", "period_mass")
 """Keys of the first period."""
@@ -47,7 +49,7 @@ def site_of(site: Table, folder: Path) -> TargetSpectrum | None:
         return None
     for whole in ("target", "spectrum_csv"):
         for key in SITE:
-            if key != whole:
+            if key not in (whole, "s1_g"):
                 site.excluded(key, whole)
     if "target" in site.values:
         try:
@@ -81,9 +83,9 @@ class StatedPeriod(NamedTuple):
 
 def period_of(building: Table, heights: FloatArray | None, storeys: int, code: CodeFraction) -> StatedPeriod:
     """Return the first period: as stated, or by the formula of a code for a structural system and the height."""
-    building.excluded("period_s", "system")
-    if "system" not in building.values:
-        building.left_out(("period_code",), f"{building.key('system')} is not given")
+    if "system" not in building.values or "period_s" in building.values:
+        if "system" not in building.values:
+            building.left_out(("period_code",), f"{building.key('system')} is not given")
         if "period_mass" in building.values:
             building.needed("period_s", "system")
         value = building.number("period_s", need=POSITIVE) if "period_s" in building.values else None
@@ -105,18 +107,36 @@ def _mass(building: Table, default: str) -> str:
     return mass
 
 
-def limit_of(building: Table, code: CodeFraction) -> tuple[float, DriftLimit | None]:
-    """Return the limit of the drift ratio, and the row of the code that gave it; None where it was stated."""
-    by_code = ("risk_category", "drift_class", "drift_limit_code")
-    if not any(key in building.values for key in by_code):
-        return building.number("drift_limit", DEFAULT_DRIFT_LIMIT, POSITIVE), None
-    building.left_out(("drift_limit",), f"{building.key(next(iter(building.subset(*by_code))))} is given", "both")
+def limit_of(building: Table, code: CodeFraction, scaling: str) -> tuple[float, DriftLimit | None]:
+    """Return the limit of the drift ratio at the level of a rule of scaling, and the row of the code that gave it (of
+    ASCE 7-10 where the code has none); None where it was stated.
+    """
+    by_code = ("drift_class", "drift_limit_code")
+    category = category_of(building)
+    asked = any(key in building.values for key in by_code)
+    if "drift_limit" in building.values:
+        building.left_out(by_code, f"{building.key('drift_limit')} is given", "both")
+        return building.number("drift_limit", need=POSITIVE), None
+    if not asked and code.code_id not in DRIFT_LIMIT_CODES:
+        row = drift_limit(DEFAULT_CODE, category)
+        return limit_at_level(row, scaling), row
     code_id = _code_id(building, "drift_limit_code", code, DRIFT_LIMIT_CODES, "drift limits are known here")
     of_code = drift_limit_table().filter(code_id=code_id)
-    category = building.choice("risk_category", of_code["risk_category"].unique(maintain_order=True), "II")
     structure = building.choice("drift_class", of_code["structure"].unique(maintain_order=True), "other")
     row = drift_limit(code_id, category, structure)
-    return row.ratio, row
+    return limit_at_level(row, scaling), row
+
+
+def category_of(building: Table) -> str:
+    """Return the risk category that the file states, or II."""
+    return building.choice("risk_category", CATEGORIES, "II")
+
+
+def scaling_of(table: Table) -> str:
+    """Return the rule of scaling that the file states; empty where it states none."""
+    if "scaling" not in table.values:
+        return ""
+    return table.choice("scaling", SCALING_CODES)
 
 
 def check_period(building: Table, period: StatedPeriod, stiffness: FloatArray, geometric: FloatArray) -> None:
@@ -167,25 +187,33 @@ def code_of(table: Table) -> CodeFraction:
         table.refuse_as(key, error)
 
 
-def floor_codes(storeys: list[Table], code: CodeFraction) -> tuple[FloorCode, ...]:
-    """Return what the tables of the storeys say for the code: `use`, or `fraction`, and `exempt`."""
+def floor_codes(storeys: list[Table], goods: Table, code: CodeFraction) -> tuple[FloorCode, ...]:
+    """Return what the tables of the storeys, or of all goods, say for the code: `use`, or `fraction`, and `exempt`."""
     codes = []
+    of_all = _use(goods, code)
     for storey in storeys:
         storey.one_of("use", "fraction")
         exempt = storey.flag("exempt", False) if "exempt" in storey.values else None
         if exempt:
             storey.one_of("use", "fraction", "exempt")
         fraction = storey.number("fraction", need=SHARE) if "fraction" in storey.values else np.nan
-        use = storey.text("use")
-        if use and code.status == AS_STATED:
-            storey.refuse("use", "left out where code.fraction is given", "both")
-        if use:
-            try:
-                code_fraction(code.code_id, use)  # type: ignore[arg-type]
-            except InvalidOption as error:
-                storey.refuse_as("use", error)
-        codes.append(FloorCode(fraction, use, exempt))
+        for kind in storey.tables("goods"):
+            _use(kind, code)
+        codes.append(FloorCode(fraction, _use(storey, code) or of_all, exempt))
     return tuple(codes)
+
+
+def _use(table: Table, code: CodeFraction) -> str:
+    """The use that a table states, of which the code must say something; empty where it states none."""
+    use = table.text("use")
+    if use and code.status == AS_STATED:
+        table.refuse("use", "left out where code.fraction is given", "both")
+    if use:
+        try:
+            code_fraction(code.code_id, use)  # type: ignore[arg-type]
+        except InvalidOption as error:
+            table.refuse_as("use", error)
+    return use
 
 
 PERIODS: Final[FloatArray] = np.round(np.geomspace(0.05, 5.0, 81), 4)
@@ -193,11 +221,13 @@ PERIODS: Final[FloatArray] = np.round(np.geomspace(0.05, 5.0, 81), 4)
 DAMPING: Final = 0.05
 
 
-def spectra_table(motions: Sequence[Any], target: TargetSpectrum | None, *, threads: int | None = None) -> pl.DataFrame:
+def spectra_table(
+    motions: Sequence[Any], target: TargetSpectrum | None, pairs: str = "srss", *, threads: int | None = None
+) -> pl.DataFrame:
     """Return the period (s) and, in m/s2, the target and the mean, p16, median and p84 of the pseudo-acceleration of
-    scaled motions, 5 % damped; of a pair the geometric mean. The target is null outside its range.
+    scaled motions, 5 % damped; `pairs` names what stands for a pair. The target is null outside its range.
     """
-    spectra = spectra_of(list(motions), PERIODS, DAMPING, threads=threads)
+    spectra = spectra_of(list(motions), PERIODS, DAMPING, pairs, threads=threads)
     wanted = np.full(len(PERIODS), np.nan)
     if target is not None:
         covered = (target.shortest <= PERIODS) & (target.longest >= PERIODS)

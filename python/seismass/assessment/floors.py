@@ -14,7 +14,7 @@ from seismass.base.values import FloatArray
 from seismass.design import effective_seismic_weight
 from seismass.design.weight import INTENSITY
 from seismass.model.block import Stops
-from seismass.model.codes import CODE_IDS, CodeFraction, Use, code_fraction
+from seismass.model.codes import CODE_IDS, STORED, CodeFraction, Use, code_fraction
 from seismass.model.occupancy import surveyed_load
 from seismass.model.rack import Rack, RackBlock
 
@@ -150,6 +150,8 @@ class FloorGoods:
         Stops beside them.
     occupancy : str
         Surveyed occupancy that the file states; empty: none.
+    use : str
+        What they are for the code, as `CodeFraction` names uses; empty for bolted goods.
     """
 
     floor: int
@@ -164,6 +166,7 @@ class FloorGoods:
     rack: GoodsRack | None = None
     stops: GoodsStops | None = None
     occupancy: str = ""
+    use: str = ""
 
     @property
     def mass(self) -> float:
@@ -216,20 +219,40 @@ def counted_fractions(
         elif code.code_id not in CODE_IDS:
             fractions.append(CountedFraction(code.fraction, ""))
         else:
-            fraction, use, why = _largest(code.code_id, one.use or code.use, kinds_of_floor, float(area[index]))
-            dead = [STANDARD_GRAVITY * float(mass[index])]
-            live = [STANDARD_GRAVITY * sum(kind.live_load for kind in kinds_of_floor if not kind.attached)]
-            weight = effective_seismic_weight(dead, live, code_id=code.code_id, use=use, roof=False)
-            exception = "" if one.exempt is False or fraction == 0.0 else str(weight.table["exception"][0])
-            fractions.append(CountedFraction(0.0, BY_RULE + exception) if exception else CountedFraction(fraction, why))
+            fractions.append(_by_use(code, one, kinds_of_floor, float(mass[index]), float(area[index])))
     return tuple(fractions)
 
 
+def _by_use(code: CodeFraction, one: FloorCode, goods: list[FloorGoods], mass: float, area: float) -> CountedFraction:
+    """What counts of a floor by the uses of its goods: of several uses the mean by their live loads."""
+    loads = {one.use or code.use: 0.0}
+    for kind in goods:
+        if not kind.attached and kind.live_load > 0.0:
+            loads[kind.use or code.use] = loads.get(kind.use or code.use, 0.0) + kind.live_load
+    loads = {use: load for use, load in loads.items() if load > 0.0} or loads
+    parts = {}
+    for stated, load in loads.items():
+        fraction, use, why = _largest(code.code_id, stated, goods, area)
+        stored = sum(other for name, other in loads.items() if name in STORED) if use in STORED else 0.0
+        live = [STANDARD_GRAVITY * max(stored, load)]
+        weight = effective_seismic_weight([STANDARD_GRAVITY * mass], live, code_id=code.code_id, use=use, roof=False)
+        exception = "" if one.exempt is False or fraction == 0.0 else str(weight.table["exception"][0])
+        parts[stated] = CountedFraction(0.0, BY_RULE + exception) if exception else CountedFraction(fraction, why)
+    if len(parts) == 1:
+        return next(iter(parts.values()))
+    total = sum(loads.values())
+    words = [
+        f"{use} {part.fraction:g}{f' ({part.exception})' * bool(part.exception)} of {loads[use] / total:.2g}"
+        for use, part in parts.items()
+    ]
+    return CountedFraction(sum(part.fraction * loads[use] for use, part in parts.items()) / total, ", ".join(words))
+
+
 def _largest(code_id: str, stated: str, kinds_of_floor: list[FloorGoods], area: float) -> tuple[float, Use, str]:
-    """Largest fraction of the use that is stated and of those that goods and load have; its use, and why that."""
+    """Largest fraction of a stated use and of those that its goods and the load have; its use, and why that."""
     why = {stated: ""}
     for kind in kinds_of_floor:
-        if kind.occupancy and not kind.attached and kind.live_load > 0.0:
+        if kind.occupancy and not kind.attached and kind.live_load > 0.0 and kind.use in ("", stated):
             why.setdefault(surveyed_load(kind.occupancy).use, kind.occupancy)
     limit = INTENSITY.get(code_id, (np.inf,))[0]
     load = STANDARD_GRAVITY * sum(kind.live_load for kind in kinds_of_floor)

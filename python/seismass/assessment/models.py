@@ -14,7 +14,8 @@ from seismass.assessment.building import OwnBuilding
 from seismass.assessment.file_site import PERIOD_MASSES
 from seismass.base.errors import InvalidOption, SimulationError
 from seismass.base.values import FloatArray, as_number
-from seismass.design.scaling import ScalingResult, scale_asce7_10
+from seismass.design.scaling import ScalingResult, scale_by_code
+from seismass.design.scaling.asce7 import period_of_mass
 from seismass.effective_mass.estimate import rule_by_hand
 from seismass.effective_mass.models import base_of_model, frame_mass
 from seismass.effective_mass.runs import named_motions, solve
@@ -280,15 +281,23 @@ def scaled_to_site(
     *,
     threads: int | None = None,
 ) -> ScalingResult:
-    """Return the factors of `scale_asce7_10` for the period T (s) that is given, else that of the file, else the first
-    with the goods attached (in two directions from 0.2 of the shorter to 1.5 of the longer). `target` replaces that.
+    """Return the factors of the building's rule of scaling for the period T (s) that is given, else that of the file,
+    else the first with the goods attached, in two directions over both of them. `target` replaces the site spectrum.
     """
     stated = building.scaling_period
     if period is not None:
         stated = as_number(period, "scaling_period", "assessment", InvalidOption)
     directions = [each for each in (building, building.other) if each is not None]
-    periods = [each.period(building.goods_mass) for each in directions] if stated is None else [stated]
-    shorter, longer = min(periods), max(periods)
-    period_range = (0.2 * (shorter / longer), 1.5)
-    spectrum = building.site_spectrum(target)
-    return scale_asce7_10(motions, spectrum, longer, period_range=period_range, between=False, threads=threads)
+    modes = [each.modes(building.goods_mass) for each in directions] if stated is None else []
+    periods = [float(each.periods[0]) for each in modes] if stated is None else [stated]
+    return scale_by_code(
+        motions,
+        building.motion_target(target),
+        max(periods),
+        code_id=building.scaling_code,
+        shortest_period=min(periods),
+        lowest_period=min(map(period_of_mass, modes), default=None),
+        ductility=None if building.design is None else building.design.R,
+        between=False,
+        threads=threads,
+    )

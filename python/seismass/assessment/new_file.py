@@ -183,9 +183,8 @@ def building_text(
         f"sds_g = {answers['sds']!r}                # S_DS, g",
         f"sd1_g = {answers['sd1']!r}                # S_D1, g",
         "",
-        "[code]                       # whose fraction of the live load is compared",
+        "[code]                       # fraction of the live load, strengths, drift limit, scaling of motions",
         'id = "asce7-10"',
-        'use = "storage"              # or "ordinary", "archive", "shop", "garage"',
         "",
         "[building]",
         *([f"period_s = {answers['period']!r}               # without goods"] if "period" in answers else []),
@@ -204,6 +203,7 @@ def building_text(
         "drift_limit = 0.020          # of the height",
         "",
         "[goods]",
+        'use = "storage"              # or "archive", "assembly", "shop", "ordinary"; by floor in [[storeys]]',
         f"live_load_kpa = {answers['live_load']!r}          # design live load",
         f"occupied = {answers['occupied']!r}               # share of it that is present",
         f"{'friction' if isinstance(friction, str) else 'mu'} = "

@@ -14,6 +14,7 @@ from seismass.assessment.answer import ANALYSIS, Answer, analysis_table
 from seismass.assessment.building import OwnBuilding
 from seismass.assessment.checks import checks_table, input_document
 from seismass.assessment.models import Shown
+from seismass.assessment.structure import design_table
 from seismass.base.values import content_hash, same_content
 from seismass.base.views import view
 from seismass.design.scaling import ScalingResult
@@ -139,8 +140,8 @@ class Assessment(Result):
 
     @property
     def tables(self) -> dict[str, pl.DataFrame]:
-        """Tables by name: storeys, governing, analysis, slip, runs, left_out, slips, checks, spectra; curve, scaling if
-        known.
+        """Tables by name: storeys, governing, analysis, slip, runs, left_out, slips, checks, spectra, design; curve,
+        scaling if known.
         """
         tables = {
             "storeys": self.storeys,
@@ -152,6 +153,7 @@ class Assessment(Result):
             "slips": self.slips,
             "checks": checks_table(self.building, self.storeys, self.collapses, len(self.suite["motions"])),
             "spectra": self.spectra,
+            "design": design_table(self.building, self.target),
         }
         curves = [
             result.curve.select(pl.lit(model).alias("model"), pl.all()) for model, result in self.effective.items()
@@ -202,7 +204,8 @@ class Assessment(Result):
             "reason": self.answer.reason,
             "on_motions": self.answer.motions,
             "answer": self._answer_document(),
-            "code": asdict(code) | {"id": code.code_id, "share_of_design_live_load": building.code_share},
+            "code": asdict(code)
+            | {"id": code.code_id, "uses": building.uses, "share_of_design_live_load": building.code_share},
             "effective": {model: result.to_dict() for model, result in self.effective.items()},
             "storeys": self.storeys.to_dicts(),
             "governing": self.governing.to_dicts(),

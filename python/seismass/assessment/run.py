@@ -23,7 +23,7 @@ from seismass.assessment.answer import (
     design_shares,
     fractions_by_friction,
 )
-from seismass.assessment.building import OwnBuilding
+from seismass.assessment.building import OwnBuilding, with_code
 from seismass.assessment.building_file import read_building
 from seismass.assessment.checks import collapses_of, governing_table, left_out_table, slip_table, storey_table
 from seismass.assessment.doubts import doubts_of, motion_doubts
@@ -92,18 +92,16 @@ def assess(
     target : TargetSpectrum, optional
         Site spectrum; default that of the building.
     code : CodeFraction, optional
-        In place of the building's code, as `code_fraction` gives it.
+        In place of the building's code with its rules, as `code_fraction` gives it.
     mu_factors : tuple of float, optional
         In place of the building's factors of friction for its lower and upper bound; (1, 1) leaves the bounds out.
     drift_cap : float, optional
         In place of the building's drift cap, over the storey height; see `effective_mass`.
     scaling_period : float, optional
-        Period T (s) for which motions are scaled, from 0.2 T to 1.5 T; default that of the building file, else the
-        first period of the building with the goods present attached.
+        Period T (s) for which motions are scaled by the rule of the code (`scale_by_code`); default that of the
+        building file, else the first period of the building with the goods present attached.
     scale : bool, default True
-        False takes the motions as they are. Pairs are scaled by one factor for both components, so that the geometric
-        mean of their spectra is that of one component (`scale_asce7_10`); pairs scaled otherwise, as for the maximum
-        direction of ASCE 7-16, are given with False.
+        False takes the motions as they are. Pairs are scaled by one factor for both components.
     confidence, resamples, seed
         Of the bootstrap interval, as for `effective_mass`.
     threads : int, optional
@@ -224,7 +222,12 @@ def assess(
         runs=runs,
         left_out=left_out,
         collapses=collapses,
-        spectra=spectra_table(horizontal, spectrum, threads=threads),
+        spectra=spectra_table(
+            scaled if scaling is not None else horizontal,
+            None if spectrum is None else stated.motion_target(spectrum),
+            stated.pairs_as if scaling is not None else "geometric mean",
+            threads=threads,
+        ),
         example=Shown(
             sliding_scene, scaled[place], place + 1, 1.0 if scaling is None else float(scaling.factors[place])
         ),
@@ -257,7 +260,7 @@ def _building(source: Any, code: CodeFraction | None, mu_factors: tuple[float, f
     if code is not None:
         if not isinstance(code, CodeFraction):
             raise refusal(InvalidOption, "code", "assessment", "a CodeFraction, as code_fraction gives it", brief(code))
-        building = replace(building, code=code, code_stated=True)
+        building = with_code(building, code)
     if mu_factors is not None:
         building = replace(building, mu_factors=bound_factors(mu_factors, "assessment"))
     return building

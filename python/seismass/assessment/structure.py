@@ -1,4 +1,4 @@
-"""What an assessment says of racks, walls, stops and a sliding base: assumptions, and that the rule by period fails."""
+"""What an assessment says of the structure: the design of its strengths; racks, walls, stops and a sliding base."""
 
 from __future__ import annotations
 
@@ -11,10 +11,12 @@ import polars as pl
 from seismass.assessment.building import OwnBuilding
 from seismass.assessment.floors import CONTACT_PERIOD
 from seismass.assessment.models import NAMES, SLIDING_ALL
+from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.effective_mass import EffectiveMass
 from seismass.model.building import Building
 from seismass.model.scene import Scene
+from seismass.motions.spectra import TargetSpectrum
 from seismass.runs.simulate import simulate
 
 NOT_APPLIED: Final = "The rule by period is not applied"
@@ -140,4 +142,49 @@ def damping_doubts(scene: Scene, motions: list[Any]) -> tuple[str, ...]:
         f"spring and damping of storey {storey + 1} carry {ratios[storey]:.2g} times the peak force of its spring (1.2 "
         "in ordinary frames): damping carries what the yielding storey cannot; is it a slider, a mat or far stiffer "
         "than the others?",
+    )
+
+
+def design_table(building: OwnBuilding, target: TargetSpectrum | None) -> pl.DataFrame:
+    """Return one row per quantity of the design of the strengths, as `DesignEntry` has them; of stated strengths W, T
+    and V_y. Two directions stand below each other, with their `direction`.
+    """
+    if building.other is None:
+        return _one(building, target).with_columns(direction=pl.lit(""))
+    both = {"x": building, "y": building.other}
+    return pl.concat([_one(one, target).with_columns(direction=pl.lit(name)) for name, one in both.items()])
+
+
+def _one(building: OwnBuilding, target: TargetSpectrum | None) -> pl.DataFrame:
+    """The table of one direction; W has the clause of the code's fraction."""
+    designed = building.design is not None
+    table = building.code_design(target).table() if designed else _stated(building, target)
+    stated = building.design is not None and building.design.fraction is not None
+    words = f"floors and {building.design_fraction:.3g} of the design live load" + ", as stated" * stated
+    code, of_weight = building.code, pl.col("quantity") == "W"
+    design_rows = {
+        "clause": "" if stated else code.clause,
+        "status": "" if stated else code.status,
+        "note": words,
+    }
+    return table.with_columns(
+        pl.when(of_weight).then(pl.lit(value)).otherwise(name).alias(name) for name, value in design_rows.items()
+    )
+
+
+def _stated(building: OwnBuilding, target: TargetSpectrum | None) -> pl.DataFrame:
+    """The table of strengths that are stated."""
+    weight = STANDARD_GRAVITY * float((building.mass + building.frames + building.code_mass).sum())
+    strength = building.structure(target).yield_shear
+    storeys = range(1, len(strength) + 1)
+    return pl.DataFrame(
+        {
+            "quantity": ["W", "T_1", *("V_y" for _ in storeys), "V_y/W"],
+            "storey": pl.Series([None, None, *storeys, None], dtype=pl.UInt32),
+            "value": [weight, building.period(building.code_mass), *strength, float(strength[0]) / weight],
+            "unit": ["N", "s", *("N" for _ in storeys), ""],
+            "clause": "",
+            "status": "",
+            "note": ["", "first period with W", *("as stated" for _ in storeys), "storey 1"],
+        }
     )

@@ -141,7 +141,8 @@ def models_of(
     if code_share is None:
         models[CODE] = with_mass(models[SLIDING], building.code_mass)
         code = building.code
-        rule = f"{code.code}, {code.use}: {100.0 * building.code_share:.3g} % of the design live load attached as mass"
+        share = 100.0 * building.code_share
+        rule = f"{code.code}, {building.uses}: {share:.3g} % of the design live load attached as mass"
     return models, rule, f"drift_ratio={building.drift_limit:g}"
 
 

@@ -22,20 +22,26 @@ def _listed(rows: list[list[str]], long: tuple[int, ...]) -> list[str]:
     return lines
 
 
+def fraction_text(low: float, high: float) -> str:
+    """Return a fraction, or the range that a code has."""
+    return f"{low:g} to {high:g}" if low < high else f"{high:g}"
+
+
 def codes_listing() -> str:
     """Return the fractions of codes: of the design live load, and over the goods that surveys find."""
     rows = [["id", "use", "floors full", "as surveyed", "clause", "status", "code"]]
     for row in code_table().iter_rows(named=True):
-        fraction = f"{row['low']:g} to {row['high']:g}" if row["low"] < row["high"] else f"{row['fraction']:g}"
+        known, surveyed = row["fraction"] is not None, row["use"] in SURVEYED
+        fraction = fraction_text(row["low"], row["high"]) if known else ""
         rows.append(
             [
                 row["code_id"],
                 row["use"],
                 fraction,
-                f"{on_surveyed_goods(row['fraction'], row['use']):.2f}" if row["use"] in SURVEYED else "",
+                f"{on_surveyed_goods(row['fraction'], row['use']):.2f}" if known and surveyed else "",
                 row["clause"],
                 row["status"],
-                row["code"] + MARK * (not row["checked"]),
+                f"{row['code']}{MARK * (not row['checked'])} {row['edition']}".rstrip(),
             ]
         )
     shares = ", ".join(f"{surveyed_load(name).share:.2f} ({name})" for name in SURVEYED.values())

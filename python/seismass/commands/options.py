@@ -239,7 +239,8 @@ def add_code_options(group: argparse._ActionsContainer) -> None:
     from seismass.model.codes import Use
 
     group.add_argument("--code", metavar="ID", help=CODE_HELP)
-    group.add_argument("--use", choices=get_args(Use), help="use of the floors for --code (storage)")
+    uses = get_args(Use)
+    group.add_argument("--use", choices=uses, metavar="USE", help=f"for --code (storage): {', '.join(uses)}")
 
 
 def add_drift_cap_option(group: argparse._ActionsContainer) -> None:

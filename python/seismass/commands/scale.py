@@ -36,7 +36,19 @@ if TYPE_CHECKING:
     from seismass.motions.records import Pairs, Suite
     from seismass.motions.spectra import TargetSpectrum
 
-METHODS: Final = ("asce7-10", "asce7-16", "least-squares", "least-squares-linear", "sa-t1", "mps")
+BY_CODE: Final = (
+    "asce7-10",
+    "asce7-16",
+    "asce7-22",
+    "ec8",
+    "nzs1170.5",
+    "tbdy2018",
+    "bnbc2017",
+    "geometric-mean",
+)
+"""Methods that are rules of codes, as `seismass.scaling.SCALING_CODES` has them."""
+MAXIMUM_DIRECTION: Final = ("asce7-16", "asce7-22")
+METHODS: Final = (*BY_CODE, "least-squares", "least-squares-linear", "sa-t1", "mps")
 _PUSHOVER: Final = ("reduction", "yield_coefficient", *SPRING_OPTIONS, "deformation")
 
 
@@ -44,21 +56,19 @@ def options(parser: argparse.ArgumentParser) -> None:
     """Add the options."""
     add_motion_options(parser)
     method = parser.add_argument_group("method")
-    how = f"how to scale: {', '.join(METHODS)} (asce7-10); see below"
-    method.add_argument("--method", choices=METHODS, metavar="NAME", default="asce7-10", help=how)
+    how = f"how to scale: {', '.join(METHODS)} (that of the code of --building, else asce7-10); see below"
+    method.add_argument("--method", choices=METHODS, metavar="NAME", help=how)
     method.add_argument(
         "--building",
         type=Path,
         metavar="FILE",
-        help="building file that gives T and modes (asce7-16) or pushover (mps) with its goods attached, and the "
-        "target with its [site]",
+        help="building file that gives T and modes (rules of codes) or pushover (mps) with its goods attached, and "
+        "with its [site] the target, at the level of the rule",
     )
     method.add_argument(
         "--lowest-period", type=positive_option, metavar="S", help="period of 90 %% of the mass, s (asce7-16)"
     )
-    method.add_argument(
-        "--pairs", action="store_true", help="pairs of horizontals of the folder, in maximum direction (asce7-16)"
-    )
+    method.add_argument("--pairs", action="store_true", help="pairs of horizontals of the folder (rules of codes)")
     method.add_argument(
         "--reduction", type=positive_option, metavar="R", help="A_t(T) over the yield acceleration (mps)"
     )
@@ -84,13 +94,16 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the factors; return the exit code."""
-    from seismass.assessment.models import with_mass
+    from dataclasses import replace
+
+    from seismass.assessment.models import scaled_to_site, with_mass
     from seismass.design.scaling import select_records
     from seismass.model.plausibility import motion_remarks
     from seismass.motions.spectra.target import target_remarks
 
     _check_options(args)
     assessed = _building_of_file(args)
+    args.method = args.method or (assessed.scaling_code if assessed is not None else "asce7-10")
     target = _target(args, assessed)
     suite, scaled = _motions(args)
     selection = None
@@ -98,10 +111,13 @@ def run(args: argparse.Namespace) -> int:
     period = args.period if building is None else float(building.periods[0])
     if args.select is not None:
         limits = {name: getattr(args, name) for name in ("max_per_event", "max_per_station") if getattr(args, name)}
-        longest = 2.0 if args.method == "asce7-16" else 1.5
+        longest = 2.0 if args.method in (*MAXIMUM_DIRECTION, "ec8") else 1.5
         selection = select_records(suite, target, args.select, period=period, period_range=(0.2, longest), **limits)
         suite = scaled = selection.suite
-    scaling = _scaled(args, scaled, target, building)
+    if assessed is not None and args.method in BY_CODE:
+        scaling = scaled_to_site(replace(assessed, scaling=args.method), scaled, target)
+    else:
+        scaling = _scaled(args, scaled, target, building)
     remarks = (*motion_remarks(suite), *target_remarks(target), *scaling.remarks)
     if args.out is not None:
         _write_table(args.out, scaling)
@@ -118,7 +134,7 @@ def run(args: argparse.Namespace) -> int:
 def _motions(args: argparse.Namespace) -> tuple[Suite, Suite | Pairs]:
     """The records as they are listed, and what is scaled; of a pair the first component stands for it."""
     if not args.pairs:
-        suite = read_motions(args, "eleven" if args.method == "asce7-16" else "seven")
+        suite = read_motions(args, "eleven" if args.method in (*MAXIMUM_DIRECTION, "tbdy2018") else "seven")
         return suite, suite
     from seismass.base.errors import InvalidMotion
     from seismass.motions.records import Suite, find_pairs
@@ -134,9 +150,14 @@ def _check_options(args: argparse.Namespace) -> None:
     """Refuse options that the method, or a scaling without selection, does not use."""
     from seismass.base.errors import InvalidOption
 
-    used = {"asce7-16": {"building", "lowest_period"}, "mps": {"building", *_PUSHOVER}}.get(args.method, set())
+    method = args.method or "asce7-10"
+    by_code, used = args.method is None or method in BY_CODE, set[str]()
+    if by_code:
+        used = {"building", "lowest_period"} if method in MAXIMUM_DIRECTION else {"building"}
+    elif method == "mps":
+        used = {"building", *_PUSHOVER}
     unused = [name for name in ("building", "lowest_period", *_PUSHOVER) if name not in used]
-    refuse_options(args, unused, "scale", f"with {args.method}")
+    refuse_options(args, unused, "scale", f"with {method}")
     if args.building is not None:
         refuse_options(args, ("lowest_period", *_PUSHOVER[:-1]), "scale", "with --building")
     if args.method == "mps" and args.building is None:
@@ -149,9 +170,9 @@ def _check_options(args: argparse.Namespace) -> None:
     if args.select is None:
         refuse_options(args, ("max_per_event", "max_per_station"), "scale", "without --select")
     if args.pairs:
-        if args.method != "asce7-16" or args.records is None:
-            got = args.method if args.records is not None else f"{args.method} without --records"
-            raise InvalidOption(f"--pairs of scale must be given with --method asce7-16 and --records; got {got}")
+        if not by_code or args.records is None:
+            got = method if args.records is not None else f"{method} without --records"
+            raise InvalidOption(f"--pairs of scale must be given with a rule of a code and --records; got {got}")
         refuse_options(args, ("select",), "scale", "with --pairs")
     check_plot(args, "scale")
     check_files(args.out)
@@ -177,11 +198,9 @@ def _scaled(args: argparse.Namespace, suite: Any, target: TargetSpectrum, buildi
     """Scale a Suite, or Pairs by the method that takes them."""
     from seismass.design import scaling
 
-    if args.method == "asce7-10":
-        return scaling.scale_asce7_10(suite, target, args.period)
-    if args.method == "asce7-16":
-        period = args.period if building is None else None
-        return scaling.scale_asce7_16(suite, target, period, building=building, lowest_period=args.lowest_period)
+    if args.method in BY_CODE:
+        lowest = args.lowest_period
+        return scaling.scale_by_code(suite, target, args.period, code_id=args.method, lowest_period=lowest)
     if args.method == "sa-t1":
         return scaling.scale_sa_t1(suite, target, args.period)
     if args.method == "mps":
@@ -258,6 +277,7 @@ scale --records records/ --target uniform_hazard.csv --json
 scale --records records/ --target ec8:1:C:0.3 --select 7 --plot scaling.png
 scale --records records/ --method asce7-16 --select 11 --out factors.csv
 scale --records records/ --method asce7-16 --pairs
+scale --records records/ --building warehouse.toml
 scale --method mps --reduction 4 --period 1.0
 scale --method mps --building warehouse.toml
 """,
@@ -265,8 +285,13 @@ scale --method mps --building warehouse.toml
     run=run,
     note="""
 methods:
-  asce7-10              mean not below the target from 0.2 T to 1.5 T
-  asce7-16              mean not below 0.9 of it from 0.2 T (or the period of 90 % of the mass) to 2 T; 11 motions
+  asce7-10              mean not below the target from 0.2 T to 1.5 T; of pairs that of their SRSS
+  asce7-16, asce7-22    mean not below 0.9 of it from 0.2 T (or the period of 90 % of the mass) to 2 T; 11 motions; of
+                        pairs that of their maximum direction
+  ec8                   mean not below 0.9 of it from 0.2 T to 2 T, nor at T = 0 below it
+  nzs1170.5             k_1 of each record and k_2 of the family, to (1 + S_p)/2 of it from 0.4 T to 1.3 T
+  tbdy2018, bnbc2017    mean not below it from 0.2 T to 1.5 T, SRSS of pairs 1.3 of it; tbdy2018: 11 motions
+  geometric-mean        as asce7-10, of pairs that of their geometric mean
   least-squares         each motion closest to the target in the logarithm; -linear: in the ordinates
   sa-t1                 each motion at the target at T
   mps                   modal pushover: the inelastic first-mode oscillator reaches the target deformation

@@ -103,7 +103,9 @@ def motions_of_file(
         result = scale_asce7_10(suite, cast("TargetSpectrum", target), args.period or 1.0, between=False)
     else:
         result = scaled_to_site(building, suite, target, args.period)
-    return FileMotions(suite, result.factors, f"ASCE 7-10 to {result.target_label}, for T = {result.period:.3g} s")
+    return FileMotions(
+        suite, result.factors, f"{result.method} to {result.target_label}, for T = {result.period:.3g} s"
+    )
 
 
 def doubts_of_input(

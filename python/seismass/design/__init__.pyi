@@ -1,6 +1,7 @@
 """Names of the module, imported when they are first used; `__init__.py` reads them here."""
 
 from . import scaling
+from .code_design import CodeDesign, DesignEntry, design_by_code
 from .lateral_force import (
     DISTRIBUTION_CODES,
     DistributionRule,
@@ -46,6 +47,7 @@ from .periods import (
 )
 from .pushover import Pattern, Pushover, pushover
 from .pushover_fit import PushoverFit, fit_pushover
+from .rules import CodeRule, rules_table
 from .walls import Wall
 from .weight import FloorUse, SeismicWeight, effective_seismic_weight
 
@@ -56,9 +58,12 @@ __all__ = [
     "PERIOD_CODES",
     "THETA_CAP",
     "THETA_THRESHOLD",
+    "CodeDesign",
     "CodePeriod",
+    "CodeRule",
     "Combination",
     "DesignDemand",
+    "DesignEntry",
     "DistributionRule",
     "DriftLimit",
     "FloorUse",
@@ -74,6 +79,7 @@ __all__ = [
     "Wall",
     "code_period",
     "combined_modes",
+    "design_by_code",
     "distribution_table",
     "drift_limit",
     "drift_limit_table",
@@ -86,6 +92,7 @@ __all__ = [
     "period_table",
     "pushover",
     "response_spectrum_analysis",
+    "rules_table",
     "scaling",
     "seismic_response_coefficient",
     "stability_coefficient",

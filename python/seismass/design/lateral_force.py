@@ -13,7 +13,7 @@ from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_positive, frozen, known_id
 from seismass.base.views import Card
 from seismass.design.modes import moments, positive, positive_of_length
-from seismass.model.codes import CODE_NAMES, FROM_MEMORY, VERIFIED
+from seismass.model.codes import CODE_NAMES, table_rows
 
 Exponent: TypeAlias = Literal["period", "one", "two"]
 Top: TypeAlias = Literal["none", "period", "eight-percent"]
@@ -48,21 +48,16 @@ class DistributionRule:
     status: str
 
 
-_ROWS: Final[tuple[tuple[str, Exponent, Top, str, str], ...]] = (
-    ("asce7-10", "period", "none", "12.8.3", VERIFIED),
-    ("asce7-16", "period", "none", "12.8.3", FROM_MEMORY),
-    ("asce7-22", "period", "none", "12.8.3", FROM_MEMORY),
-    ("bnbc2017", "period", "none", "2.5.7.4", VERIFIED),
-    ("ec8", "one", "none", "4.3.3.2.3(3), linear shape", FROM_MEMORY),
-    ("nbc", "one", "period", "4.1.8.11", FROM_MEMORY),
-    ("ubc-97", "one", "period", "1630.5", FROM_MEMORY),
-    ("nzs1170.5", "one", "eight-percent", "6.2.1.3", FROM_MEMORY),
-    ("as1170.4", "period", "none", "6.3", FROM_MEMORY),
-    ("is1893", "two", "none", "7.6.3", FROM_MEMORY),
-)
 _RULES: Final = tuple(
-    DistributionRule(code_id, CODE_NAMES[code_id], exponent, top, clause, status)
-    for code_id, exponent, top, clause, status in _ROWS
+    DistributionRule(
+        row["id"],
+        CODE_NAMES[row["id"]],
+        row["exponent"],  # type: ignore[arg-type]
+        row["top"],  # type: ignore[arg-type]
+        row["clause"],
+        row["status"],
+    )
+    for row in table_rows("forces")
 )
 DISTRIBUTION_CODES: Final = tuple(rule.code_id for rule in _RULES)
 """Short names of the codes whose distribution is known here."""

@@ -10,9 +10,10 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_array, as_positive, brief, frozen, is_one_of, known_id, refusal
+from seismass.base.values import FloatArray, as_array, as_positive, brief, frozen, known_id, refusal
 from seismass.design.modes import positive, positive_of_length
-from seismass.model.codes import CODE_NAMES, FROM_MEMORY, SECOND_HAND, VERIFIED
+from seismass.design.rules import CATEGORIES, RULES, known_category, rule_of
+from seismass.model.codes import VERIFIED, table_rows
 
 
 @dataclass(frozen=True)
@@ -47,120 +48,18 @@ class SystemFactors:
     status: str
 
 
-_GROUPS: Final = {
-    "A": "bearing wall system",
-    "B": "building frame system",
-    "C": "moment-resisting frame",
-    "D": "dual system with special moment frames",
-    "E": "dual system with intermediate moment frames",
-    "F": "shear wall-frame interactive system",
-    "G": "cantilevered column system",
-    "H": "steel system not detailed for seismic resistance",
+_NUMBERS: Final = ("R", "omega_0", "C_d")
+_SYSTEMS: Final = {
+    row["id"]: SystemFactors(
+        row["id"],
+        row["system"],
+        **{name: float(row[name]) for name in _NUMBERS},
+        code="ASCE/SEI 7-10",
+        clause="table 12.2-1",
+        status=VERIFIED,
+    )
+    for row in table_rows("systems")
 }
-
-# Line, R, Omega_0, C_d and system, in the order of the code.
-_LINES: Final = """
-A1 5 2.5 5 special reinforced concrete shear walls
-A2 4 2.5 4 ordinary reinforced concrete shear walls
-A3 2 2.5 2 detailed plain concrete shear walls
-A4 1.5 2.5 1.5 ordinary plain concrete shear walls
-A5 4 2.5 4 intermediate precast shear walls
-A6 3 2.5 3 ordinary precast shear walls
-A7 5 2.5 3.5 special reinforced masonry shear walls
-A8 3.5 2.5 2.25 intermediate reinforced masonry shear walls
-A9 2 2.5 1.75 ordinary reinforced masonry shear walls
-A10 2 2.5 1.75 detailed plain masonry shear walls
-A11 1.5 2.5 1.25 ordinary plain masonry shear walls
-A12 1.5 2.5 1.75 prestressed masonry shear walls
-A13 2 2.5 2 ordinary reinforced AAC masonry shear walls
-A14 1.5 2.5 1.5 ordinary plain AAC masonry shear walls
-A15 6.5 3 4 light-frame wood walls with structural panels or steel sheets
-A16 6.5 3 4 light-frame cold-formed steel walls with structural panels or steel sheets
-A17 2 2.5 2 light-frame walls with shear panels of all other materials
-A18 4 2 3.5 light-frame cold-formed steel walls with flat strap bracing
-B1 8 2 4 steel eccentrically braced frames
-B2 6 2 5 steel special concentrically braced frames
-B3 3.25 2 3.25 steel ordinary concentrically braced frames
-B4 6 2.5 5 special reinforced concrete shear walls
-B5 5 2.5 4.5 ordinary reinforced concrete shear walls
-B6 2 2.5 2 detailed plain concrete shear walls
-B7 1.5 2.5 1.5 ordinary plain concrete shear walls
-B8 5 2.5 4.5 intermediate precast shear walls
-B9 4 2.5 4 ordinary precast shear walls
-B10 8 2.5 4 composite eccentrically braced frames
-B11 5 2 4.5 composite special concentrically braced frames
-B12 3 2 3 composite ordinary braced frames
-B13 6.5 2.5 5.5 composite plate shear walls
-B14 6 2.5 5 composite special shear walls
-B15 5 2.5 4.5 composite ordinary shear walls
-B16 5.5 2.5 4 special reinforced masonry shear walls
-B17 4 2.5 4 intermediate reinforced masonry shear walls
-B18 2 2.5 2 ordinary reinforced masonry shear walls
-B19 2 2.5 2 detailed plain masonry shear walls
-B20 1.5 2.5 1.25 ordinary plain masonry shear walls
-B21 1.5 2.5 1.75 prestressed masonry shear walls
-B22 7 2.5 4.5 light-frame wood walls with structural panels
-B23 7 2.5 4.5 light-frame cold-formed steel walls with structural panels or steel sheets
-B24 2.5 2.5 2.5 light-frame walls with shear panels of all other materials
-B25 8 2.5 5 steel buckling-restrained braced frames
-B26 7 2 6 steel special plate shear walls
-C1 8 3 5.5 steel special moment frames
-C2 7 3 5.5 steel special truss moment frames
-C3 4.5 3 4 steel intermediate moment frames
-C4 3.5 3 3 steel ordinary moment frames
-C5 8 3 5.5 special reinforced concrete moment frames
-C6 5 3 4.5 intermediate reinforced concrete moment frames
-C7 3 3 2.5 ordinary reinforced concrete moment frames
-C8 8 3 5.5 composite special moment frames
-C9 5 3 4.5 composite intermediate moment frames
-C10 6 3 5.5 composite partially restrained moment frames
-C11 3 3 2.5 composite ordinary moment frames
-C12 3.5 3 3.5 cold-formed steel special bolted moment frames
-D1 8 2.5 4 steel eccentrically braced frames
-D2 7 2.5 5.5 steel special concentrically braced frames
-D3 7 2.5 5.5 special reinforced concrete shear walls
-D4 6 2.5 5 ordinary reinforced concrete shear walls
-D5 8 2.5 4 composite eccentrically braced frames
-D6 6 2.5 5 composite special concentrically braced frames
-D7 7.5 2.5 6 composite plate shear walls
-D8 7 2.5 6 composite special shear walls
-D9 6 2.5 5 composite ordinary shear walls
-D10 5.5 3 5 special reinforced masonry shear walls
-D11 4 3 3.5 intermediate reinforced masonry shear walls
-D12 8 2.5 5 steel buckling-restrained braced frames
-D13 8 2.5 6.5 steel special plate shear walls
-E1 6 2.5 5 steel special concentrically braced frames
-E2 6.5 2.5 5 special reinforced concrete shear walls
-E3 3 3 2.5 ordinary reinforced masonry shear walls
-E4 3.5 3 3 intermediate reinforced masonry shear walls
-E5 5.5 2.5 4.5 composite special concentrically braced frames
-E6 3.5 2.5 3 composite ordinary braced frames
-E7 5 3 4.5 composite ordinary shear walls
-E8 5.5 2.5 4.5 ordinary reinforced concrete shear walls
-F 4.5 2.5 4 ordinary reinforced concrete moment frames with ordinary reinforced concrete shear walls
-G1 2.5 1.25 2.5 steel special cantilever columns
-G2 1.25 1.25 1.25 steel ordinary cantilever columns
-G3 2.5 1.25 2.5 special reinforced concrete moment frames
-G4 1.5 1.25 1.5 intermediate reinforced concrete moment frames
-G5 1 1.25 1 ordinary reinforced concrete moment frames
-G6 1.5 1.5 1.5 timber frames
-H 3 3 3 all but cantilever columns
-"""
-
-
-def _read() -> dict[str, SystemFactors]:
-    rows = {}
-    for line in _LINES.strip().splitlines():
-        system_id, r, omega_0, c_d, name = line.split(maxsplit=4)
-        system = f"{_GROUPS[system_id[0]]}: {name}"
-        numbers = (float(r), float(omega_0), float(c_d))
-        rows[system_id] = SystemFactors(system_id, system, *numbers, "ASCE/SEI 7-10", "table 12.2-1", VERIFIED)
-    return rows
-
-
-_SYSTEMS: Final = _read()
-
-_IMPORTANCE: Final = {"I": 1.0, "II": 1.0, "III": 1.25, "IV": 1.5}
 
 
 def system_factors(system_id: str) -> SystemFactors:
@@ -198,32 +97,30 @@ def system_table() -> pl.DataFrame:
     return pl.DataFrame([asdict(row) for row in _SYSTEMS.values()])
 
 
-def importance_factor(risk_category: str) -> float:
+def importance_factor(risk_category: str, code_id: str = "asce7-10") -> float:
     """Return the seismic importance factor I_e of a risk category.
 
     Parameters
     ----------
     risk_category : {"I", "II", "III", "IV"}
-        Risk category.
+        Risk category, importance class or level.
+    code_id : str, default "asce7-10"
+        The code, as `rules_table` names it.
 
     Raises
     ------
     InvalidOption
-        There is no such category.
+        There is no such category, or the importance factors of the code are not known here.
 
     Notes
     -----
     ASCE/SEI 7-10, table 1.5-2: 1.00, 1.00, 1.25 and 1.50 (verified).
     """
-    return _IMPORTANCE[known_category(risk_category)]
-
-
-def known_category(risk_category: str) -> str:
-    """Return a risk category in capitals; an unknown one is refused."""
-    wanted = str(risk_category).strip().upper()
-    if not is_one_of(wanted, _IMPORTANCE):
-        raise refusal(InvalidOption, "risk_category", "building", "one of I, II, III, IV", repr(risk_category))
-    return wanted
+    category = known_category(risk_category)
+    rule = rule_of(code_id, "importance")
+    if rule is None:
+        raise refusal(InvalidOption, "id", "code", "one whose importance factors are known here", brief(code_id))
+    return rule.of(category)
 
 
 THETA_THRESHOLD: Final = 0.10
@@ -267,58 +164,12 @@ class DriftLimit:
     note: str
 
 
-_CATEGORIES: Final = ("I", "II", "III", "IV")
-_SOFT: Final = (
-    "up to 4 storeys, with interior walls, partitions, ceilings and exterior walls that accommodate the drift; no "
-    "limit for such structures of one storey"
-)
-_ASCE: Final = (
-    ("other", (0.020, 0.020, 0.015, 0.010), "divided by rho for moment frames alone in categories D to F, 12.12.1.1"),
-    ("low-rise-accommodating", (0.025, 0.025, 0.020, 0.015), _SOFT),
-    ("masonry-cantilever-wall", (0.010,) * 4, ""),
-    ("masonry-wall", (0.007,) * 4, ""),
-)
-_EC8_NOTE: Final = "alpha/nu with nu = 0.5 in classes I and II, 0.4 in III and IV; damage limitation"
-_EC8: Final = (
-    ("brittle-partitions", (0.005 / 0.5, 0.005 / 0.5, 0.005 / 0.4, 0.005 / 0.4), _EC8_NOTE),
-    ("ductile-partitions", (0.0075 / 0.5, 0.0075 / 0.5, 0.0075 / 0.4, 0.0075 / 0.4), _EC8_NOTE),
-    ("other", (0.010 / 0.5, 0.010 / 0.5, 0.010 / 0.4, 0.010 / 0.4), _EC8_NOTE + "; partitions that do not interfere"),
-)
-_AMPLIFIED, _DESIGN_FORCE = "C_d times elastic drift over I_e", "elastic drift under the design forces"
-_TABLES: Final = (
-    ("asce7-10", "12.12.1, table 12.12-1", VERIFIED, _AMPLIFIED, _ASCE),
-    ("asce7-16", "12.12.1, table 12.12-1", FROM_MEMORY, _AMPLIFIED, _ASCE),
-    ("asce7-22", "12.12.1, table 12.12-1", FROM_MEMORY, _AMPLIFIED, _ASCE),
-    ("bnbc2017", "2.5.14.1, table 6.2.21", VERIFIED, _AMPLIFIED, _ASCE),
-    ("ec8", "4.4.3.2(1)", SECOND_HAND, "q times elastic drift under the design forces", _EC8),
-    (
-        "nbc",
-        "4.1.8.13(3)",
-        FROM_MEMORY,
-        "R_d R_o times elastic drift over I_E",
-        (("other", (0.025, 0.025, 0.020, 0.010), "III: high importance, IV: post-disaster"),),
-    ),
-    (
-        "nzs1170.5",
-        "7.5.1",
-        FROM_MEMORY,
-        "drift in the ultimate limit state",
-        (("other", (0.025,) * 4, "importance levels 1 to 4; the damage of partitions has a limit state of its own"),),
-    ),
-    (
-        "as1170.4",
-        "5.4.4",
-        FROM_MEMORY,
-        "drift in the ultimate limit state",
-        (("other", (0.015,) * 4, "importance levels 1 to 4"),),
-    ),
-    ("is1893", "7.11.1.1", FROM_MEMORY, _DESIGN_FORCE, (("other", (0.004,) * 4, ""),)),
-)
 _LIMITS: Final = tuple(
-    DriftLimit(code_id, CODE_NAMES[code_id], structure, category, ratio, quantity, clause, status, note)
-    for code_id, clause, status, quantity, rows in _TABLES
-    for structure, ratios, note in rows
-    for category, ratio in zip(_CATEGORIES, ratios, strict=True)
+    DriftLimit(rule.code_id, rule.code, rule.case, category, rule.of(category), drift, rule.clause, rule.status, note)
+    for rule in RULES
+    if rule.rule == "drift limit"
+    for drift, _, note in [rule.note.partition("; ")]
+    for category in CATEGORIES
 )
 DRIFT_LIMIT_CODES: Final = tuple(dict.fromkeys(row.code_id for row in _LIMITS))
 """Short names of the codes whose drift limits are known here."""

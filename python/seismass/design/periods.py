@@ -11,7 +11,7 @@ import polars as pl
 from seismass.base.errors import InvalidOption
 from seismass.base.values import as_count, as_number, brief, known_id, refusal
 from seismass.base.views import Card
-from seismass.model.codes import CODE_NAMES, FROM_MEMORY, SECOND_HAND, VERIFIED
+from seismass.model.codes import CODE_NAMES, FROM_MEMORY, SECOND_HAND, VERIFIED, table_rows
 
 Variable: TypeAlias = Literal["height", "storeys"]
 """What a formula takes: the height above the base (m), or the number of storeys."""
@@ -54,118 +54,15 @@ class PeriodRule:
     note: str
 
 
-_STEEL, _CONCRETE, _OTHER = "steel-moment-frame", "concrete-moment-frame", "other"
-_EBF, _BRB, _BRACED = "steel-eccentrically-braced-frame", "steel-buckling-restrained-frame", "braced-frame"
-_WALL, _BY_STOREYS = "shear-wall", "moment-frame-by-storeys"
-_FRAMES = "frames that resist all of the seismic force and are not enclosed by stiffer parts"
+def _rule(row: dict[str, str]) -> PeriodRule:
+    numbers = (float(row["coefficient"]), float(row["exponent"]))
+    variable: Variable = row["variable"]  # type: ignore[assignment]
+    upper = float(row["upper"]) if row["upper"] else None
+    texts = (row["clause"], row["status"], row["note"])
+    return PeriodRule(row["id"], CODE_NAMES[row["id"]], row["system"], *numbers, variable, upper, *texts)
 
-# Code, clause, status, then (system, C_t, x, upper limit, note) of each system.
-_Row: TypeAlias = tuple[str, float, float, float | None, str]
-_ASCE_ROWS: Final[tuple[_Row, ...]] = (
-    (_STEEL, 0.0724, 0.8, None, _FRAMES),
-    (_CONCRETE, 0.0466, 0.9, None, _FRAMES),
-    (_EBF, 0.0731, 0.75, None, ""),
-    (_BRB, 0.0731, 0.75, None, ""),
-    (_OTHER, 0.0488, 0.75, None, ""),
-    (_BY_STOREYS, 0.1, 1.0, None, "up to 12 storeys of at least 3 m on average, moment frames alone"),
-)
-_CODES: Final[tuple[tuple[str, str, str, tuple[_Row, ...]], ...]] = (
-    ("asce7-10", "12.8.2.1, table 12.8-2", VERIFIED, _ASCE_ROWS),
-    ("asce7-16", "12.8.2.1, table 12.8-2", FROM_MEMORY, _ASCE_ROWS),
-    ("asce7-22", "12.8.2.1, table 12.8-2", FROM_MEMORY, _ASCE_ROWS),
-    (
-        "bnbc2017",
-        "2.5.7.2, table 6.2.20",
-        VERIFIED,
-        (
-            (_STEEL, 0.0724, 0.8, 1.4, _FRAMES),
-            (_CONCRETE, 0.0466, 0.9, 1.4, _FRAMES),
-            (_EBF, 0.0731, 0.75, 1.4, ""),
-            (_OTHER, 0.0488, 0.75, 1.4, ""),
-        ),
-    ),
-    (
-        "ec8",
-        "4.3.3.2.2(3)",
-        FROM_MEMORY,
-        (
-            (_STEEL, 0.085, 0.75, None, "up to 40 m; no limit of calculated periods"),
-            (_CONCRETE, 0.075, 0.75, None, "up to 40 m; no limit of calculated periods"),
-            (_EBF, 0.075, 0.75, None, "up to 40 m; no limit of calculated periods"),
-            (_OTHER, 0.05, 0.75, None, "up to 40 m; no limit of calculated periods"),
-        ),
-    ),
-    (
-        "nbc",
-        "4.1.8.11(3)",
-        VERIFIED,
-        (
-            (_STEEL, 0.085, 0.75, 1.5, _FRAMES),
-            (_CONCRETE, 0.075, 0.75, 1.5, _FRAMES),
-            (_BY_STOREYS, 0.1, 1.0, 1.5, "other moment frames"),
-            (_BRACED, 0.025, 1.0, 2.0, ""),
-            (_WALL, 0.05, 0.75, 2.0, ""),
-            (_OTHER, 0.05, 0.75, 1.0, ""),
-        ),
-    ),
-    (
-        "ubc-97",
-        "1630.2.2, method A",
-        FROM_MEMORY,
-        (
-            (_STEEL, 0.0853, 0.75, 1.3, "the limit is 1.4 outside seismic zone 4"),
-            (_CONCRETE, 0.0731, 0.75, 1.3, "the limit is 1.4 outside seismic zone 4"),
-            (_EBF, 0.0731, 0.75, 1.3, "the limit is 1.4 outside seismic zone 4"),
-            (_OTHER, 0.0488, 0.75, 1.3, "the limit is 1.4 outside seismic zone 4"),
-        ),
-    ),
-    (
-        "is1893",
-        "7.6.2",
-        FROM_MEMORY,
-        (
-            (_STEEL, 0.085, 0.75, None, "bare frames; the limit of calculated periods is not known here"),
-            (_CONCRETE, 0.075, 0.75, None, "bare frames; the limit of calculated periods is not known here"),
-        ),
-    ),
-    (
-        "nzs1170.5",
-        "C4.1.2.2 (commentary)",
-        FROM_MEMORY,
-        (
-            (
-                _STEEL,
-                1.25 * 0.11,
-                0.75,
-                None,
-                "1.25 k_t h^0.75, ultimate limit state",
-            ),
-            (_CONCRETE, 1.25 * 0.075, 0.75, None, "as above"),
-            (_EBF, 1.25 * 0.06, 0.75, None, "as above"),
-            (_OTHER, 1.25 * 0.05, 0.75, None, "as above"),
-        ),
-    ),
-    (
-        "as1170.4",
-        "6.2.3",
-        FROM_MEMORY,
-        (
-            (_STEEL, 1.25 * 0.11, 0.75, None, "1.25 k_t h^0.75; the limit of calculated periods is not known here"),
-            (_CONCRETE, 1.25 * 0.075, 0.75, None, "as above"),
-            (_EBF, 1.25 * 0.06, 0.75, None, "as above"),
-            (_OTHER, 1.25 * 0.05, 0.75, None, "as above"),
-        ),
-    ),
-)
 
-_RULES: Final = tuple(
-    PeriodRule(
-        code_id, CODE_NAMES[code_id], system, c_t, x, "storeys" if system == _BY_STOREYS else "height", upper, clause,
-        status, note,
-    )
-    for code_id, clause, status, rows in _CODES
-    for system, c_t, x, upper, note in rows
-)  # fmt: skip
+_RULES: Final = tuple(_rule(row) for row in table_rows("periods"))
 
 PERIOD_CODES: Final = tuple(dict.fromkeys(rule.code_id for rule in _RULES))
 """Short names of the codes whose approximate period is known here."""

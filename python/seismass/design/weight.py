@@ -26,7 +26,7 @@ from seismass.base.values import (
     short_repr,
 )
 from seismass.base.views import Card
-from seismass.model.codes import CODE_IDS, FROM_MEMORY, SECOND_HAND, VERIFIED, Use, code_fraction
+from seismass.model.codes import CODE_IDS, FROM_MEMORY, SECOND_HAND, VERIFIED, Use, code_fraction, table_rows
 
 FloorUse: TypeAlias = Use
 """Use of a floor."""
@@ -48,15 +48,9 @@ _SNOW: Final = {
     "nbc": (0.25, 0.0, "4.1.8.2", SECOND_HAND),
     "gb50011": (0.5, 0.0, "5.1.3", FROM_MEMORY),
 }
-# Fraction of the live load of the roof, where the code has a separate one.
-_ROOF: Final = {
-    ("ec8", "ordinary"): (0.30, "4.2.4, phi = 1.0 at the roof", SECOND_HAND),
-    ("nzs1170.5", "ordinary"): (0.0, "4.2, without public access", SECOND_HAND),
-    ("is1893", "storage"): (0.0, "7.3.2", FROM_MEMORY),
-    ("is1893", "ordinary"): (0.0, "7.3.2", FROM_MEMORY),
-    ("gb50011", "ordinary"): (0.0, "5.1.3", FROM_MEMORY),
-    ("nch2369", "ordinary"): (0.0, "", FROM_MEMORY),
-}
+_ROOF: Final = {row["id"]: row for row in table_rows("fractions") if row["use"] == "roof"}
+"""Rows of roofs; of IS 1893 for any use, of other codes for ordinary roofs."""
+_ANY_ROOF: Final = ("is1893",)
 INTENSITY: Final = {"bnbc2017": (3000.0, "2.5.7.3", VERIFIED), "is1893": (3000.0, "table 10", FROM_MEMORY)}
 """Live load (Pa) above which a floor has the fraction of storage, where that decides and not the use."""
 
@@ -122,9 +116,9 @@ def effective_seismic_weight(
         Dead load and design live load of each floor (N), floor 1 first. Dead load is without what follows.
     code_id : str, default "asce7-10"
         One of `seismass.model.codes.CODE_IDS`, in any case.
-    use : {"storage", "ordinary", "archive", "shop", "garage"} or list of them, optional
-        Use of all floors, or of each. By default "storage"; for codes that decide by the live load per area (BNBC 2017,
-        IS 1893), that decides where areas are given.
+    use : str or list of str, optional
+        Use of all floors, or of each, as `code_fraction` takes it. By default "storage"; for codes that decide by the
+        live load per area (BNBC 2017, IS 1893), that decides where areas are given.
     area : array_like, shape (floors,), optional
         Areas of the floors (m2); for that, for partitions and for snow.
     partitions : array_like, shape (floors,), optional
@@ -232,10 +226,10 @@ class _Rules:
 def _fraction(code: str, use: FloorUse, is_roof: bool, rules: _Rules) -> tuple[float, str]:
     """Fraction of the live load of a floor, and an exception in words."""
     row = code_fraction(code, use)
-    roof = _ROOF.get((code, use)) if is_roof else None
-    if roof is not None:
-        rules.add(f"{roof[0]:g} of the live load of the roof ({use})", *roof[1:])
-        return roof[0], "roof"
+    if is_roof and code in _ROOF and (use == "ordinary" or code in _ANY_ROOF):
+        roof = code_fraction(code, "roof")
+        rules.add(f"{roof.fraction:g} of the live load of the roof ({use})", roof.clause, roof.status)
+        return roof.fraction, "roof"
     rules.add(f"{row.fraction:g} of the live load ({use})", row.clause, row.status)
     return row.fraction, "garage" if use == "garage" and row.fraction == 0.0 else ""
 

@@ -13,7 +13,7 @@ import polars as pl
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import as_number, brief, is_one_of, known_id, refusal
-from seismass.model.codes import FROM_MEMORY, VERIFIED, Use
+from seismass.model.codes import Use, table_rows
 
 __all__ = [
     "OCCUPANCY_IDS",
@@ -101,44 +101,10 @@ class SurveyedLoad:
         return math.sqrt(self.floor_deviation**2 + self.point_deviation**2 * averaged)
 
 
-_JCSS: Final = "JCSS Probabilistic Model Code, part 2.2, parameters for live loads depending on the user category"
-
-
-# What follows `renewed`: design live load of ASCE 7, in kPa and psf.
-def _row(
-    occupancy_id: str,
-    use: Use,
-    loads: tuple[float, float, float, float],
-    renewed: str,
-    design: tuple[float, int],
-    kind: str,
-) -> SurveyedLoad:
-    mean, floor, point, area = loads
-    return SurveyedLoad(
-        f"{occupancy_id}, sustained",
-        use,
-        mean,
-        floor,
-        point,
-        area,
-        renewed,
-        design[0],
-        _JCSS,
-        VERIFIED,
-        f"ASCE 7, minimum uniformly distributed live loads: {kind}, {design[1]} psf",
-        FROM_MEMORY,
-    )
-
-
-_STORED: Final = (3.5, 2.5, 6.9, 100.0)
-_ROWS: Final = (
-    _row("storage", "storage", _STORED, "0.1 to 1 years", (6.00, 125), "light storage warehouses"),
-    _row("heavy storage", "storage", _STORED, "0.1 to 1 years", (11.97, 250), "heavy storage warehouses"),
-    _row("light industry", "storage", (1.0, 1.0, 2.8, 100.0), "5 to 10 years", (6.00, 125), "light manufacturing"),
-    _row("heavy industry", "storage", (3.0, 1.5, 4.1, 100.0), "5 to 10 years", (11.97, 250), "heavy manufacturing"),
-    _row("library", "archive", (1.7, 0.5, 1.0, 20.0), "more than 10 years", (7.18, 150), "stack rooms of libraries"),
-    _row("retail", "shop", (0.9, 0.6, 1.6, 100.0), "1 to 5 years", (4.79, 100), "retail stores, first floor"),
-    _row("office", "ordinary", (0.5, 0.3, 0.6, 20.0), "5 years", (2.40, 50), "offices"),
+_LOADS: Final = ("mean", "floor_deviation", "point_deviation", "reference_area", "design_load")
+_ROWS: Final = tuple(
+    SurveyedLoad(**{name: float(text) if name in _LOADS else text for name, text in row.items()})  # type: ignore[arg-type]
+    for row in table_rows("occupancy")
 )
 OCCUPANCY_IDS: Final[tuple[str, ...]] = tuple(row.occupancy_id for row in _ROWS)
 """Ids of the table, as building files take them."""

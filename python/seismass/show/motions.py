@@ -464,7 +464,9 @@ def scaling_text(scaling: ScalingResult) -> str:
 
 def scaling_lines(scaling: ScalingResult, remarks: Sequence[str]) -> list[str]:
     """Return target and method, remarks, the fit of the mean and the scatter."""
-    touches = "touches the target" if scaling.method == "ASCE 7-10" else f"is {scaling.least_ratio:.4f} of the target"
+    touches = (
+        "touches the target" if abs(scaling.least_ratio - 1.0) < 1e-9 else f"is {scaling.least_ratio:.4f} of the target"
+    )
     lines = [f"target  {scaling.target_label}", f"method  {scaling.method}, T = {scaling.period:g} s"]
     for remark in remarks:
         lines += textwrap.wrap(remark, 120, initial_indent="remark  ", subsequent_indent=f"{'':8}")

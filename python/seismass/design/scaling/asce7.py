@@ -1,8 +1,8 @@
-"""Amplitude scaling of ASCE/SEI 7: that of 7-10 for two-dimensional analysis, and the preset of 7-16 and 7-22."""
+"""Amplitude scaling of ASCE/SEI 7: that of 7-10, and that of 7-16 and 7-22."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any, Final
 
@@ -10,19 +10,22 @@ import numpy as np
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_flag, brief, frozen, refusal
-from seismass.design.modes import vibration_modes
+from seismass.design.modes import Modes, vibration_modes
+from seismass.design.rules import CodeRule, rule_of
 from seismass.model.building import Building
 from seismass.motions.motion import Motion
 from seismass.motions.records.pair import Pair
 from seismass.motions.scaling.result import ScalingResult
-from seismass.motions.scaling.suite import SuiteSpectra, positive_number, positive_period, suite_spectra
+from seismass.motions.scaling.suite import (
+    SuiteSpectra,
+    checked_target,
+    positive_number,
+    positive_period,
+    suite_spectra,
+)
 from seismass.motions.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 from seismass.motions.spectra.elastic import check_not_zero
 
-SHARE_7_16: Final = 0.9
-"""Least mean over target, ASCE/SEI 7-16, 16.2.3.2."""
-MOTIONS_7_16: Final = 11
-"""Least number of motions, 16.2.2."""
 MASS_7_16: Final = 0.9
 """Share of the mass that the modes down to the lower end of the range take part with, 16.2.3.1."""
 REFINED: Final = 10
@@ -31,6 +34,8 @@ LOWEST: Final = 5
 """Periods around which it is looked at once more, as closely again."""
 DIRECTIONS: Final = 180
 """Directions over half a turn in which the spectrum of a pair is taken."""
+APART: Final = 10
+"""Of these directions every so many are solved for every period, those between where they may have the largest."""
 
 
 def scale_asce7_10(
@@ -49,8 +54,8 @@ def scale_asce7_10(
     Parameters
     ----------
     records : iterable of Record or Motion, or of Pair
-        The suite; at least three motions, as the standard asks. The spectrum of a pair is the geometric mean of those
-        of its components as they are; the factor is that of both.
+        The suite; at least three motions, as the standard asks. The spectrum of a pair is the root of the sum of the
+        squares of those of its components; the factor is that of both.
     target : TargetSpectrum
         Design spectrum.
     period : float, default 1.0
@@ -77,61 +82,115 @@ def scale_asce7_10(
 
     Notes
     -----
-    ASCE/SEI 7-10, 16.1.3.1: the mean of the 5 % damped spectra is not less than the design spectrum from 0.2 T to
-    1.5 T. The standard leaves the factors open; these are the two-step ones of Reyes and Kalkan (2012), Earthquake
-    Spectra 28:1205, in the logarithm: ln SF1_i = mean over T_j of ln A_t - ln A_i, then SF2 = max over T_j of A_t over
-    the mean of SF1_i A_i.
+    ASCE/SEI 7-10, 16.1.3.1 and for pairs 16.1.3.2: the mean of the 5 % damped spectra, of pairs their SRSS, is not less
+    than the design spectrum from 0.2 T to 1.5 T. The standard leaves the factors open; these are the two-step ones of
+    Reyes and Kalkan (2012), Earthquake Spectra 28:1205, in the logarithm: ln SF1_i = mean over T_j of ln A_t - ln A_i,
+    then SF2 = max over T_j of A_t over the mean of SF1_i A_i.
     """
-    listed = _listed_records(records)
-    suite = suite_spectra(
-        _first_components(listed),
-        target,
-        period,
-        damping=damping,
-        period_range=period_range,
-        count=count,
-        threads=threads,
-        least=(3, "ASCE/SEI 7-10, 16.1.3"),
-    )
-    if any(_is_pair(item) for item in listed):
-        names = tuple(item.name or name for item, name in zip(listed, suite.names, strict=True))
-        suite = replace(
-            suite, spectra=frozen(spectra_of(listed, suite.periods, suite.damping, threads=threads)), names=names
-        )
+    listed = given_motions(records)
+    options: dict[str, Any] = {"period_range": period_range, "damping": damping, "count": count, "threads": threads}
+    refined = as_flag(between, "between", "scaling", InvalidOption)
+    of_code = rule_of("asce7-10", "least motions")
+    return scaled_suite(listed, target, period, "ASCE 7-10", "srss", 1.0, least=of_code, between=refined, **options)
+
+
+def scaled_suite(
+    items: list[Any],
+    target: TargetSpectrum,
+    period: float,
+    method: str,
+    pairs: str,
+    share: float,
+    *,
+    least: CodeRule | None,
+    between: bool,
+    least_common: Callable[[SuiteSpectra, FloatArray], float] | None = None,
+    notes: Iterable[str] = (),
+    **options: Any,
+) -> ScalingResult:
+    """Return the factors of least squares in the logarithm times the common one by which the mean spectrum, of pairs
+    their `pairs` spectrum, is nowhere below a share of the target; `least_common` may ask for a larger one.
+    """
+    wanted = (1, "") if least is None else (int(least.number), f"{least.code}, {least.clause}")
+    suite = suite_spectra(first_components(items), target, period, least=wanted, **options)
+    if any(map(is_pair, items)):
+        names = tuple(item.name or name for item, name in zip(items, suite.names, strict=True))
+        spectra = spectra_of(items, suite.periods, suite.damping, pairs, threads=options["threads"])
+        suite = replace(suite, spectra=frozen(spectra), names=names)
     individual = suite.log_factors()
-    common = suite.common_factor(individual, 1.0)
-    if as_flag(between, "between", "scaling", InvalidOption):
-        common = max(common, 1.0 / _least_between(suite, listed, target, individual, threads))
-    return suite.result("ASCE 7-10", individual, common)
+    common = suite.common_factor(individual, share)
+    if between:
+        common = max(common, share / _least_between(suite, items, target, individual, pairs, options["threads"]))
+    if least_common is not None:
+        common = max(common, least_common(suite, individual))
+    return suite.result(method, individual, common, notes)
 
 
-def _listed_records(records: Any) -> list[Any]:
-    """Motions and pairs as a list."""
+def given_motions(records: Any) -> list[Any]:
+    """Return motions and pairs as a list."""
     single = hasattr(records, "acceleration") or not isinstance(records, Iterable)
     return as_motions(records, "scaling") if single else list(records)
 
 
-def _is_pair(item: Any) -> bool:
+def is_pair(item: Any) -> bool:
+    """Whether it is a pair of components."""
     return hasattr(item, "at_angles")
 
 
-def _first_components(records: list[Any]) -> list[Any]:
-    """Motions, and the first component of each pair."""
-    return [item.first if _is_pair(item) else item for item in records]
+def first_components(items: list[Any]) -> list[Any]:
+    """Return motions, and the first component of each pair."""
+    return [item.first if is_pair(item) else item for item in items]
+
+
+PAIRS: Final[dict[str, Callable[[FloatArray, FloatArray], FloatArray]]] = {
+    "srss": np.hypot,
+    "geometric mean": lambda first, second: np.sqrt(first * second),
+    "mean": lambda first, second: 0.5 * (first + second),
+}
+"""Spectrum of a pair of those of its components, by name; "maximum direction" is the largest over all directions."""
 
 
 def spectra_of(
-    records: list[Any], periods: FloatArray, damping: float = 0.05, *, threads: int | None = None
+    records: list[Any], periods: FloatArray, damping: float = 0.05, pairs: str = "srss", *, threads: int | None = None
 ) -> FloatArray:
-    """Return spectra of motions (m/s2, motions x periods); of a pair the geometric mean of its components'."""
-    if not any(_is_pair(item) for item in records):
-        alone: FloatArray = response_spectrum(records, periods, damping, threads=threads)
-        return alone
-    both = [_first_components(records), [item.second if _is_pair(item) else item for item in records]]
-    first, second = (response_spectrum(each, periods, damping, threads=threads) for each in both)
+    """Return spectra of motions (m/s2, motions x periods); `pairs` names what stands for a pair."""
+    first: FloatArray = response_spectrum(first_components(records), periods, damping, threads=threads)
+    there = np.array([is_pair(item) for item in records])
+    if not there.any():
+        return first
+    spectra_by_item = first.copy()
+    if pairs == "maximum direction":
+        for index in np.flatnonzero(there):
+            spectra_by_item[index] = _largest_of_directions(records[index], periods, damping, threads)
+        return spectra_by_item
+    second = response_spectrum([records[i].second for i in np.flatnonzero(there)], periods, damping, threads=threads)
     check_not_zero(second)
-    mean: FloatArray = np.sqrt(first * second)
-    return mean
+    spectra_by_item[there] = PAIRS[pairs](first[there], second)
+    return spectra_by_item
+
+
+def _largest_of_directions(pair: Any, periods: FloatArray, damping: float, threads: int | None) -> FloatArray:
+    """Largest ordinate of a pair over all directions. Peaks over directions are a support function: between two of them
+    they are below the sinusoid through both, and where that is below the largest one nothing is solved.
+    """
+    step = 180.0 / DIRECTIONS
+
+    def ordinates(turns: Any, angle: FloatArray) -> FloatArray:
+        rows = [Motion(row, pair.dt) for row in pair.at_angles(np.asarray(turns) * step)]
+        solved: FloatArray = response_spectrum(rows, angle, damping, threads=threads)
+        return solved
+
+    coarse = np.arange(0, DIRECTIONS, APART)
+    known = ordinates(coarse, periods)
+    largest: FloatArray = known.max(axis=0)
+    next_to, apart = np.roll(known, -1, axis=0), np.radians(APART * step)
+    bounds = np.sqrt(known**2 + next_to**2 - 2.0 * known * next_to * np.cos(apart)) / np.sin(apart)
+    for first, bound in zip(coarse, bounds, strict=True):
+        open_ = np.flatnonzero(bound > largest)
+        if len(open_):
+            between = ordinates(np.arange(first + 1, first + APART), periods[open_])
+            largest[open_] = np.maximum(largest[open_], between.max(axis=0))
+    return largest
 
 
 def _least_between(
@@ -139,13 +198,14 @@ def _least_between(
     records: list[Any],
     target: TargetSpectrum,
     individual: FloatArray,
+    pairs: str,
     threads: int | None,
 ) -> float:
     """Return the least ratio of the mean to the target over the range, of motions times their own factors."""
 
     def over(periods: FloatArray) -> FloatArray:
         ratios: FloatArray = np.mean(
-            individual[:, None] * spectra_of(records, periods, suite.damping, threads=threads), axis=0
+            individual[:, None] * spectra_of(records, periods, suite.damping, pairs, threads=threads), axis=0
         )
         ratios /= target(periods)
         return ratios
@@ -214,44 +274,48 @@ def scale_asce7_16(
         value = period if period is not None else lowest_period
         raise refusal(InvalidOption, name, "scaling", "left out where a building is given", brief(value))
     if building is not None:
-        period, lowest_period = float(building.periods[0]), _period_of_mass(building)
+        modes = vibration_modes(building.mass, building.stiffness, stiffness_matrix=building.stiffness_matrix)
+        period, lowest_period = float(building.periods[0]), period_of_mass(modes)
     fundamental = positive_period(1.0 if period is None else period)
     upper = positive_number(longest, "longest")
     if upper < 1.5:
         raise refusal(InvalidOption, "longest", "scaling", "at least 1.5 (ASCE/SEI 7-16, 16.2.3.1)", f"{upper:g}")
+    checked_target(target)
     lowest = np.inf if lowest_period is None else positive_number(lowest_period, "lowest_period")
-    listed = _listed_records(records)
-    pairs = [item for item in listed if _is_pair(item)]
-    motions = _first_components(listed)
-    suite = suite_spectra(
-        motions,
+    listed = given_motions(records)
+    number = sum(map(is_pair, listed))
+    options: dict[str, Any] = {"damping": damping, "count": count, "threads": threads}
+    within = (min(0.2, lowest / fundamental), upper)
+    of_code, share = (rule_of("asce7-16", name) for name in ("least motions", "share of target"))
+    assert share is not None
+    return scaled_suite(
+        listed,
         target,
         fundamental,
-        damping=damping,
-        period_range=(min(0.2, lowest / fundamental), upper),
-        count=count,
-        threads=threads,
-        least=(MOTIONS_7_16, "ASCE/SEI 7-16, 16.2.2"),
+        "ASCE 7-16",
+        "maximum direction",
+        share.number,
+        least=of_code,
+        between=False,
+        notes=notes_7_16(number, len(listed), lowest_period is None, target),
+        period_range=within,
+        **options,
     )
-    if pairs:
-        suite = _of_pairs(suite, listed, threads)
-    individual = suite.log_factors()
-    common = suite.common_factor(individual, SHARE_7_16)
-    return suite.result("ASCE 7-16", individual, common, _notes(len(pairs), len(motions), lowest_period is None))
 
 
-def _notes(pairs: int, motions: int, without_modes: bool) -> list[str]:
-    """What a two-dimensional model cannot honour of the standard, and what is left to the user."""
+def notes_7_16(pairs: int, motions: int, without_modes: bool, target: TargetSpectrum) -> list[str]:
+    """Return what a two-dimensional model cannot honour of the standard, and what is left to the user."""
     notes = []
     if pairs < motions:
         notes.append(
             f"{motions - pairs} of {motions} are single components: ASCE 7-16 scales the maximum-direction spectra of "
             "pairs, which are above those of a component as recorded, so these factors are larger than the standard's"
         )
-    notes.append(
-        "the target of ASCE 7-16 is MCE_R in the maximum direction, 1.5 times the design spectrum; the one given is "
-        "taken as it is"
-    )
+    if target.factor == 1.0:
+        notes.append(
+            "the target of ASCE 7-16 is MCE_R in the maximum direction, 1.5 times the design spectrum; the one given "
+            "is taken as it is"
+        )
     notes.append(
         "near a fault the standard keeps fault-normal and fault-parallel components apart and asks for a fitting share "
         "of motions with a velocity pulse; a model in one plane takes one component and cannot honour that"
@@ -261,21 +325,6 @@ def _notes(pairs: int, motions: int, without_modes: bool) -> list[str]:
     return notes
 
 
-def _of_pairs(suite: SuiteSpectra, pairs: list[Any], threads: int | None) -> SuiteSpectra:
-    """The suite with the maximum-direction spectra and the names of pairs."""
-    spectra, names = suite.spectra.copy(), list(suite.names)
-    turns = np.arange(DIRECTIONS) * (180.0 / DIRECTIONS)
-    for index, item in enumerate(pairs):
-        if _is_pair(item):
-            directions = [Motion(row, item.dt) for row in item.at_angles(turns)]
-            ordinates = response_spectrum(directions, suite.periods, suite.damping, threads=threads)
-            spectra[index] = ordinates.max(axis=0)
-            names[index] = item.name or names[index]
-    return replace(suite, spectra=frozen(spectra), names=tuple(names))
-
-
-def _period_of_mass(building: Building) -> float:
-    """Period (s) of the mode with which the modes together have 90 % of the mass."""
-    modes = vibration_modes(building.mass, building.stiffness, stiffness_matrix=building.stiffness_matrix)
-    total: FloatArray = np.cumsum(modes.effective_mass) / building.mass.sum()
-    return float(modes.periods[int(np.searchsorted(total, MASS_7_16 * (1.0 - 1e-12)))])
+def period_of_mass(modes: Modes) -> float:
+    """Return the period (s) of the mode with which the modes together have 90 % of the mass."""
+    return float(modes.periods[modes.modes_needed(MASS_7_16) - 1])

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_array, as_number, brief, frozen, refusal
+from seismass.base.values import FloatArray, as_array, as_number, as_positive, brief, frozen, refusal
 from seismass.base.views import view
 from seismass.motions.elementary import geomspace, power
 from seismass.motions.spectra.codes import (
@@ -71,6 +71,8 @@ class TargetSpectrum:
         The kind of spectrum with its numbers.
     tilt : float, default 0.0
         Power p of (T/1 s)^p by which it is multiplied; see `tilted`.
+    factor : float
+        Number by which it is multiplied; see `times`.
 
     Attributes
     ----------
@@ -84,16 +86,19 @@ class TargetSpectrum:
 
     shape: Shape
     tilt: float = 0.0
+    factor: float = 1.0
 
     @property
     def label(self) -> str:
         """What it is, as figures and tables name it."""
-        return self.shape.label if self.tilt == 0.0 else f"{self.shape.label}, times (T/1 s)^{self.tilt:g}"
+        label = self.shape.label if self.tilt == 0.0 else f"{self.shape.label}, times (T/1 s)^{self.tilt:g}"
+        return label if self.factor == 1.0 else f"{self.factor:g} times {label}"
 
     @property
     def parameters(self) -> dict[str, Any]:
         """What it was made from."""
-        return self.shape.parameters if self.tilt == 0.0 else {**self.shape.parameters, "tilt": self.tilt}
+        changes = {"tilt": self.tilt} if self.tilt else {}
+        return {**self.shape.parameters, **changes, **({"factor": self.factor} if self.factor != 1.0 else {})}
 
     @property
     def shortest(self) -> float:
@@ -304,7 +309,30 @@ class TargetSpectrum:
         added = as_number(power, "power", "target spectrum", InvalidOption)
         if not np.isfinite(added):
             raise refusal(InvalidOption, "power", "target spectrum", "a finite number", f"{added:g}")
-        return TargetSpectrum(self.shape, self.tilt + added)
+        return TargetSpectrum(self.shape, self.tilt + added, self.factor)
+
+    def times(self, factor: float) -> TargetSpectrum:
+        """Return the spectrum times a number, such as 1.5 from the design spectrum of ASCE 7 to MCE_R.
+
+        Parameters
+        ----------
+        factor : float
+            The number, positive.
+
+        Raises
+        ------
+        InvalidOption
+            The factor is not positive.
+
+        Examples
+        --------
+        >>> import seismass as sm
+        >>> target = sm.TargetSpectrum.asce7(sds_g=1.0, sd1_g=0.6).times(1.5)
+        >>> (target(1.0) / sm.STANDARD_GRAVITY).round(6).tolist()
+        0.9
+        """
+        more = as_positive(factor, "factor", "target spectrum", InvalidOption)
+        return TargetSpectrum(self.shape, self.tilt, self.factor * more)
 
     def corner_period(self) -> float:
         """Return the period (s) between the ranges sensitive to acceleration and to velocity.
@@ -389,7 +417,8 @@ class TargetSpectrum:
             requirement = "positive where the spectrum is tilted by a negative power"
             raise refusal(InvalidOption, "period", "target spectrum", requirement, "0")
         ordinates = self.shape(values)
-        return ordinates if self.tilt == 0.0 else ordinates * power(values, self.tilt)
+        tilted = ordinates if self.tilt == 0.0 else ordinates * power(values, self.tilt)
+        return tilted if self.factor == 1.0 else self.factor * tilted
 
 
 def target_of_parameters(parameters: dict[str, Any]) -> TargetSpectrum:
@@ -397,7 +426,7 @@ def target_of_parameters(parameters: dict[str, Any]) -> TargetSpectrum:
     samples they do not hold.
     """
     data = dict(parameters)
-    tilt = data.pop("tilt", 0.0)
+    tilt, factor = data.pop("tilt", 0.0), data.pop("factor", 1.0)
     match data.get("shape"):
         case "asce7":
             target = TargetSpectrum.asce7(data["sds_g"], data["sd1_g"], data["tl"])
@@ -422,7 +451,7 @@ def target_of_parameters(parameters: dict[str, Any]) -> TargetSpectrum:
             raise refusal(InvalidOption, "target", "stored spectrum", requirement, "the mean of motions")
         case other:
             raise refusal(InvalidOption, "target", "stored spectrum", "of a kind that is known", brief(other))
-    return target.tilted(tilt) if tilt else target
+    return TargetSpectrum(target.shape, tilt, factor)
 
 
 MAX_ORDINATE: Final = 4.0

@@ -71,7 +71,7 @@ def _facts(result: AssessmentTables) -> dict[str, str]:
         ),
         "Limits": _with_source(_limits(data), data, "drift_limit", "theta_limit"),
         "Code": _with_source(
-            f"{code['code']}, {code['use']}: {code['share_of_design_live_load']:.3g} of the design live load"
+            f"{code['code']}, {code['uses']}: {code['share_of_design_live_load']:.3g} of the design live load"
             + "".join(f"; {code[name]}" for name in ("clause", "status", "note") if code[name])
             + ("" if code["status"] in (VERIFIED, AS_STATED) else f"; {NOT_CHECKED}"),
             data,
@@ -133,7 +133,8 @@ def _strength_words(data: dict[str, Any]) -> str:
     if rule is None:
         return "as stated"
     return (
-        f"by design: V_y = V_e/R, R = {rule['R']:g}, response spectrum analysis ({rule['combination'].upper()}), with "
+        f"by {data['code_of_design']}: V_y = V_e I/R, R = {rule['R']:g}, response spectrum analysis "
+        f"({rule['combination'].upper()}), with "
         f"{rule['fraction']:.3g} of the design live load as mass"
     )
 

@@ -12,8 +12,10 @@ from seismass.assessment.checks import CAPPED_DRIFT
 from seismass.assessment.models import ADVISED, BARE, NAMES
 from seismass.media.page import table_html, text_html, whole_html
 from seismass.media.roles import apart, isolated, sentence_html
+from seismass.model.codes import FROM_MEMORY, MARK, SECOND_HAND
 from seismass.show.assessment.figures import answer_lines, box_class, building_drawing
 from seismass.show.assessment.tables import AssessmentTables
+from seismass.show.assessment.text import quantity_text
 
 HEAD: Final = {"name": "Project", "number": "Number", "author": "Author", "checker": "Checked by", "date": "Date"}
 """Entries of the head of the sheet; what the file does not say is left to be filled in by hand."""
@@ -21,6 +23,8 @@ NOT_COVERED: Final = (
     "Not covered: part floors, mezzanines, and roofs and canopies on columns of their own, which need models of their "
     "own; torsion, flexible floors and foundations; goods that rock, topple or strike each other."
 )
+ON_SHEET: Final = ("W", "T_1", "T", "I", "C_s", "V", "V_y/(C_s W)", "V_y/W")
+"""Quantities of the design on the sheet, beside V_y of each storey."""
 MOST_STOREYS: Final = 8
 """Storeys of the table of the sheet."""
 MOST_MOTIONS: Final = 12
@@ -42,7 +46,9 @@ def sheet_html(result: AssessmentTables) -> Markup:
         kind=box_class(result),
         answer=text_html(*answer_lines(result)),
         tables=Markup("").join([_verdicts(result), *_storeys(result)]),
-        motions=text_html(_motions(result), Markup('<small class="limits">{}</small>').format(NOT_COVERED)),
+        motions=text_html(
+            _design(result), _motions(result), Markup('<small class="limits">{}</small>').format(NOT_COVERED)
+        ),
     )
 
 
@@ -173,6 +179,27 @@ def _storeys(result: AssessmentTables) -> list[Markup]:
 
 def _model_name(text: str) -> Markup:
     return sentence_html(text)
+
+
+def _design(result: AssessmentTables) -> Markup:
+    """W, T, C_s, V and V_y with their clauses."""
+    inputs = result.document["input"]
+    rows, sentences = inputs["code_design"], []
+    for direction in dict.fromkeys(row["direction"] for row in rows):
+        numbers = [row for row in rows if row["direction"] == direction]
+        strengths = [row for row in numbers if row["quantity"] == "V_y"]
+        shown = [row for row in numbers if row["quantity"] in ON_SHEET]
+        words = [f"{row['quantity']} = {quantity_text(row['value'], row['unit'])}{_clause(row)}" for row in shown]
+        most = ", ".join(quantity_text(row["value"], "N").removesuffix(" kN") for row in strengths)
+        words.append(f"V_y = {most} kN from storey 1 up{_clause(strengths[0])}")
+        sentences.append(f"{direction}: " * bool(direction) + ", ".join(words))
+    title = "Strengths as stated" if inputs["design"] is None else f"Design by {inputs['code_of_design']}"
+    return Markup("<strong>{}.</strong> {}.").format(title, "; ".join(sentences))
+
+
+def _clause(row: dict[str, Any]) -> str:
+    mark = MARK if row["status"] in (SECOND_HAND, FROM_MEMORY) else ""
+    return f" ({row['clause']}{mark})" if row["clause"] else ""
 
 
 def _motions(result: AssessmentTables) -> Markup:

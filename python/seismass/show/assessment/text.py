@@ -23,7 +23,7 @@ from seismass.effective_mass import ByHand
 from seismass.effective_mass.estimate import RULE, RULE_UNKNOWN, SAFE_RULE
 from seismass.media.result import PAGE, check_out, write_folder
 from seismass.media.text_table import number_text, text_table
-from seismass.model.codes import NOT_CHECKED
+from seismass.model.codes import CODE_NAMES, FROM_MEMORY, MARK, NOT_CHECKED, SECOND_HAND
 from seismass.show.assessment.tables import ANIMATION, DOCUMENT, FIGURES, TABLES, assessment_tables
 
 if TYPE_CHECKING:
@@ -46,6 +46,7 @@ def assessment_text(result: Assessment) -> str:
         lines += ["", *_stability(result)]
     if result.answer.analyses:
         lines += ["", *_analysis(result)]
+    lines += ["", *_design(result)]
     if result.slip.height:
         lines += ["", *_slips(result)]
     lines += ["", *_motions(result), "", "In an analysis", *_bullets(result.advice)]
@@ -103,7 +104,7 @@ def _code(result: Assessment) -> str:
     spread = f", range {code.low:g} to {code.high:g}" if code.low < code.high else ""
     source = "".join(f"; {part}" for part in (code.clause, code.status, "" if code.checked else NOT_CHECKED) if part)
     return (
-        f"{code.code}{code.mark}, {code.use}: {of_load / share:.2f} of the goods present ({of_load:.3g} of "
+        f"{code.code}{code.mark}, {result.building.uses}: {of_load / share:.2f} of the goods present ({of_load:.3g} of "
         f"the design live load{spread}){source}"
     )
 
@@ -218,6 +219,31 @@ def _stability(result: Assessment) -> list[str]:
         values = [*(row["theta"] for row in cells), cells[0]["theta_elastic"]]
         rows.append([_storey_label(cells[0]), *("no value" if value is None else f"{value:.3f}" for value in values)])
     return lines + text_table(rows)
+
+
+def _design(result: Assessment) -> list[str]:
+    """W, T, C_s, V and V_y of each storey, each with its clause."""
+    table = result.tables["design"]
+    lines = [f"Design of the strengths by {CODE_NAMES[result.building.rules_code]}"]
+    if result.building.design is None:
+        lines = ["Strengths as stated"]
+    rows = [["", "value", "clause", "what it is"]]
+    for row in table.iter_rows(named=True):
+        mark = MARK if row["status"] in (SECOND_HAND, FROM_MEMORY) else ""
+        name = " ".join(
+            str(part) for part in (row["direction"], row["quantity"], row["storey"]) if part not in ("", None)
+        )
+        note = textwrap.shorten(row["note"], WIDTH - 60, placeholder=" ...")
+        rows.append([name, quantity_text(row["value"], row["unit"]), row["clause"] + mark, note])
+    marked = any(MARK in row[2] for row in rows)
+    return [*lines, *text_table(rows, left=4), *([f"  {MARK} {NOT_CHECKED}"] if marked else [])]
+
+
+def quantity_text(value: float, unit: str) -> str:
+    """Return a quantity of a design as offices write it: forces in kN."""
+    if unit == "N":
+        return f"{1e-3 * value:.0f} kN"
+    return f"{value:.3f} s" if unit == "s" else f"{value:.4g}"
 
 
 def _slips(result: Assessment) -> list[str]:
