@@ -600,3 +600,17 @@ def test_roots_are_those_of_scipy_bit_for_bit_by_the_same_steps(shape: str) -> N
 def test_a_drift_that_is_no_number_is_an_error_and_no_root() -> None:
     with pytest.raises(sm.errors.SimulationError, match=r"drift of building at share 0\.5\d* must be finite"):
         refined_root(lambda x: -1.0 if x == 0.0 else 1.0 if x == 1.0 else float("nan"), (0.0, 1.0))
+
+
+def test_goods_on_the_ground_do_not_hold_those_on_the_floors() -> None:
+    """Floors whose goods have no friction are bare, whatever the friction of goods on the ground."""
+    building = sm.Building.uniform(2, 0.3, mass=1e5)
+    motions = [sm.builtin_record("synthetic-1"), sm.builtin_record("synthetic-2")]
+    loose = [sm.Block(1, mass=4e4, mu=0.0), sm.Block(2, mass=3e4, mu=0.0)]
+    alone, beside = (
+        sm.effective_mass(sm.Scene(building, blocks), motions, resamples=2)
+        for blocks in (loose, [sm.Block(0, mass=5e4, mu=0.4), *loose])
+    )
+    assert (beside.value, beside.kind) == (alone.value, alone.kind) == (0.0, "zero")
+    held = sm.effective_mass(sm.Scene(building, [loose[0], sm.Block(2, mass=3e4, mu=0.3)]), motions, resamples=2)
+    assert held.kind != "zero"

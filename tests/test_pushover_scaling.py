@@ -23,6 +23,9 @@ def test_elastic_oscillator_gives_the_elastic_ratio(reduction: float) -> None:
     np.testing.assert_allclose(found.factors, sm.scaling.scale_sa_t1(SUITE, TARGET, 0.7).factors, rtol=1e-12)
     assert found.deformation_ratio == 1.0
     assert [len(roots) for roots in found.roots] == [1] * 7
+    assert "the oscillator stays elastic, R_y <= 1" in " ".join(found.notes)
+    yields = sm.scaling.scale_modal_pushover(SUITE, TARGET, period=0.7, reduction=1.001)
+    assert "target deformation by C_R" in " ".join(yields.notes)
 
 
 @pytest.mark.parametrize("reduction", [1.5, 3.0, 6.0])

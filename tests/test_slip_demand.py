@@ -259,6 +259,18 @@ def test_collapse_counts_as_lost_goods(suite: list[sm.Record]) -> None:
     found.plot()
 
 
+def test_after_a_collapse_the_ground_alone_has_its_acceleration(suite: list[sm.Record]) -> None:
+    """Goods on the ground stand on what is known; under those on a floor nothing is known any more."""
+    blocks = [sm.Block(0, mass=1e3, mu=0.2), *sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.2)]
+    scene = sm.Scene(building(heights=3.0), blocks, collapse_drift=0.001)
+    runs = slip_demand(scene, suite[:1]).runs
+    assert runs["collapsed"].to_list() == [True] * 3
+    for column in ("attached_acceleration_g",):
+        values = runs[column].to_list()
+        assert values[0] == pytest.approx(suite[0].pga / G, rel=1e-12), column
+        assert all(value is None or np.isnan(value) for value in values[1:]), column
+
+
 def test_squat_rule() -> None:
     low, tall = BlockSize(1.0, 1.2), BlockSize(0.3, 1.2)
     assert low.uplift_g == pytest.approx(1.0 / 1.2)
