@@ -18,6 +18,7 @@ from seismass.effective_mass.result import remarks_of
 from seismass.model.friction import bound_factors
 from seismass.motions.matching.match import matching_remarks
 from seismass.motions.records.read import suspicions
+from seismass.studies.fragility import HuntAndFill
 from seismass.studies.slip.squat import Base, BlockSize, newmark_bound, newmark_pulse
 
 BUILDING = sm.Building.uniform(2, 0.3, mass=1e5)
@@ -81,6 +82,8 @@ LIMITS: dict[str, tuple[Callable[[float], object], float | None, float | None]] 
     "R of a map": (of_map("response_modification", several=True), 1.0, None),
     "friction of a map": (of_map("mus", several=True), 0.0, None),
     "centre of a block": (lambda centre: BlockSize(1.0, 1.2, centre), None, 1.2),
+    "tolerance of a hunt": (lambda value: HuntAndFill(tolerance=value), 1e-14, None),
+    "end of a hunt": (lambda value: HuntAndFill(beyond=value), 1.0, None),
     "exceedances of a fit": (lambda hit: sm.fragility.fit_counts([0.1, 0.2, 0.4], [hit, 5, 8], 10), 0.0, None),
     "largest exceedances of a fit": (lambda hit: sm.fragility.fit_counts([0.1, 0.2, 0.4], [1, 5, hit], 10), None, 10.0),
 }
@@ -99,6 +102,9 @@ def test_a_value_at_its_limit_is_accepted_and_the_next_one_is_not(name: str) -> 
 @pytest.mark.parametrize(
     ("make", "limit"),
     [
+        (lambda value: HuntAndFill(tolerance=value), 1.0),
+        (lambda value: HuntAndFill(step=value), 0.0),
+        (lambda value: HuntAndFill(highest=value), 0.0),
         (of_map("confidence"), 0.0),
         (of_map("confidence"), 1.0),
         (of_map("mass_ratios", several=True), 0.0),

@@ -271,6 +271,18 @@ def test_after_a_collapse_the_ground_alone_has_its_acceleration(suite: list[sm.R
         assert all(value is None or np.isnan(value) for value in values[1:]), column
 
 
+@pytest.mark.parametrize(
+    ("mu", "collapse", "said"), [(0.2, None, False), (50.0, None, True), (50.0, 0.001, False), (0.2, 0.001, False)]
+)
+def test_that_no_block_slides_is_said_where_it_is_known(
+    suite: list[sm.Record], mu: float, collapse: float | None, said: bool
+) -> None:
+    """Slips are some centimetres; after a collapse nothing is known of them."""
+    found = slip_demand(storage(mu, heights=3.0).replace(collapse_drift=collapse), suite[:2])
+    assert ("no block slides under any motion" in found.remarks) is said
+    assert any("collapses under" in remark for remark in found.remarks) is (collapse is not None)
+
+
 def test_squat_rule() -> None:
     low, tall = BlockSize(1.0, 1.2), BlockSize(0.3, 1.2)
     assert low.uplift_g == pytest.approx(1.0 / 1.2)

@@ -10,7 +10,10 @@ import pytest
 
 import seismass as sm
 from seismass.assessment.advice import _envelope
+from seismass.assessment.doubts import _load_doubts
 from seismass.assessment.models import motion_of_runs
+from seismass.show.assessment.page import building_page
+from seismass.show.assessment.tables import assessment_tables
 
 G = 9.80665
 
@@ -201,3 +204,26 @@ def test_the_motion_shown_is_that_of_median_drift(
         for storey, factor in enumerate((1.0, 0.5))
     ]
     assert motion_of_runs(pl.DataFrame(rows, schema_overrides={"peak_slip": pl.Float64})) == shown
+
+
+def test_the_page_has_the_drawing_for_phones_beside_the_wide_one(unequal: sm.Assessment) -> None:
+    start = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0'
+    wide, narrow = (f'{start} {size} 9" width="{size}pt" height="9pt"><path d="M0 0"/></svg>' for size in (711, 311))
+    tables = assessment_tables(unequal)
+    alone, both = building_page(tables, {"drift": wide}), building_page(tables, {"drift": wide}, {"drift": narrow})
+    assert [text in alone for text in ("0 0 711 9", "0 0 311 9")] == [True, False]
+    assert [text in both for text in ("0 0 711 9", "0 0 311 9")] == [True, True]
+
+
+@pytest.mark.parametrize(("place", "called"), [(0, "floor 1, hall,"), (1, "floor 2, loft,"), (2, "floor 3, roof,")])
+@pytest.mark.parametrize(("key", "what"), [("live_load_kpa", "design live load"), ("dead_load_kpa", "dead load")])
+def test_a_load_out_of_range_is_that_of_its_floor(
+    unequal_file: dict[str, Any], place: int, called: str, key: str, what: str
+) -> None:
+    unequal_file["storeys"][place][key] = 96.5
+    (doubt,) = [text for text in _load_doubts(sm.read_building(unequal_file)) if text.startswith(what)]
+    assert doubt.startswith(f"{what} of {called} is 96.5 kPa, above ")
+    assert "(and " not in doubt
+    unequal_file["storeys"][place - 1][key] = 97.5
+    (doubt,) = [text for text in _load_doubts(sm.read_building(unequal_file)) if text.startswith(what)]
+    assert "(and 1 more)" in doubt
