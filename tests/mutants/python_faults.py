@@ -427,4 +427,7 @@ REASONS: dict[str, str] = {
     "studies/fragility/result.py: `y[-1] <= largest` becomes `y[-1] < largest` in "
     "`known = [float(x[-1]) for x, y in traced if y[-1] <= largest]`":
         "the last demand of a run is the limit to its last digit in no motion",
+    "studies/fragility/fragility.py: `lowest <= fitted_median <= highest` becomes `lowest < fitted_median <= highest` in "
+    '`if name == "fitted" and not lowest <= fitted_median <= highest:`':
+        "a fitted median is a level to its last digit in no fit; a step at a level is not fitted",
 }

@@ -179,4 +179,6 @@ REASONS: dict[str, str] = {
     "general/outcome.rs: comparison in "
     "`if motion.sliding().is_some_and(|sign| sign.factor() * motion.velocity < 0.0) {`":
         "a velocity of zero is set to zero",
+    "spectrum/oscillator.rs: comparison in `if self.s <= SMALL_STEP {`":
+        "at a step of exactly 1 both ways hold",
 }
