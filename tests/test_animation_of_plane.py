@@ -45,3 +45,41 @@ def test_frames_and_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
     scene.write_text(f"{goods}[motion]\n{motion}[other_motion]\n{motion}")
     assert main(["animate", str(scene), "--out", str(tmp_path / "crate.gif")]) == 0
     assert "of block 1 after a path of" in capsys.readouterr().out
+
+
+def test_a_frame_is_drawn_to_scale() -> None:
+    """Between two rows, enlarged: floors from the side, and the floor, goods and path from above."""
+    animation = sm.animation.animate_plane(SCENE, PAIR, floor=2)  # type: ignore[arg-type]
+    factor = animation.factor
+    assert factor != 1.0
+    picture, boxes, lines = PlanePicture(animation), [], []
+    picture._box = lambda draw, box, *colours: boxes.append(tuple(map(float, box)))  # type: ignore[method-assign]
+    picture._line = lambda draw, points, *style: lines.append(np.array(points))  # type: ignore[method-assign]
+    place = 20.3
+    picture.frame(place * animation.step)
+    rows = animation.floor_displacement, animation.response.slip
+    sway, slip = (0.7 * each[20] + 0.3 * each[21] for each in rows)
+    # From the side: the ground at the foot of the lowest columns, two floors 3 m and 6 m above it, then two goods.
+    columns = [line for line in lines if line.shape == (2, 2)][1:5]
+    ground = columns[0][0, 1]
+    middle = 0.5 * (columns[0][0, 0] + columns[1][0, 0])
+    floors, goods = boxes[:2], boxes[2:4]
+    scale = (ground - floors[1][1]) / 6.0
+    assert ground - floors[0][1] == pytest.approx(3.0 * scale)
+    for number, (left, _, right, _) in enumerate(floors):
+        assert 0.5 * (left + right) - middle == pytest.approx(factor * scale * sway[number, 0], rel=1e-9, abs=1e-9)
+        x0, y0, x1, y1 = goods[number]
+        assert y1 == pytest.approx(floors[number][1])
+        assert y1 - y0 == pytest.approx(x1 - x0)
+        moved = factor * scale * (sway[number, 0] + slip[number, 0])
+        assert 0.5 * (x0 + x1) - middle == pytest.approx(moved, rel=1e-9, abs=1e-9)
+    # From above: the floor at rest, the floor, and its goods; y is upward.
+    rest, floor, crate = (np.array(box).reshape(2, 2) for box in boxes[4:7])
+    per_metre = (rest[1, 0] - rest[0, 0]) / 6.0
+    assert rest[1, 1] - rest[0, 1] == pytest.approx(rest[1, 0] - rest[0, 0])
+    up = np.array([1.0, -1.0])
+    np.testing.assert_allclose(floor - rest, np.tile(factor * per_metre * sway[1] * up, (2, 1)), atol=1e-9)
+    np.testing.assert_allclose(crate.mean(axis=0) - floor.mean(axis=0), factor * per_metre * slip[1] * up, atol=1e-9)
+    path = next(line for line in lines if len(line) == 22)
+    walked = np.vstack([animation.response.slip[:21, 1], slip[1]])
+    np.testing.assert_allclose(path, floor.mean(axis=0) + factor * per_metre * walked * up, atol=1e-9)

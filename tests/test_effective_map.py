@@ -127,6 +127,52 @@ def test_table(small: sm.EffectiveMassMap) -> None:
     np.testing.assert_allclose(small.table.filter(pl.col("mu") == 0.0)["ratio_at_0"], 1.0, rtol=1e-14)
 
 
+def test_shears_and_rules_of_a_yielding_case_by_hand(small: sm.EffectiveMassMap) -> None:
+    """C1 is the smaller of 1.07 V_e/W and (V_y/W) min(Omega, 1 + r2 (m - 1)); m - 1 = (R_e - 1)(1 + 0.6 T_c/T)."""
+    g, factors, corner = sm.STANDARD_GRAVITY, small.scaling.factors, small.metadata["corner_period"]
+    defaults = sm.EffectiveMassParameters()
+    cases = small.table.filter(R=4.0, mu=0.2)
+    assert cases.height == 4
+    for row in cases.iter_rows(named=True):
+        bare = sm.Building.uniform(row["storeys"], row["period"], mass=1.0)
+        goods = np.full(row["storeys"], row["alpha"])
+        if row["roof"] == "bare":
+            goods[-1] = 0.0
+        designed, whole = (
+            response_spectrum_analysis(
+                bare.mass + share * goods, bare.stiffness, lambda at: mean_spectrum(SUITE, factors, at)
+            )
+            for share in (0.25, 1.0)
+        )
+        weight = g * (bare.mass + goods).sum()
+        strength, elastic = designed.storey_shear[0] / 4.0 / weight, whole.base_shear / weight
+        ductility = (elastic / strength - 1.0) * (1.0 + 0.6 * corner / whole.modes.periods[0])
+        growth = min(defaults.overstrength, 1.0 + defaults.second_slope * ductility)
+        by_hand = min(1.07 * elastic, strength * growth)
+        assert row["base_shear_coefficient_by_hand"] == pytest.approx(by_hand, rel=1e-12)
+        building = bare.replace(yield_shear=designed.storey_shear / 4.0)
+        runs = {
+            share: [
+                sm.simulate(
+                    sm.Scene(building.replace(mass=bare.mass + share * goods, damping=building.damping_matrix)), motion
+                )
+                for motion in (record.scaled(factor) for record, factor in zip(SUITE, factors, strict=True))
+            ]
+            for share in (0.0, 1.0)
+        }
+        shears = [run.peak_storey_shear[0] for run in runs[1.0]]
+        assert row["base_shear_coefficient"] == pytest.approx(np.mean(shears) / weight, rel=1e-9)
+        drifts = {share: np.mean([run.peak_drift.max() for run in some]) for share, some in runs.items()}
+        assert row["ratio_at_0"] == pytest.approx(row["real"] / drifts[0.0], rel=1e-9)
+        assert row["ratio_at_1"] == pytest.approx(row["real"] / drifts[1.0], rel=1e-9)
+        storeys = np.mean([run.peak_drift for run in runs[1.0]], axis=0)
+        assert row["yields"] == bool((storeys > building.yield_shear / building.stiffness).any())
+        levels = np.arange(1.0, row["storeys"] + 1.0)
+        masses = bare.mass + goods
+        height = (goods @ levels / goods.sum()) / (masses @ levels / masses.sum())
+        assert row["height_ratio"] == pytest.approx(height, rel=1e-12)
+
+
 def test_rules_of_eta_by_hand(small: sm.EffectiveMassMap) -> None:
     """Every sliding case by a loop: the model's curve at min(1, eta^2) and min(1, eta), over the real drift."""
     table = small.rules()

@@ -17,6 +17,7 @@ import seismass as sm
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.design import response_spectrum_analysis
 from seismass.effective_mass.models import TOLERANCE, interpolated, refined_root
+from seismass.effective_mass.search import without_friction
 from seismass.motions.spectra import mean_spectrum
 
 SUITE = sm.builtin_suite("seven")
@@ -601,3 +602,35 @@ def test_roots_are_those_of_scipy_bit_for_bit_by_the_same_steps(shape: str) -> N
 def test_a_drift_that_is_no_number_is_an_error_and_no_root() -> None:
     with pytest.raises(sm.errors.SimulationError, match=r"drift of building at share 0\.5\d* must be finite"):
         refined_root(lambda x: -1.0 if x == 0.0 else 1.0 if x == 1.0 else float("nan"), (0.0, 1.0))
+
+
+def test_goods_on_the_ground_do_not_hold_those_on_the_floors() -> None:
+    """Floors whose goods have no friction are bare, whatever the friction of goods on the ground."""
+    building = sm.Building.uniform(2, 0.3, mass=1e5)
+    motions = [sm.builtin_record("synthetic-1"), sm.builtin_record("synthetic-2")]
+    loose = [sm.Block(1, mass=4e4, mu=0.0), sm.Block(2, mass=3e4, mu=0.0)]
+    alone, beside = (
+        sm.effective_mass(sm.Scene(building, blocks), motions, resamples=2)
+        for blocks in (loose, [sm.Block(0, mass=5e4, mu=0.4), *loose])
+    )
+    assert (beside.value, beside.kind) == (alone.value, alone.kind) == (0.0, "zero")
+    held = sm.effective_mass(sm.Scene(building, [loose[0], sm.Block(2, mass=3e4, mu=0.3)]), motions, resamples=2)
+    assert held.kind != "zero"
+
+
+@pytest.mark.parametrize(
+    ("blocks", "held"),
+    [
+        ([], False),
+        ([sm.Block(1, mass=1e3, mu=0.0)], False),
+        ([sm.Block(0, mass=1e3, mu=0.4)], False),
+        ([sm.Block(0, mass=1e3, mu=0.4), sm.Block(2, mass=1e3, mu=0.0)], False),
+        ([sm.Block(1, mass=1e3, mu=0.0), sm.Block(2, mass=1e3, mu=0.1)], True),
+        ([sm.Block(1, mass=1e3, mu_s=0.1, mu_k=0.0)], True),
+        ([sm.Block(1, mass=1e3, mu=0.0, wear=[(0.1, 0.2, 0.2)])], True),
+    ],
+)
+def test_goods_are_held_by_any_friction_on_a_floor(blocks: list[sm.Block], held: bool) -> None:
+    """Static friction alone, or after wear, holds them too; goods on the ground are no matter of the building."""
+    scene = sm.Scene(sm.Building.uniform(2, 0.3, mass=1e5), blocks)
+    assert without_friction(scene) is not held

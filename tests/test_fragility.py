@@ -72,6 +72,19 @@ def test_baker_example_by_a_probit_regression_made_by_hand() -> None:
     assert fit.median_interval[0] < fit.median < fit.median_interval[1]
 
 
+@pytest.mark.parametrize(
+    ("exceeding", "total", "drawn"),
+    [([1, 5, 9], 10, True), ([1, 5, 8.5], 10, False), ([1, 5, 9], [10, 10, 10.5], False), ([0, 3, 7], 10, True)],
+)
+def test_counts_that_are_whole_have_an_interval(
+    exceeding: list[float], total: float | list[float], drawn: bool
+) -> None:
+    """All of them must be whole to draw other counts of as many runs."""
+    fit = fit_counts([0.2, 0.4, 0.8], exceeding, total, resamples=50)
+    assert (fit.median_interval is not None) is drawn
+    assert fit_counts([0.2, 0.4, 0.8], exceeding, total, resamples=0).median == fit.median
+
+
 def test_two_levels_are_met_exactly() -> None:
     """By hand: shares of 16 and 84 % a factor e apart are one deviation from the median, sqrt(e): dispersion 1/2."""
     share = float(norm.cdf(-1.0))

@@ -416,6 +416,20 @@ def test_what_no_analysis_can_take_is_refused() -> None:
 # Results
 
 
+def test_motions_have_their_event_and_their_intensity() -> None:
+    """One row per motion; an earthquake that is not named is null."""
+    first, second = (sm.builtin_record(f"synthetic-{number}") for number in (1, 2))
+    named = sm.Record(second.acceleration, second.dt, name="other", event="Kobe")
+    found = incremental_dynamic_analysis(warehouse(), [first, named], DRIFT, resamples=0)
+    column = found.measure.column
+    assert found.motions.columns == ["motion", "record", "event", column]
+    assert found.motions["motion"].to_list() == [1, 2]
+    assert found.motions["record"].to_list() == [first.name, "other"]
+    assert found.motions["event"].to_list() == [None, "Kobe"]
+    for record, value in zip((first, named), found.motions[column], strict=True):
+        assert value == pytest.approx(found.measure.of(record), rel=1e-12)
+
+
 def test_results_are_written_and_say_what_they_hold(analysis: FragilityAnalysis, tmp_path: Path) -> None:
     files = {path.name for path in analysis.write(tmp_path / "out")}
     assert {"runs.parquet", "fragilities.csv", "exceedance.csv", "fragility.json", "fragility.svg"} <= files

@@ -60,6 +60,101 @@ def test_glued_goods_have_the_share_that_is_present() -> None:
     assert found.samples["slides"].sum() == 0.0
 
 
+def test_every_table_again_from_single_runs(unequal_scene: sm.Scene, unequal_motions: tuple[sm.Record, ...]) -> None:
+    """Four samples of a scene in which no two masses, heights or frictions are alike, and the five of the tornado."""
+    building, heights = unequal_scene.building, np.array([4.3, 3.7, 3.1])
+    mass, goods = np.array([44.1e3, 35.7e3, 22.4e3]), np.array([18.9e3 + 11.5e3, 13.7e3, 7.8e3])
+    assert building is not None
+    carried = building.replace(
+        damping=building.damping_matrix,
+        gravity_load=np.array([461e3, 367e3, 251e3]) + sm.STANDARD_GRAVITY * goods,
+    )
+    mu, occupancy = sm.distributions.lognormal(0.27, 0.3), sm.distributions.beta(0.6, 0.17)
+    fractions = np.array([0.0, 0.2, 0.5, 0.7, 1.0])
+    found = sm.live_load_uncertainty(
+        unequal_scene, unequal_motions, mu=mu, occupancy=occupancy, samples=4, fractions=fractions, seed=3
+    )
+
+    def drifts(scene: sm.Scene) -> tuple[float, float]:
+        """Mean over the motions of the largest drift ratio, and the share of motions under which goods slide."""
+        runs = [sm.simulate(scene, motion) for motion in unequal_motions]
+        largest = [(run.peak_drift / heights).max() for run in runs]
+        return float(np.mean(largest)), float(np.mean([(run.peak_slip > 0.0).any() for run in runs]))
+
+    def real(friction: float, present: float) -> tuple[float, float]:
+        kinds = [
+            (1, 18.9e3, 0.298, 0.214),
+            (1, 11.5e3, 0.253, 0.154),
+            (2, 13.7e3, 0.349, 0.184),
+            (3, 7.8e3, 0.291, 0.24),
+        ]
+        blocks = [
+            sm.Block(floor, mass=kilograms * present, mu_s=friction, mu_k=friction * (mu_k / mu_s))
+            for floor, kilograms, mu_s, mu_k in kinds
+        ]
+        return drifts(unequal_scene.replace(blocks=blocks))
+
+    curve = np.array([drifts(sm.Scene(carried.replace(mass=mass + share * goods)))[0] for share in fractions])
+    assert found.unit == "ratio"
+    assert found.curve["fraction"].to_list() == fractions.tolist()
+    np.testing.assert_allclose(found.curve["model_drift"], curve, rtol=1e-12)
+
+    def at(share: float) -> float:
+        return float(np.interp(share, fractions, curve))
+
+    samples = found.samples
+    assert samples["sample"].to_list() == [1, 2, 3, 4]
+    # One sample in each quarter of both distributions.
+    for column, distribution in (("mu", mu), ("occupancy", occupancy)):
+        levels = distribution.cdf(samples[column].to_numpy())  # type: ignore[attr-defined]
+        assert sorted((4.0 * levels).astype(int)) == [0, 1, 2, 3], column
+    for row in samples.iter_rows(named=True):
+        drift, slides = real(row["mu"], row["occupancy"])
+        assert row["real_drift"] == pytest.approx(drift, rel=1e-12)
+        assert row["slides"] == pytest.approx(slides, rel=1e-12)
+        # At the share the model has the drift of the sample, and it has more at every larger share.
+        assert 0.0 < row["share"] < 1.0
+        assert at(row["share"]) == pytest.approx(drift, rel=1e-9)
+        assert (curve[fractions > row["share"]] > drift).all()
+    shares = samples["share"].to_numpy()
+    assert found.quantiles["probability"].to_list() == [0.05, 0.16, 0.5, 0.84, 0.95]
+    np.testing.assert_allclose(found.quantiles["share"], np.quantile(shares, [0.05, 0.16, 0.5, 0.84, 0.95]), rtol=1e-12)
+    assert found.share_84 == pytest.approx(np.quantile(shares, 0.84), rel=1e-12)
+    assert at(found.share) == pytest.approx(samples["real_drift"].mean(), rel=1e-9)
+    assert found.exceedance(float(np.sort(shares)[1])) == 0.5
+    rows = {row["variable"]: row for row in found.tornado.iter_rows(named=True)}
+    assert set(rows) == {"friction mu", "occupancy"}
+    for name, distribution in (("friction mu", mu), ("occupancy", occupancy)):
+        row = rows[name]
+        ends = distribution.ppf([0.05, 0.95])
+        assert [row["low"], row["high"]] == pytest.approx(ends.tolist(), rel=1e-12)
+        middles = float(mu.ppf(0.5)), float(occupancy.ppf(0.5))
+        pairs = [(end, middles[1]) if name == "friction mu" else (middles[0], end) for end in ends]
+        for column, pair in zip(("share_low", "share_high", "share_median"), [*pairs, middles], strict=True):
+            drift = real(*pair)[0]
+            inside = curve[0] < drift < curve[-1]
+            assert at(row[column]) == pytest.approx(drift if inside else np.clip(drift, curve[0], curve[-1]), rel=1e-9)
+        assert row["span"] == pytest.approx(abs(row["share_high"] - row["share_low"]), rel=1e-12)
+    assert found.tornado["span"].to_list() == sorted(found.tornado["span"], reverse=True)
+    document = found.to_dict()
+    for name in ("share", "share_84", "unit", "metadata"):
+        assert document[name] == getattr(found, name), name
+    assert document["tornado"] == found.tornado.to_dicts()
+    assert document["quantiles"] == found.quantiles.to_dicts()
+
+
+def test_collapses_are_counted_by_sample(unequal_scene: sm.Scene, unequal_motions: tuple[sm.Record, ...]) -> None:
+    """One of two motions brings all three samples down: three samples, and not one motion."""
+    strong, weak = unequal_motions[0].scaled(5.0), unequal_motions[1].scaled(0.01)
+    scene = unequal_scene.replace(collapse_drift=[0.043, 0.037, 0.031])
+    found = sm.live_load_uncertainty(scene, [strong, weak], mu=0.3, occupancy=0.6, samples=3, fractions=[0.0, 1.0])
+    assert "the building with sliding goods collapses under some motion in 3 samples" in found.remarks
+    assert np.isnan(found.share)
+    assert found.interval is None
+    whole = sm.live_load_uncertainty(scene, [weak], mu=0.3, occupancy=0.6, samples=3, fractions=[0.0, 1.0])
+    assert not any("collapses" in remark for remark in whole.remarks)
+
+
 def test_same_seed_same_answer_and_files(tmp_path: Path) -> None:
     one, two = (sm.live_load_uncertainty(SCENE, MOTIONS, **SOME, samples=20, threads=n) for n in (1, 2))
     assert one.to_json() == two.to_json()

@@ -120,6 +120,19 @@ def test_extrema_are_those_of_the_kernel(damping: float, samples: int) -> None:
     assert (np.abs(found.value) >= 0.8 * kernel[found.oscillator] * (1.0 - 1e-9)).all()
 
 
+@pytest.mark.parametrize("most", [1, 2, 5])
+def test_of_many_extrema_so_many_of_the_largest_are_taken(most: int) -> None:
+    """Those of a long list, oscillator by oscillator, in order of their size."""
+    motion, periods = noise(3000), np.geomspace(0.1, 2.0, 12)
+    oscillators = Oscillators(periods, 0.05, motion.dt)
+    few, all_of_them = (oscillators.extrema(motion.acceleration, 0.3, number) for number in (most, 10_000))
+    for number in range(len(periods)):
+        values = all_of_them.value[all_of_them.oscillator == number]
+        assert len(values) > 5
+        assert (np.diff(np.abs(values)) <= 0.0).all()
+        np.testing.assert_array_equal(few.value[few.oscillator == number], values[:most])
+
+
 def test_influence_times_the_samples_is_the_displacement() -> None:
     motion = noise(1500).acceleration.copy()
     motion[0] = 0.0  # there is nothing before it

@@ -151,6 +151,14 @@ def test_time_of_sliding_is_what_the_events_say() -> None:
     assert spans.max() == pytest.approx(stick, rel=1e-12)
 
 
+@pytest.mark.parametrize("number", [0, -1, 4, 1.5, True])
+def test_storeys_are_counted_from_1_to_their_number(response: sm.Response, number: float) -> None:
+    for several in (number, [1, number]):
+        with pytest.raises(sm.errors.InvalidOption, match="storeys of drift figure must be "):
+            response.plot.drift(storeys=several)
+    assert [len(response.plot.drift(storeys=some).axes) for some in (1, [3], [1, 3])] == [1, 1, 2]
+
+
 def test_figures_refuse_what_is_not_there(response: sm.Response) -> None:
     with pytest.raises(
         sm.errors.InvalidOption, match=r"storeys of drift figure must be numbers counted from 1 to 3; got 4"

@@ -50,3 +50,13 @@ def test_what_cannot_be_drawn_is_refused() -> None:
         Footprint(0.0, 0.0, width=0.0)
     with pytest.raises(sm.errors.InvalidOption, match="histories"):
         floor_paths(sm.simulate(CRATES, response.motions), floor=0)
+
+
+def test_the_legend_shows_lines_as_they_are_drawn() -> None:
+    figure = floor_paths(run(), floor=0)
+    handles = {handle.get_label(): handle for handle in figure.legends[0].legend_handles}
+    drawn, marked = figure.axes[0].lines[:2]
+    path = handles["path, farthest point"]
+    assert (path.get_linewidth(), path.get_color()) == (drawn.get_linewidth(), drawn.get_color())
+    assert (path.get_marker(), path.get_markersize()) == (marked.get_marker(), marked.get_markersize())
+    assert all(handle.get_visible() and handle.get_linewidth() > 0.0 for handle in handles.values())

@@ -175,3 +175,19 @@ def test_a_text_without_stops_has_no_contacts() -> None:
     response = sm.simulate(sm.Scene(None, racks=[rack]), sm.builtin_record("synthetic-1"), events=False)
     assert response.status == "completed"
     assert "contacts" not in response.text
+
+
+def test_the_card_has_the_largest_peak_of_each_rack(response: sm.Response) -> None:
+    """Of all levels, the drift in mm with its level, and the acceleration over g."""
+    card = response._repr_html_()
+    for number, floor in ((1, 2), (2, 1)):
+        drift, acceleration = response.peak_rack_drift[number - 1], response.peak_rack_acceleration[number - 1]
+        row = next(
+            row for row in re.findall(r"<tr>.*?</tr>", card, re.DOTALL) if f"rack {number}, floor {floor}" in row
+        )
+        words = re.sub(r"<[^>]*>", " ", row)
+        found = re.search(rf"rack {number}, floor {floor}\s+([\d.]+) mm\s+(\d)\s+([\d.]+) g", words)
+        assert found is not None, words
+        assert float(found[1]) == pytest.approx(1e3 * drift.max(), rel=1e-2)
+        assert int(found[2]) == np.argmax(drift) + 1
+        assert float(found[3]) == pytest.approx(acceleration.max() / G, rel=1e-2)

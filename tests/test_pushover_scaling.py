@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 import seismass as sm
-from seismass.design.scaling.oscillator import deformation_ratio
+from seismass.design.scaling.oscillator import _slope_behind, deformation_ratio
 
 G = 9.80665
 TARGET = sm.TargetSpectrum.asce7()
@@ -23,6 +23,9 @@ def test_elastic_oscillator_gives_the_elastic_ratio(reduction: float) -> None:
     np.testing.assert_allclose(found.factors, sm.scaling.scale_sa_t1(SUITE, TARGET, 0.7).factors, rtol=1e-12)
     assert found.deformation_ratio == 1.0
     assert [len(roots) for roots in found.roots] == [1] * 7
+    assert "the oscillator stays elastic, R_y <= 1" in " ".join(found.notes)
+    yields = sm.scaling.scale_modal_pushover(SUITE, TARGET, period=0.7, reduction=1.001)
+    assert "target deformation by C_R" in " ".join(yields.notes)
 
 
 @pytest.mark.parametrize("reduction", [1.5, 3.0, 6.0])
@@ -205,6 +208,20 @@ def test_elastoplastic_storeys_give_an_elastoplastic_oscillator() -> None:
     # Equal strengths: the first storey, of the largest shear, forms the mechanism.
     assert found.yield_acceleration == pytest.approx(0.2 * building.weight / modal_mass, rel=1e-12)
     assert (found.overstrength, found.second_slope, found.third_slope) == (1.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("plastic", [[0], [1], [0, 2], [0, 1, 2]])
+def test_a_storey_without_slope_is_a_mechanism(plastic: list[int]) -> None:
+    """Whichever it is the base shear rises no more; without one, storeys are springs in series."""
+    slopes = np.array([0.04, 0.05, 0.06])
+    building = sm.Building.uniform(3, 0.6, yield_shear_over_weight=0.2, second_slope=slopes)
+    shares = np.array([1.0, 0.7, 0.4])
+    yields = 1.1 * float((building.yield_shear / shares).max())
+    series = 1.0 / (shares / (slopes * building.stiffness)).sum()
+    strong = building.replace(overstrength=10.0)  # no storey reaches it
+    assert _slope_behind(strong, shares, yields) == pytest.approx(series, rel=1e-12)
+    slopes[plastic] = 0.0
+    assert _slope_behind(strong.replace(second_slope=slopes), shares, yields) == 0.0
 
 
 def test_p_delta_is_left_out_and_said() -> None:

@@ -21,6 +21,7 @@ from seismass.motions.matching import match
 from seismass.motions.matching.linear import Stopped
 from seismass.motions.records import Record, find_pairs, read_record, read_records, read_suite
 from seismass.motions.records.formats import NotRead
+from seismass.motions.records.formats.common import NO_COUNT
 from seismass.motions.records.formats.labels import azimuth_of
 from seismass.motions.records.read import is_archive, off_ground
 from seismass.motions.records.suite import suite_of_file
@@ -393,3 +394,16 @@ def test_a_matched_suite_that_is_interrupted_ends_its_threads(monkeypatch: pytes
     assert ends.count("done") <= 2
     assert len(ends) < len(suite)
     assert "stopped" in ends
+
+
+@pytest.mark.parametrize(
+    ("header", "counted"),
+    [("dt = 0.01", False), ("NPTS = 40, dt = 0.01", True), ("NDATA: 40\ndt = 0.01", True), ("40 0.01", True)],
+)
+def test_that_a_file_counts_no_samples_is_remarked_where_it_does_not(
+    tmp_path: Path, header: str, counted: bool
+) -> None:
+    samples = "\n".join(f"{0.01 * (-1.0) ** place:.4f}" for place in range(40))
+    record = read_record(put(tmp_path, "a.txt", f"{header}\n{samples}\n"), unit="g")
+    assert (record.samples, record.dt) == (40, 0.01)
+    assert record.remarks.count(NO_COUNT) == (0 if counted else 1)

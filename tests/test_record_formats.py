@@ -490,7 +490,8 @@ def test_a_known_kind_is_refused_by_its_name(tmp_path: Path, name: str, content:
 
 
 def test_archives_and_sheets_are_told_apart(tmp_path: Path) -> None:
-    for member, message in (("a.AT2", "got ZIP: unpack it"), ("[Content_Types].xml", r"got Excel \(.xlsx\): save")):
+    sheet = r"got Excel \(.xlsx\): save"
+    for member, message in (("a.AT2", "got ZIP: unpack it"), ("[Content_Types].xml", sheet), ("xl/book.xml", sheet)):
         held = io.BytesIO()
         with zipfile.ZipFile(held, "w") as archive:
             archive.writestr(member, "x")

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import polars as pl
 import pytest
 from matplotlib.figure import Figure
@@ -12,6 +14,7 @@ from matplotlib.figure import Figure
 import seismass as sm
 from seismass.effective_mass.design_map import EffectiveMassMap
 from seismass.media.result import Result
+from seismass.model.scene import goods_names
 from seismass.studies.study import Sensitivity
 from seismass.studies.study.run import StudyResult
 from seismass.studies.validation import Validation
@@ -78,3 +81,60 @@ def test_a_response_is_a_document_with_what_was_asked_for() -> None:
     assert len(document["events"]) == sum(document["counts"].values())
     assert document["energy"]["relative_residual"] == whole.energy["relative_residual"]
     assert whole.text.splitlines()[0] == "Response"
+
+
+def plain(value: Any) -> Any:
+    """Arrays as lists, and None for what is not finite."""
+    if isinstance(value, dict):
+        return {key: plain(one) for key, one in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(one) for one in value]
+    if isinstance(value, np.ndarray | np.generic):
+        return plain(value.tolist())
+    return None if isinstance(value, float) and not np.isfinite(value) else value
+
+
+def document_of(response: sm.Response) -> dict[str, Any]:
+    """What the document of a response must hold, by name: attributes, and what has another place."""
+    scene, building = response.scene, response.scene.building
+    own = {
+        "name": scene.name,
+        "dt": response.motion.dt,
+        "counts": {kind: count for kind, count in response.counts.items() if count},
+        "events": [
+            {key: value for key, value in row.items() if value is not None} for row in response.events.to_dicts()
+        ],
+    }
+    if scene.engine == "general":
+        own["goods"] = list(goods_names(scene))
+    if building is not None:
+        own["damping_matrix"] = building.damping_matrix
+        own["mass_stated"] = building.mass_is_stated
+        own["peak_shear_over_weight"] = response.peak_storey_shear / (sm.STANDARD_GRAVITY * building.mass.sum())
+    return {name: plain(own[name] if name in own else getattr(response, name)) for name in response.to_dict()}
+
+
+PEAKS = ("drift", "slip", "floor_acceleration", "storey_shear")
+
+
+def test_every_field_of_a_response_is_its_attribute(
+    unequal_scene: sm.Scene, unequal_motions: tuple[sm.Record, ...]
+) -> None:
+    """In a chain, with racks and stops, and on a sliding base."""
+    stops = sm.Stops([0.011, 0.007], stiffness=3e6, damping=1e3)
+    rack = sm.Rack(2, levels=2, level_mass=310.0, period=0.41, blocks=[sm.RackBlock(1, mass=1900.0, mu=0.17)])
+    racked = unequal_scene.replace(
+        racks=[rack], blocks=[*unequal_scene.blocks, sm.Block(1, mass=7e3, mu=0.1, stops=stops)]
+    )
+    for scene in (unequal_scene, racked, unequal_scene.replace(base=sm.SlidingBase(mass_ratio=0.9, mu=0.13))):
+        response = sm.simulate(scene, unequal_motions[0], energy=True)
+        document = response.to_dict()
+        assert document.keys() >= {f"peak_{name}{end}" for name in PEAKS for end in ("", "_time")}
+        assert document.keys() >= {"residual_drift", "residual_slip", "slip_path", "status", "end_time", "energy"}
+        expected = document_of(response)
+        # The weight is that of the building; a rack or a slab adds to what stands on the ground.
+        assert document.pop("peak_shear_over_weight") == pytest.approx(
+            expected.pop("peak_shear_over_weight"), rel=1e-12
+        )
+        assert document == expected
+    assert {"peak_base_slip", "base_slip_path"} <= document.keys()

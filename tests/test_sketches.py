@@ -155,3 +155,21 @@ print("matplotlib" in sys.modules)
 """
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
     assert found.strip() == "False"
+
+
+def test_the_card_of_a_record_marks_its_peak() -> None:
+    """The largest absolute sample, here a negative one: its value in g, its time, and a mark below the middle."""
+    samples = np.zeros(40)
+    samples[[5, 11, 30]] = 1.0, -3.0, 2.0
+    record = sm.Record(samples, 0.02, name="three peaks")
+    html = record._repr_html_()
+    assert f"accelerations, peak {3.0 / sm.STANDARD_GRAVITY:.4f} g at 0.22 s" in html
+    circle, line = (
+        re.search(r'<circle cx="([\d.]+)" cy="([\d.]+)"', html),
+        re.search(r'viewBox="0 0 (\d+) (\d+)"', html),
+    )
+    assert circle is not None
+    assert line is not None
+    width, height = float(line[1]), float(line[2])
+    assert float(circle[1]) == pytest.approx(11.5 / 40.0 * width, abs=0.1)
+    assert float(circle[2]) > 0.5 * height

@@ -259,6 +259,30 @@ def test_collapse_counts_as_lost_goods(suite: list[sm.Record]) -> None:
     found.plot()
 
 
+def test_after_a_collapse_the_ground_alone_has_its_acceleration(suite: list[sm.Record]) -> None:
+    """Goods on the ground stand on what is known; under those on a floor nothing is known any more."""
+    blocks = [sm.Block(0, mass=1e3, mu=0.2), *sm.blocks_on_floors([1.0, 1.0, 0.0], mu=0.2)]
+    scene = sm.Scene(building(heights=3.0), blocks, collapse_drift=0.001)
+    runs = slip_demand(scene, suite[:1]).runs
+    assert runs["collapsed"].to_list() == [True] * 3
+    for column in ("attached_acceleration_g", "alone_acceleration_g"):
+        values = runs[column].to_list()
+        assert values[0] == pytest.approx(suite[0].pga / G, rel=1e-12), column
+        assert all(value is None or np.isnan(value) for value in values[1:]), column
+
+
+@pytest.mark.parametrize(
+    ("mu", "collapse", "said"), [(0.2, None, False), (50.0, None, True), (50.0, 0.001, False), (0.2, 0.001, False)]
+)
+def test_that_no_block_slides_is_said_where_it_is_known(
+    suite: list[sm.Record], mu: float, collapse: float | None, said: bool
+) -> None:
+    """Slips are some centimetres; after a collapse nothing is known of them."""
+    found = slip_demand(storage(mu, heights=3.0).replace(collapse_drift=collapse), suite[:2])
+    assert ("no block slides under any motion" in found.remarks) is said
+    assert any("collapses under" in remark for remark in found.remarks) is (collapse is not None)
+
+
 def test_squat_rule() -> None:
     low, tall = BlockSize(1.0, 1.2), BlockSize(0.3, 1.2)
     assert low.uplift_g == pytest.approx(1.0 / 1.2)

@@ -52,6 +52,19 @@ def test_a_crate_slides_as_a_vector() -> None:
     assert result.estimates.height == 0
 
 
+def test_after_a_collapse_the_ground_alone_has_its_acceleration() -> None:
+    """Its length, sqrt(1.5^2 + 2^2) m/s2, under the crate on the ground; under goods on floors nothing is known."""
+    building = sm.Building.uniform(2, 0.4, mass=1e3, heights=3.0)
+    goods = [sm.Block(0, mass=100.0, mu=0.1), sm.Block(1, mass=100.0, mu=0.1), sm.Block(2, mass=100.0, mu=0.1)]
+    scene = sm.Scene(building, goods, other_direction=True, collapse_drift=1e-5)
+    runs = sm.slip.slip_demand(scene, [(constant(1.5), constant(-2.0))]).runs
+    assert runs["collapsed"].to_list() == [True] * 3
+    for column in ("attached_acceleration_g", "alone_acceleration_g"):
+        ground, *floors = runs[column].to_list()
+        assert ground == pytest.approx(2.5 / G, rel=1e-12), column
+        assert all(value is None or np.isnan(value) for value in floors), column
+
+
 def test_goods_on_racks_and_floors_of_a_building() -> None:
     building = sm.Building.uniform(1, 0.4, mass=1e4)
     goods = [sm.RackBlock(1, mass=500.0, mu=0.15)]

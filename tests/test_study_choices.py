@@ -13,7 +13,7 @@ from seismass import cli
 from seismass.base.statistics import quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.show.study.answer import findings_text
-from seismass.show.study.figures import study_figures
+from seismass.show.study.figures import sensitivity_figure, slip_demand, study_figures
 from seismass.show.study.tables import OPTIONAL_TABLES, study_tables
 from seismass.show.study.write import sensitivity_markdown, sensitivity_text, write_study
 from seismass.studies.study import MODELS, StudyParameters, StudyResult, run_study, study_sensitivity
@@ -373,3 +373,43 @@ def test_commands_of_the_choices(tmp_path: Path, capsys: pytest.CaptureFixture[s
     assert parameters["mu"] == [0.2, 0.4]
     assert (parameters["damping_base"], parameters["height"], parameters["p_delta"]) == ("loaded", 3.0, True)
     assert parameters["collapse_drift_ratio"] == 0.2
+
+
+def test_slip_drawn_is_that_of_the_floor_that_slides_most(small: StudyResult) -> None:
+    """Statistics over the motions of the largest peak slip of any floor, and the residual slip there."""
+    responses = small.responses.filter(model="real").drop_nulls("peak_slip")
+    for row in slip_demand(small.responses).iter_rows(named=True):
+        keys = {name: row[name] for name in ("building", "occupancy", "R", "alpha", "mu")}
+        peaks, residuals = [], []
+        for _, floors in responses.filter(**keys).sort("storey").group_by("motion", maintain_order=True):
+            place = int(np.argmax(floors["peak_slip"]))
+            peaks.append(floors["peak_slip"][place])
+            residuals.append(abs(floors["residual_slip"][place]))
+        assert len(peaks) == 7
+        expected = [np.mean(peaks), np.quantile(peaks, 0.16), np.quantile(peaks, 0.84), max(peaks), np.mean(residuals)]
+        found = [row[name] for name in ("mean", "p16", "p84", "largest", "residual")]
+        assert found == pytest.approx(expected, rel=1e-12, abs=1e-15)
+        assert row["slides"] == np.count_nonzero(peaks)
+
+
+@pytest.mark.parametrize("frictions", [[0.3], [0.3, 0.5]])
+def test_the_figure_of_choices_names_the_friction_where_there_are_several(frictions: list[float]) -> None:
+    """One line and one row of dots per occupancy and friction; a row per setting, the study as it is above."""
+    settings = [("as it is", ""), ("damping", "bare"), ("damping", "full")]
+    rows = [
+        {"choice": choice, "setting": setting, "occupancy": use, "mu": mu, "largest_percent": 10.0 * place + 7.0 * mu}
+        for use in ("storage", "office")
+        for mu in frictions
+        for place, (choice, setting) in enumerate(settings)
+    ]
+    figure = sensitivity_figure(pl.DataFrame(rows))
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
+    several = len(frictions) > 1
+    assert labels == [f"{use}, μ = {mu:g}" if several else use for use in ("storage", "office") for mu in frictions]
+    (axes,) = figure.axes
+    dots = [line for line in axes.lines if line.get_linestyle() == "None"]
+    assert len(dots) == len(labels)
+    for line, mu in zip(dots, 2 * frictions, strict=True):
+        assert line.get_xdata().tolist() == pytest.approx([7.0 * mu, 10.0 + 7.0 * mu, 20.0 + 7.0 * mu])
+        assert list(line.get_ydata()) == [0, 1, 2]
+    assert [label.get_text() for label in axes.get_yticklabels()] == ["as it is", "damping: bare", "damping: full"]

@@ -5,9 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import polars as pl
 import pytest
 
 import seismass as sm
+from seismass.assessment.advice import _envelope
+from seismass.assessment.doubts import _load_doubts
+from seismass.assessment.models import motion_of_runs
+from seismass.show.assessment.page import building_page
+from seismass.show.assessment.tables import assessment_tables
 
 G = 9.80665
 
@@ -120,3 +126,104 @@ def test_shares_are_told_of_the_goods_present_and_of_the_design_load(unequal: sm
     real = unequal.effective["real"]
     mu_k = np.array([0.59 * 0.88 * 0.214 + 0.41 * 0.55 * 0.154, 0.71 * 0.184, 0.43 * 0.24]) @ loads / (present @ loads)
     assert f"eta = mu_k/C1 = {mu_k / real.base_shear_coefficient:.3f}" in text
+
+
+def test_sentences_name_the_storey_and_the_friction_of_the_largest_ratio(unequal: sm.Assessment) -> None:
+    """Drift with sliding goods over that of analysis 1, over the larger of both analyses, and over the code's model."""
+    means = {model: rows["mean"].to_list() for (model,), rows in unequal.storeys.group_by("model")}
+    words = {"real": "mu as stated", "real_mu_high": "mu x 1.37", "real_mu_low": "mu x 0.71"}
+
+    def largest(*models: str) -> tuple[float, int, str]:
+        """Over storeys and frictions; with its storey and friction."""
+        return max(
+            (means[sliding][place] / max(means[model][place] for model in models), place + 1, words[sliding])
+            for sliding in words
+            for place in range(3)
+        )
+
+    text = " ".join(unequal.advice)
+    ratio, storey, friction = largest("code")
+    assert f"({friction}) storey {storey} drifts {ratio:.2f} times the model with the code's" in text
+    ratio, storey, friction = largest("advised")
+    if ratio <= 1.05:
+        assert f"is at most {ratio:.2f} times its own (storey {storey}, {friction})" in text
+    else:
+        assert f"storey {storey} drifts {ratio:.2f} times its own ({friction})" in text
+        ratio, storey, friction = largest("advised", "bare")
+        assert f"more than {ratio:.2f} times the larger of both (storey {storey}, {friction})" in text
+    ratio, storey, friction = largest("advised", "bare")
+    assert unequal.answer.governs[-1].endswith(f"{ratio:.2f} times the larger (storey {storey}, {friction})")
+
+
+@pytest.mark.parametrize(
+    ("advised", "bare", "words"),
+    [
+        # Storey 2: 24 over 20, and over the larger of 20 and 15; then over the larger of 20 and 22.
+        ([0.010, 0.020], [0.008, 0.015], "drifts 1.20 times its own (mu as stated). No storey drifts more than 1.20"),
+        ([0.010, 0.020], [0.008, 0.022], "drifts 1.20 times its own (mu as stated). No storey drifts more than 1.09"),
+        # Exactly 1.05 is covered still.
+        ([0.010, 0.024 / 1.05], [0.0, 0.0], "Analysis 1 alone covers every storey here: the mean drift with sliding"),
+    ],
+)
+def test_what_the_pair_covers_is_by_the_larger_of_both(
+    unequal: sm.Assessment, advised: list[float], bare: list[float], words: str
+) -> None:
+    drifts = {"real": [0.009, 0.024], "advised": advised, "bare": bare}
+    rows = pl.DataFrame([{"model": model, "mean": value} for model, values in drifts.items() for value in values])
+    (sentence,) = _envelope(unequal.building, rows, ("real",))
+    assert words in sentence
+    assert "storey 2" in sentence
+
+
+@pytest.mark.parametrize(
+    ("drift", "slip", "collapsed", "shown"),
+    [
+        ([3.0, 1.0, 2.0], [1.0, 1.0, 1.0], [], 2),  # the median of three
+        ([3.0, 1.0, 2.0, 4.0], [1.0, 1.0, 1.0, 1.0], [], 2),  # the lower one of the two in the middle
+        ([3.0, 1.0, 2.0, 4.0], [1.0, 0.0, 1.0, 1.0], [], 0),  # of those with slip: 3 of 2, 3, 4
+        ([3.0, 1.0, 2.0, 4.0], [0.0, 0.0, 0.0, 0.0], [], 2),  # none slides: of all
+        ([3.0, 1.0, 2.0, 4.0], [1.0, 1.0, 1.0, 1.0], [0], 2),  # not the one that collapses: 2 of 1, 2, 4
+        ([3.0, 1.0], [1.0, 1.0], [0, 1], 0),  # all collapse: the first
+        ([2.0, 2.0], [1.0, 1.0], [], 0),  # equal: the first
+    ],
+)
+def test_the_motion_shown_is_that_of_median_drift(
+    drift: list[float], slip: list[float], collapsed: list[int], shown: int
+) -> None:
+    """The larger of two storeys counts, of the first model alone."""
+    rows = [
+        {
+            "model": model,
+            "motion": number + 1,
+            "collapsed": number in collapsed,
+            "peak_drift": (factor if model == "real" else -1.0) * value,
+            "peak_slip": slip[number] if storey == 0 else None,
+        }
+        for model in ("real", "bare")
+        for number, value in enumerate(drift)
+        for storey, factor in enumerate((1.0, 0.5))
+    ]
+    assert motion_of_runs(pl.DataFrame(rows, schema_overrides={"peak_slip": pl.Float64})) == shown
+
+
+def test_the_page_has_the_drawing_for_phones_beside_the_wide_one(unequal: sm.Assessment) -> None:
+    start = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0'
+    wide, narrow = (f'{start} {size} 9" width="{size}pt" height="9pt"><path d="M0 0"/></svg>' for size in (711, 311))
+    tables = assessment_tables(unequal)
+    alone, both = building_page(tables, {"drift": wide}), building_page(tables, {"drift": wide}, {"drift": narrow})
+    assert [text in alone for text in ("0 0 711 9", "0 0 311 9")] == [True, False]
+    assert [text in both for text in ("0 0 711 9", "0 0 311 9")] == [True, True]
+
+
+@pytest.mark.parametrize(("place", "called"), [(0, "floor 1, hall,"), (1, "floor 2, loft,"), (2, "floor 3, roof,")])
+@pytest.mark.parametrize(("key", "what"), [("live_load_kpa", "design live load"), ("dead_load_kpa", "dead load")])
+def test_a_load_out_of_range_is_that_of_its_floor(
+    unequal_file: dict[str, Any], place: int, called: str, key: str, what: str
+) -> None:
+    unequal_file["storeys"][place][key] = 96.5
+    (doubt,) = [text for text in _load_doubts(sm.read_building(unequal_file)) if text.startswith(what)]
+    assert doubt.startswith(f"{what} of {called} is 96.5 kPa, above ")
+    assert "(and " not in doubt
+    unequal_file["storeys"][place - 1][key] = 97.5
+    (doubt,) = [text for text in _load_doubts(sm.read_building(unequal_file)) if text.startswith(what)]
+    assert "(and 1 more)" in doubt

@@ -18,10 +18,16 @@ package and of the kernel where an operator of `tools/random_faults.py` fits: `<
 for 1, `and` for `or`, the largest for the smallest, two arguments exchanged; in Rust the sign of a term, a factor left
 out, an index off by one, and conditions. Each operator is drawn as often as the others.
 
-The *chosen tests* are those that name the place. What they do not see is asked of the *quick tier*, the tests of
-`make test`, and then of the *full tier*, those of `make test-all`. An empty cell is a tier that was not asked. Faults
-of Rust have no chosen tests: the quick tier is Rust's tests with fewer random scenes, and for the extension module
-Python's. A program that does not end counts as caught.
+The *chosen tests* are those that name the place, and those named like its module. What they do not see is asked of
+the *quick tier*, the tests of `make test`, and then of the *full tier*, those of `make test-all`. An empty cell is a
+tier that was not asked. Faults of Rust have no chosen tests: the quick tier is Rust's tests with fewer random scenes,
+and for the extension module Python's. A program that does not end counts as caught.
+
+Of faults drawn in Python the chosen tests alone are asked unless `--full` stands on the command line, so that their
+share is a lower bound of what all tests see. What survives is a number, a refusal or a sentence without a test, which
+then gets one for all places of its kind; or a measure of a picture, such as the width of a line; or no fault, with a
+reason in `REASONS` of `tests/mutants`. Once a survivor of a draw has its test, the share of that draw says no more of
+all places; `--seed 2` draws others.
 """
 
 

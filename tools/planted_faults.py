@@ -81,16 +81,26 @@ def rust_faults() -> tuple[list[Fault], dict[Path, str], list[str]]:
 
 
 def tests_of(module: Path, text: str, tests: dict[str, str]) -> tuple[str, ...]:
-    """Test files that name the module or what it defines; where there are none, those named as its folders are."""
+    """Test files that name the module, or what it defines, in code, and those whose names have a word of its path.
+
+    Where there are none, those that draw figures.
+    """
     parts = ("seismass", *module.relative_to(PACKAGE).with_suffix("").parts)
     folder, name = re.escape(".".join(parts[:-1])), re.escape(parts[-1])
     definitions = [node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef | ast.ClassDef)]
-    words = [rf"\b{node.name}\b" for node in definitions if not node.name.startswith("_")]
-    found = [rf"\b{folder}\.{name}\b", rf"from {folder} import .*\b{name}\b", *words]
-    named = [{test for test, source in tests.items() if re.search(pattern, source)} for pattern in found]
+    # A word of prose is no name: it is called, an attribute, or imported.
+    words = [
+        rf"\b{node.name}\(|\.{node.name}\b|import .*\b{node.name}\b|^ +{node.name},$"
+        for node in definitions
+        if not node.name.startswith("_")
+    ]
     # Six letters, so that `assessment` is the folder of test_assess.
-    near = {test for test in tests if any(part[:6] in test for part in parts[1:])}
-    return tuple(sorted(set().union(*(files for files in named if len(files) <= COMMON)) or near))
+    near = [word[:6] for part in parts[1:] for word in part.split("_") if len(word) > 3]
+    found = [rf"\b{folder}\.{name}\b", rf"from {folder} import .*\b{name}\b", *words]
+    sets = [{test for test, source in tests.items() if re.search(pattern, source, re.M)} for pattern in found]
+    sets += [{test for test in tests if word in test} for word in near]
+    drawing = {test for test, source in tests.items() if "plot(" in source}
+    return tuple(sorted(set().union(*(files for files in sets if len(files) <= COMMON)) or drawing))
 
 
 def generated_python(count: int, seed: int) -> list[Fault]:

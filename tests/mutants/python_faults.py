@@ -412,4 +412,22 @@ FAULTS = [
      "_COUNTS_GEONET: Final = slice(30, 33)",
      "test_record_formats", ""),
 ]
-REASONS: dict[str, str] = {}
+REASONS: dict[str, str] = {
+    'runs/response.py: `np.array_equal(one, other, equal_nan=one.dtype.kind == "f")` becomes '
+    "`np.array_equal(other, one, equal_nan=one.dtype.kind == 'f')` in "
+    '`return np.array_equal(one, other, equal_nan=one.dtype.kind == "f")`':
+        "equality is symmetric",
+    "assessment/answer.py: `advised - effective[decides].value > 1e-9` becomes "
+    "`advised - effective[decides].value >= 1e-09` in "
+    '`rounded = f", rounded up to a multiple of {ROUNDING_STEP:g}" if advised - effective[decides].value > 1e-9 else ""`':
+        "1e-9 stands for the rounding of a root that is a multiple; no difference is just that",
+    "show/plots/floor_plan.py: `0` becomes `1` in "
+    '`Rectangle((0, 0), 1, 1, fill=False, edgecolor=GREY, linestyle="--", label="goods before"),`':
+        "a legend draws its rectangles at places of its own",
+    "studies/fragility/result.py: `y[-1] <= largest` becomes `y[-1] < largest` in "
+    "`known = [float(x[-1]) for x, y in traced if y[-1] <= largest]`":
+        "the last demand of a run is the limit to its last digit in no motion",
+    "studies/fragility/fragility.py: `lowest <= fitted_median <= highest` becomes `lowest < fitted_median <= highest` in "
+    '`if name == "fitted" and not lowest <= fitted_median <= highest:`':
+        "a fitted median is a level to its last digit in no fit; a step at a level is not fitted",
+}

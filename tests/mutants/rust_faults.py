@@ -173,4 +173,12 @@ FAULTS = [
      "initial_velocity: scene.initial_velocity().to_vec(),",
      "initial_velocity: if M!(55) { vec![0.0; scene.storeys()] } else { scene.initial_velocity().to_vec() },", ""),
 ]
-REASONS: dict[str, str] = {}
+REASONS: dict[str, str] = {
+    "general/peaks.rs: and, or in `if low <= 0.0 && high >= 0.0 && self.drift_may_peak(state, series, p) {`":
+        "the bounds leave out work alone: turns are looked for where there are none, or where none is a larger peak",
+    "general/outcome.rs: comparison in "
+    "`if motion.sliding().is_some_and(|sign| sign.factor() * motion.velocity < 0.0) {`":
+        "a velocity of zero is set to zero",
+    "spectrum/oscillator.rs: comparison in `if self.s <= SMALL_STEP {`":
+        "at a step of exactly 1 both ways hold",
+}

@@ -480,3 +480,24 @@ fn elastic_building_equals_modal_recurrence() {
         }
     }
 }
+
+/// P/h is the gravity load of a floor and of all above, each with the weight of its blocks, over the storey's height;
+/// blocks on the ground load no storey.
+#[test]
+fn p_delta_has_the_weight_of_the_blocks() {
+    let (heights, floor_loads) = (vec![4.3, 3.7, 3.1], vec![11.0, 7.0, 5.0]);
+    let gravity = seismass::GravityEffect::Loads { heights, floor_loads };
+    let building = Arc::new(uniform(3, 0.5).with_gravity(gravity).unwrap());
+    let blocks = [(1, 0.31), (1, 0.17), (3, 0.23), (0, 0.71)].map(|(floor, mass)| Block::new(floor, mass, 0.3));
+    let with_goods = |weight: f64| {
+        let (third, second) = (5.0 + 0.23 * weight, 7.0);
+        let first = 11.0 + (0.31 + 0.17) * weight;
+        [(first + second + third) / 4.3, (second + third) / 3.7, third / 3.1]
+    };
+    for (blocks, weight) in [(blocks.to_vec(), STANDARD_GRAVITY), (Vec::new(), 0.0)] {
+        let scene = Scene::new(Some(Arc::clone(&building)), blocks).unwrap();
+        for (found, expected) in scene.geometric_stiffness().iter().zip(with_goods(weight)) {
+            close(*found, expected, 1e-12 * expected, "P/h");
+        }
+    }
+}

@@ -89,3 +89,21 @@ fn what_leaves_the_range_of_numbers_is_an_error_of_its_own_run() {
         }
     }
 }
+
+/// Rayleigh damping has two modes of the building, counted from 1 and not the same.
+#[test]
+fn modes_of_rayleigh_damping_are_those_of_the_building() {
+    let building = |modes: [usize; 2]| {
+        let damping = Damping::Rayleigh { ratio: 0.05, modes };
+        Building::new(vec![1.0; 3], vec![Storey::yielding(40.0, 1.0); 3], damping)
+    };
+    for modes in [[1, 2], [1, 3], [3, 1], [2, 3]] {
+        assert!(building(modes).is_ok(), "{modes:?}");
+    }
+    for modes in [[1, 1], [0, 2], [2, 0], [1, 4], [4, 1], [0, 4]] {
+        let error = building(modes).unwrap_err().to_string();
+        let [first, second] = modes;
+        let expected = format!("two different modes from 1 to 3; got {first} and {second}");
+        assert!(error.ends_with(&expected), "{modes:?}: {error}");
+    }
+}
