@@ -17,14 +17,14 @@ RAISE = "raise the number in the same commit and say in CHANGELOG.md which featu
 
 # Ceilings are the present numbers: lower them where less is left. "top" holds the files beside the folders.
 LINES = """
-assessment 5788   base 1735   commands 3971   design 3666   design/scaling 1119   effective_mass 3077   media 1605
-model 2947   motions 377   motions/matching 1478   motions/pulses 1053   motions/records 4005
+assessment 6708   base 1735   commands 4086   design 3666   design/scaling 1119   effective_mass 3077   media 1605
+model 2969   motions 377   motions/matching 1478   motions/pulses 1053   motions/records 4009
 motions/records/formats 3853   motions/records/synthetic 1150   motions/scaling 810   motions/spectra 1814   runs 3337
-runs/grid 1564   show 3133   show/animation 1518   show/assessment 2108   show/explore 288   show/plots 1836
+runs/grid 1574   show 3133   show/animation 1518   show/assessment 2108   show/explore 288   show/plots 1836
 show/study 2022   studies 8   studies/campaign 1604   studies/fragility 3172   studies/risk 1594   studies/slip 1776
 studies/study 1783   studies/validation 1227   top 85
 """
-FILES, SMALL_FILES, SMALL, LONGEST = 250, 7, 60, 600  # small: fewer than 60 lines, without __init__.py
+FILES, SMALL_FILES, SMALL, LONGEST = 254, 7, 60, 600  # small: fewer than 60 lines, without __init__.py
 DOCSTRING = 3  # lines of what no user can reach
 KERNEL_RUNS = """
 effective_mass/runs.py motions/spectra/inelastic.py runs/batch.py runs/batch_tables.py runs/simulate.py

@@ -147,6 +147,38 @@ def test_an_empty_path_and_a_folder_for_a_file_are_errors(
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.parametrize(
+    ("words", "hint"),
+    [
+        ("spectrum a.AT2 --periods 1 2", "unrecognized arguments: --periods 1,2 (did you mean --period?)"),
+        ("building a.toml --recodrs x", "unrecognized arguments: --recodrs x (did you mean --records?)"),
+        ("new a.toml --livel-oad 7", "unrecognized arguments: --livel-oad 7 (did you mean --live-load?)"),
+        ("scale --zzzz", "unrecognized arguments: --zzzz\n"),
+        ("target ec8:1:C:0.3 surplus", "unrecognized arguments: surplus\n"),
+    ],
+)
+def test_an_unknown_option_is_refused_with_the_one_that_it_resembles(
+    words: str, hint: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as raised:
+        cli.main(words.split())
+    assert raised.value.code == 2
+    assert hint in capsys.readouterr().err
+
+
+def test_scale_without_options_shows_its_help(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as raised:
+        cli.main(["scale"])
+    assert raised.value.code == 2
+    assert "usage: seismass scale" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("words", ["scale --records", "scale --pairs --method asce7-16 --records"])
+def test_a_folder_that_is_not_there_is_named_as_such(words: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main([*words.split(), "nosuch"]) == 2
+    assert "got nosuch, which does not exist" in capsys.readouterr().err
+
+
 def test_names_that_have_gone_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     for words in (["ida", "scene.toml"], ["spectrum", "a.AT2", "--periods", "1"], ["scale", "--csv", "a.csv"]):
         with pytest.raises(SystemExit) as stopped:

@@ -1,6 +1,8 @@
 """Remarks on inputs that are valid but unlikely. The limits are those that the module states."""
 
 import json
+import re
+import warnings
 
 import numpy as np
 import pytest
@@ -62,6 +64,51 @@ def test_first_period():
     assert remarks(9.99) == remarks(0.011) == ()
     assert remarks(10.5)[0].startswith("first period is 10.5 s, above 10 s")
     assert remarks(0.005)[0].startswith("first period is 0.005 s, below 0.01 s")
+
+
+@pytest.mark.parametrize("floors", [1, 2, 4, 9])
+def test_stiffness_in_other_units_is_seen_by_the_height(floors):
+    """Of usual buildings, 0.4 to 1.7 times C_t h^x of ASCE 7; stiffnesses a thousandth or thousandfold."""
+    for usual in (0.4, 1.0, 1.7):
+        whole = sm.Building.uniform(floors, usual * 0.0724 * (3.5 * floors) ** 0.8, mass=2e5)
+        building = sm.Building(whole.mass, whole.stiffness, heights=3.5)
+        assert sm.Scene(building).remarks == ()
+        for factor, said in (
+            (1e-3, "first period is .* above .* m of height"),
+            (1e3, "first period is .* below"),
+        ):
+            wrong = sm.Building(whole.mass, factor * whole.stiffness, heights=3.5)
+            assert re.match(said, sm.Scene(wrong).remarks[0]), (usual, factor)
+
+
+def test_records_in_g_and_steps_of_seconds():
+    time = np.arange(1000) * 0.01
+    record = sm.Record(0.3 * np.sin(7.0 * time), 0.01, name="RIO")  # 0.3 g, read as m/s2
+    assert motion_remarks(record) == (
+        "motion 1, RIO, has a PGA of 0.03059 g, below 0.04 g: are its accelerations in g, and read as m/s2?",
+    )
+    slow = sm.Motion(record.acceleration * G, 10.0)
+    assert motion_remarks([record.scaled(G), slow])[0].startswith(
+        "motion 2 has a time step of 10 s, above 0.1 s: is it"
+    )
+    assert motion_remarks(record.scaled(G)) == motion_remarks(sm.Motion([0.0, 0.1, 0.0], 0.5)) == ()
+    assert any("PGA of 0.03059 g" in remark for remark in sm.simulate(scene(), record).remarks)
+
+
+def test_goods_on_the_roof_of_a_product_are_doubted_unless_stated():
+    two, one = sm.Building.uniform(2, 0.3), sm.Building.uniform(1, 0.3)
+    with pytest.warns(sm.errors.DoubtfulInput, match='the roof carries goods, too: roof="bare" leaves it without'):
+        sm.Grid.product(two, mass_ratio=[0.5, 1.0], mu=[0.2])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for building, given in (
+            (two, {"roof": "loaded"}),
+            (two, {"roof": "bare"}),
+            (two, {"floors": [1, 2]}),
+            (one, {}),
+        ):
+            sm.Grid.product(building, mass_ratio=1.0, mu=[0.2], **given)
+        sm.Grid.product(two, mass_ratio=[[0.5, 1.0]], mu=[0.2])
 
 
 def test_motions_are_counted_from_1_and_named():

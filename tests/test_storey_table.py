@@ -8,7 +8,7 @@ import pytest
 
 import seismass as sm
 from seismass.assessment import read_building, read_storey_table
-from seismass.assessment.storey_table import system_of, unit_factor
+from seismass.assessment.table_file import system_of, unit_factor
 from seismass.cli import main
 
 KIP = 4448.2216152605  # N, 1000 lbf

@@ -138,11 +138,17 @@ def test_wide_letters_take_two_columns() -> None:
     ]
 
 
-def test_no_terminal_no_change(
+def test_into_a_pipe_lines_are_as_long_as_they_are_or_as_columns_states(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """In a pipe lines are as long as they are, whatever COLUMNS says."""
     monkeypatch.chdir(folder)
-    monkeypatch.setenv("COLUMNS", "40")
-    assert main(["building", "--frictions"]) == 0
-    assert max(map(len, capsys.readouterr().out.split("\n"))) > 150
+    for stated in ("", "0", "wide"):
+        monkeypatch.setenv("COLUMNS", stated)
+        assert main(["building", "--frictions"]) == 0
+        assert max(map(len, capsys.readouterr().out.split("\n"))) > 150
+    for width in (60, 80, 200):
+        monkeypatch.setenv("COLUMNS", str(width))
+        assert main(["building", "--frictions"]) == 0
+        longest = max(map(len, capsys.readouterr().out.split("\n")))
+        assert longest <= width
+        assert longest > 0.6 * width

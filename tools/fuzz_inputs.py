@@ -1,10 +1,11 @@
 """Read mutated input files of every kind but records, which tools/fuzz_records.py mutates: a result or one error line.
 
-Usage: tools/fuzz_inputs.py [--count 5000] [--seed 1] [--keep DIR]. Scene, building and campaign files (TOML and JSON),
-target spectra, hazard curves, and the folders of a campaign, an assessment and a study. Values are put in place of
-others, keys and lines are moved, doubled or left out, and bytes are changed. A defect is an exception that is not the
-package's, or that of the system for a file; more than 5 s of processor time; or 512 MB of memory. --keep saves the file
-of each defect. `make fuzz` runs both programs, and a small run is part of the tests.
+Usage: tools/fuzz_inputs.py [--count 5000] [--seed 1] [--keep DIR]. Scene, building and campaign files (TOML and
+JSON), target spectra, hazard curves, storey tables, pushover curves and workbooks, and the folders of a campaign, an
+assessment and a study. Values are put in place of others, keys and lines are moved, doubled or left out, and bytes
+are changed. A defect is an exception that is not the package's, or that of the system for a file; more than 5 s of
+processor time; or 512 MB of memory. --keep saves the file of each defect. `make fuzz` runs both programs, and a small
+run is part of the tests.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ import sys
 import tempfile
 import time
 import tomllib
+import zipfile
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -26,6 +28,7 @@ from pathlib import Path
 from typing import Any
 
 import seismass as sm
+from seismass.assessment import read_pushover, read_storey_table
 from seismass.assessment.building_file import example_file
 from seismass.base.errors import InvalidOption
 from seismass.runs.scene_file import example_scene
@@ -95,6 +98,15 @@ def kinds(place: Path) -> list[Kind]:
     hazard = b"Sa (g),annual rate\n0.1,0.01\n0.3,0.002\n1.0,0.0001\n"
     found.append(Kind("target spectrum", "target.csv", spectrum, sm.spectra.TargetSpectrum.from_csv))
     found.append(Kind("hazard curve", "hazard.csv", hazard, sm.risk.HazardCurve.from_csv))
+    storeys = b"Story,Case,Elevation (m),UX (t),Stiff X (kN/m)\nRoof,EQX,7.5,90.5,1e5\nL1,EQX,4,120,2e5\nBase,,0,9,\n"
+    curve = (
+        b"LoadCase\tStep\tDisplacement\tBaseForce\nText\tUnitless\tm\tKN\nP\t0\t-0.01\t0\nP\t1\t2.5\t400\nP\t2\t4\t9\n"
+    )
+    keyed = b'TABLE:  "A"\n  CurrUnits="KN, m, C"\n\nTABLE:  "STORY DATA"\n  Story=L2  Height=3\n  Story=L1  Height=4\n'
+    found.append(Kind("storey table", "storeys.csv", storeys, read_storey_table))
+    found.append(Kind("storey table, s2k", "storeys.s2k", keyed, read_storey_table))
+    found.append(Kind("pushover curve", "push.txt", curve, read_pushover))
+    found.append(Kind("sheet of a workbook", "sheet.xml", _SHEET, _in_workbook))
     grid = sm.runs.Grid.product(sm.Building.uniform(1, 0.3), mass_ratio=1.0, mu=[0.1, 0.2, 0.3])
     campaign = sm.campaign.Campaign(grid, sm.Motion([1.0, -1.0, 0.0], 0.1), part_runs=2).run(place / "campaign").path
     for file in ("manifest.json", "axes.parquet", "motions.parquet", "parts/part-0000001.parquet"):
@@ -112,6 +124,24 @@ def kinds(place: Path) -> list[Kind]:
         if path.suffix in (".parquet", ".json"):
             found.append(Kind(f"study's {path.name}", path.name, path.read_bytes(), read_study_tables, studied))
     return found
+
+
+_SHEET = (
+    b'<worksheet><sheetData><row r="1"><c r="A1" t="s"><v>0</v></c>'
+    b'<c r="B1" t="inlineStr"><is><t>Height (m)</t></is></c></row>'
+    b'<row r="2"><c r="A2" t="inlineStr"><is><t>L1</t></is></c><c r="B2"><v>4</v></c></row></sheetData></worksheet>'
+)
+
+
+def _in_workbook(path: Path) -> None:
+    """Read a workbook whose sheet is the file."""
+    book = path.with_suffix(".xlsx")
+    with zipfile.ZipFile(book, "w") as archive:
+        archive.writestr("xl/_rels/workbook.xml.rels", '<R><L Id="r" Target="worksheets/a.xml"/></R>')
+        archive.writestr("xl/workbook.xml", '<w xmlns:r="q"><sheets><sheet name="A" r:id="r"/></sheets></w>')
+        archive.writestr("xl/sharedStrings.xml", "<s><si><t>Story</t></si></s>")
+        archive.writestr("xl/worksheets/a.xml", path.read_bytes())
+    read_storey_table(book)
 
 
 def _verified(path: Path) -> None:

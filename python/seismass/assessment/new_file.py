@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, Literal, TypeAlias
@@ -12,10 +13,11 @@ import numpy as np
 from seismass.assessment.file_parts import REDUCTION
 from seismass.assessment.pushover_file import PushoverCurves
 from seismass.assessment.storey_table import StoreyTable
+from seismass.assessment.table_words import is_roof, plain, word_list
 from seismass.base.errors import InvalidBuildingFile, InvalidOption
 from seismass.base.input_table import POSITIVE, SHARE, Need
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, brief, refusal
+from seismass.base.values import FloatArray, brief, refusal, short
 from seismass.design import PushoverFit, fit_pushover
 from seismass.design.pushover_fit import SpringShape
 from seismass.model.friction import friction_table
@@ -61,6 +63,21 @@ def _friction(text: str) -> str | float:
     return _positive(text)
 
 
+def live_share(stated: str) -> float:
+    """Return the share of the live load in a mass source: a number, or its words, such as 1.0 D + 0.25 L."""
+    if re.fullmatch(r"\s*[\d.eE+-]+\s*", stated):
+        return _share(stated)
+    live, dead = word_list("live", "loads"), word_list("dead", "loads")
+    total, pieces = 0.0, re.split(r"\s*[+;]\s*|,\s+", plain(stated).strip())
+    for piece in pieces:
+        matched = re.fullmatch(r"([\d.]*)[\s*]*([a-z][a-z _-]*)[\s*:=]*([\d.]*)", piece)
+        name = re.sub(r"[ _-]", "", matched[2]) if matched else ""
+        if matched is None or name not in live | dead or (matched[1] and matched[3]):
+            raise ValueError
+        total += (float(matched[1] or matched[3] or 1.0)) * (name in live)
+    return _share(str(total))
+
+
 @dataclass(frozen=True)
 class Question:
     """What has to be known of a building: its name as an option, the question, and how an answer is read."""
@@ -79,6 +96,13 @@ class Question:
             raise refusal(InvalidOption, self.name, "new building", self.must, brief(value)) from None
 
 
+MASS_INCLUDES: Final = Question(
+    "mass_includes",
+    "Which share of the live load is in the masses of the table, by the mass source of the program (0: none)?",
+    "a number from 0 to 1, or the mass source in words such as 1.0 D + 0.25 L",
+    live_share,
+)
+"""Asked where the masses of a table are those of a program."""
 QUESTIONS: Final = (
     Question("name", "What is the building called?", "text", _text, "my building"),
     Question("storeys", "How many storeys?", "a whole number from 1 to 200", _count),
@@ -87,6 +111,7 @@ QUESTIONS: Final = (
     Question(
         "dead_load", "What does a floor weigh with its share of walls and frame (kPa)?", "a positive number", _positive
     ),
+    MASS_INCLUDES,
     Question("period", "What is the first period without goods (s)?", "a positive number", _positive),
     Question("sds", "What is S_DS of the site (g)?", "a positive number", _positive),
     Question("sd1", "What is S_D1 of the site (g)?", "a positive number", _positive),
@@ -101,15 +126,17 @@ QUESTIONS: Final = (
     ),
 )
 """What is asked, in order. The roof carries no goods."""
+_ABOVE_ROOF: Final = 3
+"""Most floors above a roof that count as penthouses; a roof below more of them is that of a podium."""
 
 
 def questions_for(table: StoreyTable | None, curves: PushoverCurves | None = None) -> tuple[Question, ...]:
     """Return what has still to be asked where a storey table or pushover curves are given."""
-    known = set()
+    known = set() if table is not None and table.live_mass else {"mass_includes"}
     if table is not None:
         values = table.heights, table.mass, table.stiffness, table.strength
         names = zip(("height", "dead_load", "period", "reduction"), values, strict=True)
-        known = {"storeys", *(name for name, value in names if value is not None)}
+        known |= {"storeys", *(name for name, value in names if value is not None)}
     if curves is not None:
         known |= {"period", "reduction", *(["storeys"] if curves.names else [])}
     return tuple(question for question in QUESTIONS if question.name not in known)
@@ -163,15 +190,18 @@ def building_text(
     table: StoreyTable | None = None,
     curves: PushoverCurves | None = None,
     fit: PushoverFit | None = None,
+    loaded: Sequence[str] = (),
 ) -> str:
     """Return a building file as TOML with comments, from an answer to each of `questions_for`. Springs of `fit` replace
-    those of `table`.
+    those of `table`; roofs and penthouses named in `loaded` carry goods.
     """
     _need(answers, questions_for(table, curves))
     friction = answers["friction"]
     has_design = fit is None and (table is None or table.strength is None)
     notes = [] if table is None else [f"storeys from {table.source}"]
     notes += [] if curves is None else [f"springs fitted to {curves.source}"]
+    included = answers.get("mass_includes", 0.0)
+    notes += [f"masses without the {included:g} of the live load that they include there"] * (included > 0.0)
     lines = [
         "# A building file of seismass: change it, and run `seismass building` on it.",
         "# docs/building_file.md explains every key; `seismass building --example` prints a file with all of them.",
@@ -210,7 +240,7 @@ def building_text(
         f"{_quoted(friction) if isinstance(friction, str) else repr(friction)}",
         "",
     ]
-    return "\n".join([*lines, *_storeys(answers, table, curves, fit)])
+    return "\n".join([*lines, *_storeys(answers, table, curves, fit, loaded)])
 
 
 def _misfit(fit: PushoverFit) -> str:
@@ -219,14 +249,48 @@ def _misfit(fit: PushoverFit) -> str:
     return f"the shear is met within {largest:.2g} % of its peak, {rms:.2g} % in the root mean square"
 
 
+def bare_floors(names: Sequence[str], loaded: Sequence[str] = ()) -> list[bool]:
+    """Return which floors carry no goods, floor 1 first: the highest of several, roofs and penthouses by name, and the
+    few floors above one; not those that `loaded` names.
+    """
+    unknown = [name for name in loaded if name not in names]
+    if unknown:
+        raise refusal(
+            InvalidOption, "loaded", "new building", f"one of {', '.join(map(short, names))}", short(unknown[0])
+        )
+    count = len(names)
+    roofs = [i for i, name in enumerate(names) if is_roof(name)]
+    lowest = next((i for i in roofs if count - 1 - i <= _ABOVE_ROOF), count - 1)
+    return [count > 1 and (i >= lowest or i in roofs) and names[i] not in loaded for i in range(count)]
+
+
+def bare_mass(table: StoreyTable, answers: Mapping[str, Any], bare: Sequence[bool]) -> FloatArray | None:
+    """Return floor masses without the share of the live load that a table includes on loaded floors."""
+    included = 1e3 * answers.get("mass_includes", 0.0) * answers["live_load"] * answers["area"] / STANDARD_GRAVITY
+    if table.mass is None or included == 0.0:
+        return table.mass
+    mass: FloatArray = table.mass - included * ~np.array(bare)
+    if not (mass > 0.0).all():
+        floor = int(np.argmin(mass))
+        need = f"more than the {1e-3 * included:.4g} t of live load that it includes by --mass-includes"
+        got = f"{1e-3 * table.mass[floor]:.4g} t"
+        raise refusal(InvalidBuildingFile, f"mass of storey {short(table.names[floor])}", table.source, need, got)
+    return mass
+
+
 def _storeys(
-    answers: Mapping[str, Any], table: StoreyTable | None, curves: PushoverCurves | None, fit: PushoverFit | None
+    answers: Mapping[str, Any],
+    table: StoreyTable | None,
+    curves: PushoverCurves | None,
+    fit: PushoverFit | None,
+    loaded: Sequence[str],
 ) -> list[str]:
-    """Tables of the storeys, storey 1 first; the highest carries no goods."""
+    """Tables of the storeys, storey 1 first; roofs carry no goods."""
     names = () if curves is None else curves.names
     names = names if table is None else table.names
     count = len(names) or int(answers["storeys"])
-    heights, mass = (None, None) if table is None else (table.heights, table.mass)
+    bare = bare_floors(names or ("",) * count, loaded)
+    heights, mass = (None, None) if table is None else (table.heights, bare_mass(table, answers, bare))
     stiffness, strength = (None, None) if table is None else (table.stiffness, table.strength)
     slopes: tuple[FloatArray | None, ...] = (None, None, None)
     if fit is not None:
@@ -251,17 +315,10 @@ def _storeys(
         for key, values, unit in columns:
             if values is not None:
                 lines.append(f"{key} = {float(f'{unit * float(values[i]):.10g}')!r}")
-        if i == count - 1 and count > 1:
-            lines.append("live_load_kpa = 0.0          # a bare roof")
+        if bare[i]:
+            lines.append("live_load_kpa = 0.0          # a bare roof: without this line it carries goods")
         lines.append("")
     return lines
-
-
-def weight_per_area(table: StoreyTable, area: float) -> list[float] | None:
-    """Return the weight of each floor over its area (kPa), to be looked at; None without masses."""
-    if table.mass is None:
-        return None
-    return [1e-3 * STANDARD_GRAVITY * float(mass) / area for mass in table.mass]
 
 
 def _quoted(text: str) -> str:

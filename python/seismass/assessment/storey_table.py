@@ -1,312 +1,48 @@
 """Storey tables as other programs export them: names, heights, masses, stiffnesses and strengths, in SI units.
 
 Columns are recognised by their names, as in tables of ETABS and SAP2000; units stand in the head, in a row below it, or
-are stated for the whole table.
+are stated for the whole table. Tables of several files and sheets are joined by the names of storeys.
 """
 
 from __future__ import annotations
 
-import csv
-import io
 import os
-import re
-import unicodedata
-import zipfile
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Final, Literal
+from itertools import zip_longest
+from typing import Final, Literal, NoReturn
 
 import numpy as np
 
-from seismass.base.errors import InvalidBuildingFile, MissingPackage
-from seismass.base.files import MOST_BYTES, read_file
-from seismass.base.units import FOOT, INCH, KIP, POUND, STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_path, brief, printable, refusal, short
+from seismass.assessment.table_file import (
+    Quantity,
+    Sheet,
+    few_names,
+    one_case,
+    read_sheets,
+    readings,
+    system_of,
+)
+from seismass.assessment.table_words import (
+    COLUMNS,
+    NO_STOREY,
+    TEXTS,
+    Order,
+    is_base,
+    is_basement,
+    is_ground,
+    is_mezzanine,
+    is_roof_first,
+    plain,
+    refuse_summaries,
+    refuse_sums,
+)
+from seismass.base.errors import InvalidBuildingFile
+from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import FloatArray, as_path, printable, refusal, short
 from seismass.base.views import Card
 from seismass.media.text_table import text_table
 
-Quantity = Literal["length", "force", "mass", "stiffness"]
-
-LENGTHS: Final = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "ft": FOOT, "in": INCH}
-"""Metres."""
-FORCES: Final = {
-    "n": 1.0,
-    "kn": 1e3,
-    "mn": 1e6,
-    "kgf": STANDARD_GRAVITY,
-    "tonf": 1e3 * STANDARD_GRAVITY,
-    **dict.fromkeys(("lb", "lbf"), 1e-3 * KIP),
-    **dict.fromkeys(("kip", "kips"), KIP),
-}
-"""Newtons; tonf is the metric one, as these programs have it, and a kip 1000 lbf."""
-MASSES: Final = {"kg": 1.0, "t": 1e3, "tonne": 1e3, "tonnes": 1e3, "lb": POUND, "lbm": POUND}
-"""Kilograms."""
-
-_MASS: Final = re.compile(r"([a-z]+)[-*.·]?s(?:ec)?\^?[2²]/([a-z]+)")
-_STIFFNESS: Final = re.compile(r"([a-z]+)/([a-z]+)")
-
-
-def unit_factor(unit: str, quantity: Quantity, what: str, owner: str) -> float:
-    """Return the factor to SI units of a unit such as "kN/m" or "kip-s2/in" of a length, force, mass or stiffness."""
-    text = unit.strip().lower().replace(" ", "")
-    if quantity == "length" and text in LENGTHS:
-        return LENGTHS[text]
-    if quantity == "force" and text in FORCES:
-        return FORCES[text]
-    if quantity == "mass" and text in MASSES:
-        return MASSES[text]
-    pattern = {"mass": _MASS, "stiffness": _STIFFNESS}.get(quantity)
-    matched = pattern.fullmatch(text) if pattern is not None else None
-    if matched and matched[1] in FORCES and matched[2] in LENGTHS:
-        return FORCES[matched[1]] / LENGTHS[matched[2]]
-    known = {
-        "length": ", ".join(LENGTHS),
-        "force": "N, kN, kgf, tonf, lb, kip",
-        "mass": "kg, t, lb, or force-s2/length such as kip-s2/in",
-        "stiffness": "force/length such as kN/m or kip/in",
-    }[quantity]
-    raise refusal(InvalidBuildingFile, what, owner, f"one of {known}", brief(unit))
-
-
-def system_of(units: str, owner: str) -> tuple[float, float]:
-    """Return the units of force (N) and of length (m) of a system such as "kN-m" or "kip-in"."""
-    force, _, length = units.strip().lower().replace(" ", "").replace(",", "-").partition("-")
-    length = length.partition("-")[0]  # a third word is that of temperatures
-    if force not in FORCES or length not in LENGTHS:
-        need = "a force and a length such as kN-m, N-mm, kip-in, kip-ft, lb-in, kgf-m or tonf-m"
-        raise refusal(InvalidBuildingFile, "units", owner, need, brief(units))
-    return FORCES[force], LENGTHS[length]
-
-
-Names = Mapping[str, tuple[str, ...]]
-"""Names of columns by what they hold, in small letters; x stands for the direction that is asked for."""
-_HEAD: Final = re.compile(r"^(?P<name>[^([,]*)(?:[(\[,]\s*(?P<unit>[^)\]]*)[)\]]?)?\s*$")
-
-
-@dataclass(frozen=True)
-class Sheet:
-    """Rows below a head that is known: the place of each column found, its unit as stated in the head or in a row below
-    (empty: none), and the rows that are not empty.
-    """
-
-    path: Path
-    columns: dict[str, int]
-    units: dict[str, str]
-    body: list[list[str]]
-
-    def texts(self, kind: str) -> list[str]:
-        """Return the cells of a column, with what cannot be printed as escapes."""
-        return [printable(row[self.columns[kind]].strip()) for row in self.body]
-
-    def numbers(
-        self, kind: str, factor: float, owners: Sequence[str], *, left_out: Collection[int] = ()
-    ) -> list[float]:
-        """Return a column of numbers times a factor, NaN where a cell is empty; `owners` name its rows in errors. A
-        cell without a number is an error but in rows of `left_out`.
-        """
-        place, values = self.columns[kind], []
-        for number, (row, owner) in enumerate(zip(self.body, owners, strict=True)):
-            try:
-                values.append(factor * _number(row[place], f"{kind} of {owner}", self.path))
-            except InvalidBuildingFile:
-                if number not in left_out:
-                    raise
-                values.append(float("nan"))
-        return values
-
-    def factor(self, kind: str, quantity: Quantity, system: tuple[float, float] | None) -> float:
-        """Return the factor of a column towards SI units, by its own unit or else by a system (N, m)."""
-        unit = self.units[kind]
-        if unit:
-            return unit_factor(unit, quantity, f"unit of the column {kind}", self.path.name)
-        if system is None:
-            need = "stated: in its head, as in Mass (kg), in a row below, or for the table by --units, such as kN-m"
-            raise refusal(InvalidBuildingFile, f"unit of the column {kind}", self.path.name, need, "none")
-        force, length = system
-        return {"length": length, "force": force, "stiffness": force / length, "mass": force / length}[quantity]
-
-
-def read_sheet(path: Path, names: Names, *, needed: tuple[str, ...], need: str, direction: str = "x") -> Sheet:
-    """Read a CSV (comma, semicolon or tab) or XLSX whose columns are known by `names`. The columns `needed` must be
-    there beside another one; `need` is what errors say of the head.
-    """
-    rows = _rows(path)
-    head, columns = _head(rows, path, names, needed, need, direction)
-    body = rows[head + 1 :]
-    units = {kind: _unit_in(rows[head][place]) for kind, place in columns.items()}
-    if body and _is_unit_row(body[0], columns):
-        units = {kind: body[0][place].strip() or units[kind] for kind, place in columns.items()}
-        body = body[1:]
-    body = [row for row in body if any(row[columns[kind]].strip() for kind in needed)]
-    return Sheet(path, columns, units, body)
-
-
-def _rows(path: Path) -> list[list[str]]:
-    """Cells of the file as text, in rows of equal length."""
-    try:
-        content = read_file(path)
-    except OSError as error:
-        raise InvalidBuildingFile(
-            f"table must be a file that can be read; got {path} ({error.strerror or error})"
-        ) from error
-    if path.suffix.lower() in (".xlsx", ".xlsm"):
-        rows = _sheet(content, path)
-    else:
-        text = content.decode("utf-8-sig", errors="replace")
-        lines = [line for line in text.splitlines() if line.strip()][:50]
-        separator = max(";\t,", key=lambda each: sum(line.count(each) for line in lines))
-        rows = [list(row) for row in csv.reader(io.StringIO(text), delimiter=separator)]
-        if separator == ";":  # then a comma is decimal
-            rows = [[re.sub(r"^(\s*[+-]?\d+),(\d+)", r"\1.\2", cell) for cell in row] for row in rows]
-    width = max(map(len, rows), default=0)
-    return [[*row, *([""] * (width - len(row)))] for row in rows]
-
-
-def _sheet(content: bytes, path: Path) -> list[list[str]]:
-    """Cells of the first sheet of a workbook."""
-    try:
-        from openpyxl import load_workbook
-    except ImportError:
-        needed = "openpyxl, which reads XLSX, must be installed (pip install seismass[xlsx]); or save the table as CSV"
-        raise MissingPackage(needed) from None
-    try:
-        with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            size = sum(item.file_size for item in archive.infolist())
-        if size > MOST_BYTES:
-            raise refusal(InvalidBuildingFile, "size", path.name, f"at most {MOST_BYTES} bytes unpacked", str(size))
-        book = load_workbook(io.BytesIO(content), read_only=True, data_only=True)
-        rows = book.worksheets[0].iter_rows(values_only=True)
-        return [["" if cell is None else str(cell) for cell in row] for row in rows]
-    except (zipfile.BadZipFile, KeyError, IndexError, ValueError, OSError) as error:
-        raise refusal(InvalidBuildingFile, "content", path.name, "a workbook", short(str(error))) from error
-
-
-def _name_of(cell: str, direction: str) -> str:
-    """Name of a column in small letters without its unit; one of the other direction is unknown."""
-    matched = _HEAD.match(cell.strip())
-    name = re.sub(r"[^a-z0-9%]+", " ", (matched["name"] if matched else cell).lower()).strip()
-    words = name.split()
-    other = "y" if direction == "x" else "x"
-    if words and (words[-1] == other or words[-1] in (f"u{other}", f"k{other}", f"v{other}")):
-        return ""
-    words = [{f"u{direction}": "ux", f"k{direction}": "kx", f"v{direction}": "vx"}.get(word, word) for word in words]
-    if words and words[-1] == direction:
-        words[-1] = "x"
-    return " ".join(words)
-
-
-def _unit_in(cell: str) -> str:
-    """Unit of a head such as "Mass (kg)" or "Mass, kg"."""
-    matched = _HEAD.match(cell.strip())
-    return (matched["unit"] or "").strip() if matched else ""
-
-
-def _head(
-    rows: list[list[str]], path: Path, names: Names, needed: tuple[str, ...], need: str, direction: str
-) -> tuple[int, dict[str, int]]:
-    """Row of the head, and the column of each kind."""
-    for number, row in enumerate(rows[:50]):
-        names_in_row = [_name_of(cell, direction) for cell in row]
-        places = {
-            kind: min((names_in_row.index(name) for name in known if name in names_in_row), default=-1)
-            for kind, known in names.items()
-        }
-        columns = {kind: place for kind, place in places.items() if place >= 0}
-        if len(columns) > 1 and all(kind in columns for kind in needed):
-            return number, columns
-    first = next((", ".join(cell for cell in row if cell) for row in rows if any(row)), "no rows")
-    raise refusal(InvalidBuildingFile, "rows", path.name, f"below {need}", short(first))
-
-
-def _is_unit_row(row: list[str], columns: dict[str, int]) -> bool:
-    """Whether a row below the head states units."""
-    cells = [row[place].strip() for kind, place in columns.items() if kind != "storey"]
-    return (
-        ("storey" not in columns or not row[columns["storey"]].strip())
-        and any(cells)
-        and not any(re.fullmatch(r"[+-]?[\d.].*", cell) for cell in cells)
-    )
-
-
-def _number(cell: str, what: str, path: Path) -> float:
-    text = cell.strip().replace(" ", "")
-    if text == "":
-        return float("nan")
-    if re.fullmatch(r"[+-]?\d{1,3}(,\d{3})+(\.\d+)?", text):
-        text = text.replace(",", "")
-    try:
-        number = float(text)
-    except ValueError:
-        raise refusal(InvalidBuildingFile, what, path.name, "a number", brief(cell)) from None
-    return number
-
-
-# In English, German, Spanish, Portuguese, Italian, French and Turkish, without accents.
-_SUMMARY: Final = frozenset(
-    (
-        *("total", "totals", "subtotal", "sum", "sums", "average", "averages", "avg", "mean", "max", "maximum", "min"),
-        *("minimum", "note", "notes", "remark", "remarks", "summe", "summen", "gesamt", "gesamtsumme", "zwischensumme"),
-        *("insgesamt", "mittelwert", "durchschnitt", "hinweis", "anmerkung", "bemerkung", "totales", "suma"),
-        *("sumatoria", "promedio", "maximo", "minimo", "nota", "notas", "observacion", "observaciones", "totais"),
-        *("soma", "somatorio", "observacao", "observacoes", "totale", "totali", "subtotale", "somma", "massimo"),
-        *("totaux", "somme", "moyenne", "remarque", "remarques", "toplam", "toplami", "ortalama", "maksimum", "azami"),
-        *("asgari", "notlar"),
-    )
-)
-_SUMMARY_ALONE: Final = frozenset({"media", "medio", "mittel", "moyen", "not"})
-"""Words that are those of a mean or of a note only where nothing else is in the cell: a storey may be for media."""
-_NEED: Final = "that of a storey: remove it, or where it is a storey name it with its number, as Story 1"
-_LIKE_SUM: Final = 1e-3
-"""Masses of a table are rounded; a total of rounded masses is met within this part of itself."""
-
-
-def _words(name: str) -> list[str]:
-    """Words of a name, without case, accents, digits and punctuation."""
-    letters = unicodedata.normalize("NFKD", name.casefold().replace("\u0131", "i"))
-    return re.findall(r"[^\W\d_]+", "".join(each for each in letters if not unicodedata.combining(each)))
-
-
-def is_base(name: str) -> bool:
-    """Whether a row is the ground level by the name that ETABS gives it."""
-    return _words(name) == ["base"] and not re.search(r"\d", name)
-
-
-def refuse_summaries(names: Sequence[str], file: str) -> None:
-    """Refuse rows whose names are those of totals, means, extremes and notes."""
-    for name in names:
-        words = _words(name)
-        if not _SUMMARY.isdisjoint(words) or (len(words) == 1 and words[0] in _SUMMARY_ALONE):
-            raise refusal(InvalidBuildingFile, f"row {short(name)}", file, _NEED, "a total, a mean or a note")
-
-
-def refuse_sums(names: Sequence[str], masses: Sequence[float], file: str) -> None:
-    """Refuse a row without a number in its name whose mass (or weight) is the sum of all others."""
-    # With the base or without it.
-    storeys = {name: mass for name, mass in zip(names, masses, strict=True) if not is_base(name)}
-    whole, base = sum(storeys.values()), sum(masses) - sum(storeys.values())
-    if len(storeys) < 3:  # two equal floors are each the sum of the others
-        return
-    for name, value in storeys.items():
-        is_sum = any(abs(value - total) <= _LIKE_SUM * total for total in (whole - value, whole - value + base))
-        if is_sum and len(re.findall(r"\d+", name)) != 1:
-            raise refusal(InvalidBuildingFile, f"row {short(name)}", file, _NEED, "the sum of the other rows' masses")
-
-
-Order = Literal["roof-first", "ground-first"]
-
-COLUMNS: Final[dict[str, tuple[str, ...]]] = {
-    "storey": ("story", "storey", "level", "floor", "name", "story name", "storey name", "floor level"),
-    "elevation": ("elevation", "elev", "story elevation", "storey elevation", "z"),
-    "height": ("height", "story height", "storey height", "h"),
-    "mass": ("mass", "mass x", "ux", "mass ux", "floor mass", "story mass", "storey mass", "m"),
-    "weight": ("weight", "floor weight", "story weight", "storey weight", "seismic weight", "w"),
-    "stiffness": ("stiffness", "stiffness x", "stiff x", "kx", "k", "story stiffness", "storey stiffness"),
-    "strength": ("yield shear", "yield strength", "shear strength", "strength", "vy", "yield shear x"),
-    "shear": ("shear", "shear x", "vx", "v", "story shear", "storey shear", "base shear"),
-    "drift": ("drift", "drift x", "story drift", "storey drift", "drift ratio"),
-}
-"""Names of columns, in small letters; x stands for the direction that is asked for."""
 _QUANTITIES: Final[dict[str, Quantity]] = {
     "elevation": "length",
     "height": "length",
@@ -317,14 +53,23 @@ _QUANTITIES: Final[dict[str, Quantity]] = {
     "shear": "force",
     "drift": "length",
 }
-_BASE: Final = re.compile(r"base|ground|foundation|0", re.IGNORECASE)
-_ROOF: Final = re.compile(r"roof|top", re.IGNORECASE)
+_OF_A_CASE: Final = ("stiffness", "shear", "drift", "drift ratio")
+"""Quantities that differ from one load case to another."""
+_SAME: Final = 0.01
+"""Part by which one quantity of a storey may differ between two tables, which are rounded."""
+_MOST_RATIO: Final = 0.5
+"""Largest drift ratio of an analysis; a larger number is a length."""
+_TALL: Final = 1.5
+"""Height of the lowest storey over that of the tallest other one above which elevations may start elsewhere."""
+_TALLEST: Final = 10.0
+"""The same of a single storey (m)."""
 
 
 @dataclass(frozen=True)
 class StoreyTable(Card):
     """Storeys of another program's model in SI units, storey 1 first: heights (m), floor masses (kg), stiffnesses (N/m)
-    and yield shears (N), None where the table has none; `remarks` tell what was inferred.
+    and yield shears (N), None where the table has none; `remarks` tell what was inferred and what was left out. Masses
+    with `live_mass` are those of a program, which may include a share of the live load.
     """
 
     source: str
@@ -334,6 +79,7 @@ class StoreyTable(Card):
     stiffness: FloatArray | None
     strength: FloatArray | None
     remarks: tuple[str, ...] = field(default=())
+    live_mass: bool = False
 
     @property
     def text(self) -> str:
@@ -355,18 +101,23 @@ class StoreyTable(Card):
 
 
 def read_storey_table(
-    source: str | os.PathLike[str],
+    source: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
     *,
     units: str | None = None,
     order: Order | None = None,
     direction: Literal["x", "y"] = "x",
+    case: str | None = None,
+    decimal: Literal["comma", "point"] | None = None,
+    base_level: float | str | None = None,
 ) -> StoreyTable:
-    r"""Read a storey table.
+    r"""Read storey tables.
 
     Parameters
     ----------
-    source : path-like
-        CSV (comma, semicolon or tab) or XLSX. The head is the first row with a column of storeys and another known one.
+    source : path-like, or several
+        Text (separated by commas, semicolons or tabs, in fixed columns, or s2k and e2k) or XLSX with all its sheets.
+        The head of a table is the first row with a column of storeys and another known one. Tables of several files
+        and sheets are joined by the names of storeys.
     units : str, optional
         Force and length of numbers whose column states no unit, as these programs have them: "kN-m", "kip-in", "kgf-m".
         Masses are then in force times s2 over length.
@@ -374,6 +125,13 @@ def read_storey_table(
         Order of the rows, where neither elevations nor names say it.
     direction : {"x", "y"}, default "x"
         Which of the columns "Stiffness X" and "Stiffness Y" is read; the same of masses, shears and drifts.
+    case : str, optional
+        Load case of stiffnesses, shears and drifts; needed where the tables have several.
+    decimal : {"comma", "point"}, optional
+        Decimal mark; needed where no number of a file shows it, as in 1,204.
+    base_level : float or str, optional
+        Elevation (m) at which the building is held, or the name of the floor there: lower floors are left out.
+        "lowest" keeps all of them. Needed with basements, or elevations above the sea, where no row Base says it.
 
     Returns
     -------
@@ -383,10 +141,8 @@ def read_storey_table(
     Raises
     ------
     InvalidBuildingFile
-        The file cannot be read, has no head that is known, a cell that is no number, a storey twice, a row of totals,
-        means or notes, or a unit or an order that has to be stated.
-    MissingPackage
-        openpyxl is needed for XLSX.
+        A file cannot be read, has no head that is known, a cell that is no number, a storey twice, a row of totals,
+        means or notes, or what has to be stated: a unit, an order, a load case, a decimal mark, the base level.
 
     Examples
     --------
@@ -399,124 +155,349 @@ def read_storey_table(
     >>> table.names, table.mass.tolist(), table.stiffness.tolist()
     (('Story1', 'Roof'), [150000.0, 120000.0], [300000000.0, 200000000.0])
     """
-    path = as_path(source, "storey table", InvalidBuildingFile)
+    sources = [source] if isinstance(source, str | os.PathLike) else source
+    paths = [as_path(each, "storey table", InvalidBuildingFile) for each in sources]
     need = "a head with a column story and others such as elevation, height, mass, weight, stiffness"
-    sheet = read_sheet(path, COLUMNS, needed=("storey",), need=need, direction=direction)
-    names = sheet.texts("storey")
-    refuse_summaries(names, path.name)
-    repeated = sorted({name for name in names if names.count(name) > 1})
-    if repeated:
-        got = f"{short(repeated[0])} in {names.count(repeated[0])} rows: keep one load case and one diaphragm"
-        raise refusal(InvalidBuildingFile, "rows", path.name, "one for each storey", got)
-    system = None if units is None else system_of(units, path.name)
-    owners = [f"storey {short(name)}" for name in names]
-    base_rows = [i for i, name in enumerate(names) if is_base(name)]
-    ratio = "drift" in sheet.columns and not sheet.units["drift"]
-    values: dict[str, list[float]] = {}
-    for kind in sheet.columns:
-        if kind != "storey":
-            factor = 1.0 if kind == "drift" and ratio else sheet.factor(kind, _QUANTITIES[kind], system)
-            values[kind] = sheet.numbers(kind, factor, owners, left_out=base_rows)
-    for kind in ("mass", "weight"):
-        if kind in values:
-            refuse_sums(names, values[kind], path.name)
-    return _ordered(sheet, names, values, order, ratio=ratio)
+    joined = _Joined(", ".join(path.name for path in paths), case)
+    system = None if units is None else system_of(units, joined.source)
+    tables: list[_Rows] = []
+    for path in paths:
+        sheets, others = read_sheets(path, COLUMNS, needed=("storey",), need=need, direction=direction, decimal=decimal)
+        joined.remarks += [f"tables of {printable(path.name)} that are not read: {few_names(others)}"] * bool(others)
+        tables += (_Rows(sheet, direction) for sheet in sheets)
+    joined.add(tables, system)
+    return _ordered(joined, order, base_level)
 
 
-def _ordered(
-    sheet: Sheet, names: list[str], values: dict[str, list[float]], order: Order | None, *, ratio: bool
-) -> StoreyTable:
-    """Storeys from the ground up, without the row of the base."""
-    path = sheet.path
-    remarks: list[str] = []
-    rows = list(range(len(names)))
-    elevation = values.get("elevation")
-    if elevation is not None:
-        for name, number in zip(names, elevation, strict=True):
-            if np.isnan(number) and not is_base(name):
-                what = f"elevation of storey {short(name)}"
-                raise refusal(InvalidBuildingFile, what, path.name, "a number", "nothing")
-        rows.sort(key=lambda i: -np.inf if np.isnan(elevation[i]) else elevation[i])
-    elif is_roof_first(names, order, path):
-        rows.reverse()
-    base = 0.0
+class _Rows:
+    """Rows of a sheet with the names of their storeys; of rows of several directions and places those that are asked
+    for.
+    """
+
+    def __init__(self, sheet: Sheet, direction: str) -> None:
+        self.sheet = sheet
+        texts = {kind: sheet.texts(kind) for kind in sheet.columns if kind in TEXTS}
+        self.kinds = [kind for kind in sheet.columns if kind not in TEXTS]
+        full = [row for row in range(len(sheet.body)) if any(sheet.cell(row, kind) != "" for kind in self.kinds)]
+        for kind in {"storey", "case", "tower"} & set(texts):
+            self._fill(texts[kind], full, refused=kind == "storey" and not {"case", "direction"} & set(texts))
+        rows = [row for row, name in enumerate(texts["storey"]) if name]
+        if "direction" in texts:
+            rows = [row for row in rows if plain(texts["direction"][row]).strip() in (direction, f"dir {direction}")]
+            if not rows:
+                raise refusal(InvalidBuildingFile, "rows", sheet.label, f"some of the direction {direction}", "none")
+        places = [plain(place)[:3] for place in texts.get("location", [])]
+        if {"top", "bot"} <= {places[row] for row in rows if places}:
+            rows = [row for row in rows if places[row] == "bot"]
+        self.rows = rows
+        self.names = [texts["storey"][row] for row in rows]
+        refuse_summaries(self.names, sheet.path.name)
+        self.cases = [texts["case"][row] for row in rows] if "case" in texts else []
+        towers = sorted({tower for tower in texts.get("tower", []) if tower})
+        if len(towers) > 1:
+            need = "of one tower: keep the rows of one, and write a file for each"
+            raise refusal(InvalidBuildingFile, "rows", sheet.label, need, few_names(towers))
+        keys = [tuple(texts[kind][row] for kind in texts) for row in rows]
+        twice = next((name for name, key in zip(self.names, keys, strict=True) if keys.count(key) > 1), None)
+        if twice is not None:
+            count = sum(name == twice for name in self.names)
+            got = f"{short(twice)} in {count} rows: keep one load case and one diaphragm, and name storeys differently"
+            raise refusal(InvalidBuildingFile, "rows", sheet.label, "one for each storey", got)
+
+    def _fill(self, column: list[str], full: list[int], *, refused: bool) -> None:
+        """Write names into the blank cells below them, as merged cells have it; a table of one row for each storey has
+        none.
+        """
+        for row in full:
+            above = column[row - 1] if row else ""
+            if refused and not column[row]:
+                need = "the name of a storey in each: remove what is no storey, or name it"
+                got = f"none below {short(above)}" if above else "none"
+                raise refusal(InvalidBuildingFile, "rows with numbers", self.sheet.label, need, got)
+            column[row] = column[row] or above
+
+    def values(self, kind: str, case: str | None, system: tuple[float, float] | None) -> dict[str, float]:
+        """Return the numbers of a quantity in SI units by storey, in the rows of a load case; NaN: none."""
+        sheet = self.sheet
+        unit = sheet.units[kind].strip()
+        ratio = kind == "drift" and unit in ("", "%")
+        factor = (0.01 if unit else 1.0) if ratio else sheet.factor(kind, _QUANTITIES[kind], system)
+        owners = [f"row {row + 1}" for row in range(len(sheet.body))]
+        for row, name in zip(self.rows, self.names, strict=True):
+            owners[row] = f"storey {short(name)}"
+        rows_left = [i for i in range(len(self.rows)) if case is None or not self.cases or self.cases[i] == case]
+        left_out = set(range(len(sheet.body))) - {self.rows[i] for i in rows_left if not is_base(self.names[i])}
+        numbers = sheet.numbers(kind, factor, owners, left_out=left_out)
+        named = bool({"ratio", "drifts"} & set(plain(f"{sheet.heads[kind]} {sheet.title}").split()))
+        if ratio and (not (named or sheet.states_units) or (np.abs(numbers) > _MOST_RATIO).any()):
+            need = "stated in its head: Drift (mm), or Drift Ratio where it is that of the height"
+            raise refusal(InvalidBuildingFile, "unit of the column drift", sheet.label, need, unit or "none")
+        result: dict[str, float] = {}
+        for i in rows_left:
+            name, number = self.names[i], numbers[self.rows[i]]
+            number = abs(number) if kind in ("shear", "drift") else number
+            known = result.get(name, np.nan)
+            if not np.isnan(known) and not np.isnan(number) and known != number:
+                need = "one number: keep one load case, one step and one diaphragm"
+                raise refusal(InvalidBuildingFile, f"{kind} of storey {short(name)}", sheet.label, need, "several")
+            result[name] = known if np.isnan(number) else number
+        return result
+
+
+class _Joined:
+    """Quantities of storeys from several tables, by the names of storeys."""
+
+    def __init__(self, source: str, case: str | None) -> None:
+        self.source, self.case = source, case
+        self.names: dict[str, str] = {}  # as they are joined, and as the first table has them
+        self.values: dict[str, dict[str, float]] = {}
+        self.remarks: list[str] = []
+        self.carried: dict[str, list[str]] = {}
+        self.live_mass = self.case_used = False
+        self._owners: dict[str, str] = {}
+
+    def add(self, tables: list[_Rows], system: tuple[float, float] | None) -> None:
+        """Add the tables of a file; quantities that another one replaces are left out."""
+        whole_kinds = {kind for rows in tables for kind in rows.kinds if "center" not in plain(rows.sheet.title)}
+        order = sorted(tables, key=lambda rows: not {"height", "elevation"} & set(rows.kinds))
+        for rows in order:
+            for name in rows.names:
+                self.names.setdefault(_key(name), name)
+            for kind in rows.kinds:
+                if kind == "mass" and "center" in plain(rows.sheet.title) and "mass" in whole_kinds:
+                    self.remarks.append(f"masses of {rows.sheet.label} are left out: a summary of masses is there")
+                elif not (kind in ("shear", "drift") and "stiffness" in whole_kinds):
+                    self._join(rows, kind, system)
+            unread = few_names(rows.sheet.unread)
+            self.remarks += [f"columns of {rows.sheet.label} that are not read: {unread}"] * bool(unread)
+
+    def _join(self, rows: _Rows, kind: str, system: tuple[float, float] | None) -> None:
+        sheet = rows.sheet
+        case = None
+        if kind in _OF_A_CASE and rows.cases:
+            case = one_case(rows.cases, self.case, sheet.label, "--case")
+            sentence = f"stiffnesses, or shears and drifts, are of the load case {short(case)}"
+            self.remarks += [sentence] * (not self.case_used)
+            self.case_used = True
+        result = rows.values(kind, case, system)
+        if kind in ("mass", "weight"):
+            refuse_sums(list(result), list(result.values()), sheet.path.name)
+            self.live_mass |= bool(sheet.title and "mass summary" in plain(sheet.title))
+            self.live_mass |= plain(sheet.heads[kind].split("(")[0]).replace(" ", "") in _PROGRAM
+            self.live_mass |= any(word in plain(sheet.heads[kind]) for word in ("seism", "sismi"))
+        if kind == "drift" and sheet.units[kind].strip() in ("", "%"):
+            kind = "drift ratio"
+        table = self.values.setdefault(kind, {})
+        for name, number in result.items():
+            key = _key(name)
+            known = table.get(key, np.nan)
+            if not np.isnan(known) and not np.isnan(number) and abs(known - number) > _SAME * abs(known):
+                what = f"{kind} of storey {short(name)}"
+                need = f"that of {self._owners[kind]}: leave one of the tables out"
+                raise refusal(InvalidBuildingFile, what, sheet.label, need, f"{number:.6g} beside {known:.6g}")
+            table[key] = number if np.isnan(known) else known
+        self._owners.setdefault(kind, sheet.label)
+        column = sheet.columns[kind if kind in sheet.columns else "drift"]
+        for row, name in zip(rows.rows, rows.names, strict=True):
+            cell = sheet.body[row][column] if column < len(sheet.body[row]) else ""
+            text = printable(f"{cell:.10g}" if isinstance(cell, float) else cell.strip())
+            if kind != "elevation" and text.strip("0.,-"):
+                sentence = f"{kind} {short(text)} {printable(sheet.units.get(kind, ''))}".rstrip()
+                self.carried.setdefault(_key(name), []).append(sentence)
+
+
+_PROGRAM: Final = ("ux", "uy", "massx", "massy", "massux", "massuy")
+"""Names of columns of masses as programs have them, whose mass source may hold a share of the live load."""
+
+
+def _key(name: str) -> str:
+    """A name as tables are joined by it."""
+    return " ".join(name.casefold().split())
+
+
+def _ordered(joined: _Joined, order: Order | None, base_level: float | str | None) -> StoreyTable:
+    """Storeys from the ground up, without the row of the base and what is below the base level."""
+    file, values, remarks = joined.source, joined.values, joined.remarks
+    if joined.case is not None and not joined.case_used:
+        raise refusal(
+            InvalidBuildingFile, "load case", file, "left out: no quantity of a load case is read", joined.case
+        )
+    keys = list(joined.names)
+    for key in keys:
+        if (
+            not is_base(key)
+            and not is_ground(key)
+            and all(np.isnan(rows_of.get(key, np.nan)) for rows_of in values.values())
+        ):
+            raise refusal(InvalidBuildingFile, f"row {short(joined.names[key])}", file, NO_STOREY, "no number in it")
+    elevation = values.get("elevation", {})
+    bare = [key for key in keys if np.isnan(elevation.get(key, np.nan)) and not is_base(key)]
+    if bare and len(bare) < len([key for key in keys if not is_base(key)]):
+        what = f"elevation of storey {short(joined.names[bare[0]])}"
+        raise refusal(InvalidBuildingFile, what, file, "a number", "nothing")
+    has_elevations = bool(elevation) and not bare
+    if has_elevations:
+        keys.sort(key=lambda key: -np.inf if np.isnan(elevation.get(key, np.nan)) else elevation[key])
+    elif is_roof_first(list(joined.names.values()), order, file):
+        keys.reverse()
     loads = [values[kind] for kind in ("mass", "weight", "stiffness", "height") if kind in values]
-    ground = [i for i in rows if is_base(names[i])]
-    if not ground and rows and _BASE.fullmatch(names[rows[0]]) and all(not each[rows[0]] > 0.0 for each in loads):
-        ground = rows[:1]
-    for row in ground:
-        rows.remove(row)
-        base = 0.0 if elevation is None else float(np.nan_to_num(elevation[row]))
-        remarks.append(f"row {short(names[row])} is the ground and no storey: left out{_carried(sheet, row)}")
-    if not rows:
-        raise refusal(InvalidBuildingFile, "rows", path.name, "a storey at least", "none")
+    ground = [key for key in keys if is_base(key)]
+    if not ground and keys and is_ground(keys[0]) and all(not each.get(keys[0], 0.0) > 0.0 for each in loads):
+        ground = keys[:1]
+    base = None
+    for key in ground:
+        keys.remove(key)
+        if not np.isnan(elevation.get(key, np.nan)):
+            base = float(elevation[key])
+        sentence = joined.carried.get(key, [])
+        carried = f", with {', '.join(sentence)}" if sentence else ""
+        remarks.append(f"row {short(joined.names[key])} is the ground and no storey: left out{carried}")
+    if not keys:
+        raise refusal(InvalidBuildingFile, "rows", file, "a storey at least", "none")
 
     def column(kind: str) -> FloatArray | None:
-        return np.array([values[kind][i] for i in rows]) if kind in values else None
+        return np.array([values[kind].get(key, np.nan) for key in keys]) if kind in values else None
 
-    heights = column("height")
-    if heights is None and elevation is not None:
-        heights = np.diff([elevation[i] for i in rows], prepend=base)
-        remarks.append(f"heights are differences of elevations, over a base at {base:g} m")
-    mass, weight = column("mass"), column("weight")
+    names = [joined.names[key] for key in keys]
+    levels = np.array([elevation[key] for key in keys]) if has_elevations else None
+    heights, lowest = _heights(file, names, column("height"), levels, base, bool(ground), base_level, remarks)
+    columns = {kind: whole[lowest:] for kind in values if (whole := column(kind)) is not None}
+    names = names[lowest:]
+    mass, weight = columns.get("mass"), columns.get("weight")
+    if mass is not None and weight is not None and not np.allclose(mass * STANDARD_GRAVITY, weight, rtol=0.02):
+        raise refusal(InvalidBuildingFile, "masses", file, "the weights over g: remove one of the columns", "others")
     if mass is None and weight is not None:
         mass = weight / STANDARD_GRAVITY
         remarks.append("masses are weights over g")
-    stiffness, shear, drift = column("stiffness"), column("shear"), column("drift")
-    if stiffness is None and shear is not None and drift is not None:
-        if ratio and heights is None:
-            raise refusal(InvalidBuildingFile, "height", path.name, "given with drift ratios", "none")
-        length = drift * heights if ratio and heights is not None else drift
-        stiffness = np.abs(shear) / np.abs(length)
-        remarks.append(f"stiffnesses are shears over drifts{', which are ratios of the heights' if ratio else ''}")
-    columns = {"height": heights, "mass": mass, "stiffness": stiffness, "strength": column("strength")}
-    for kind, numbers in columns.items():
-        if numbers is None:
-            continue
-        for i, number in enumerate(numbers):
+    result = {
+        "height": heights,
+        "mass": mass,
+        "stiffness": _stiffness(columns, heights, file, remarks),
+        "strength": columns.get("strength"),
+    }
+    for kind, numbers in result.items():
+        for i, number in enumerate(() if numbers is None else numbers):
             if not 0.0 < number < np.inf:
                 got = "nothing" if np.isnan(number) else f"{number:g}"
-                what = f"{kind} of storey {short(names[rows[i]])}"
-                raise refusal(InvalidBuildingFile, what, path.name, "a positive number", got)
+                what = f"{kind} of storey {short(names[i])}"
+                raise refusal(InvalidBuildingFile, what, file, "a positive number", got)
+    remarks += [
+        f"{short(name)} is taken as a whole floor: where it covers a part, add its mass and height to the floor above"
+        for name in names
+        if is_mezzanine(name)
+    ]
     return StoreyTable(
-        source=path.name,
-        names=tuple(names[i] for i in rows),
+        source=file,
+        names=tuple(names),
         heights=heights,
         mass=mass,
-        stiffness=stiffness,
-        strength=columns["strength"],
+        stiffness=result["stiffness"],
+        strength=result["strength"],
         remarks=tuple(remarks),
+        live_mass=joined.live_mass and mass is not None,
     )
 
 
-def _carried(sheet: Sheet, row: int) -> str:
-    """What a row that is left out has in the columns that are read, as the table has it."""
-    cells = {kind: sheet.body[row][place].strip() for kind, place in sheet.columns.items()}
-    sentences = [
-        f"{kind} {short(printable(cell))} {printable(sheet.units[kind])}".rstrip()
-        for kind, cell in cells.items()
-        if kind not in ("storey", "elevation") and cell.strip("0.,-")
-    ]
-    return f", with {', '.join(sentences)}" if sentences else ""
+def _stiffness(
+    columns: dict[str, FloatArray], heights: FloatArray | None, file: str, remarks: list[str]
+) -> FloatArray | None:
+    """Stiffnesses as they stand, or shears over drifts."""
+    shear, drift, ratio = (columns.get(kind) for kind in ("shear", "drift", "drift ratio"))
+    if "stiffness" in columns:
+        return columns["stiffness"]
+    if shear is None or (drift is None and ratio is None):
+        if len({"shear", "drift", "drift ratio"} & set(columns)):
+            alone = "drifts without shears" if shear is None else "shears without drifts"
+            remarks.append(f"{alone} give no stiffness: they are not used")
+        return None
+    of_heights = ""
+    if drift is None:
+        if heights is None:
+            raise refusal(InvalidBuildingFile, "height", file, "given with drift ratios", "none")
+        drift, of_heights = np.asarray(ratio) * heights, ", which are ratios of the heights"
+    remarks.append(f"stiffnesses are shears over drifts{of_heights}")
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(np.abs(shear) / np.abs(drift))
 
 
-def is_roof_first(names: list[str], order: Order | None, path: Path) -> bool:
-    """Whether the first row is the highest storey: by what is stated, else by names."""
-    if order is not None:
-        return order == "roof-first"
-    if len(names) < 2:
-        return False
-    first, last = names[0], names[-1]
-    if _ROOF.search(first) or _BASE.fullmatch(last):
-        return True
-    if _ROOF.search(last) or _BASE.fullmatch(first):
-        return False
-    numbers = [re.findall(r"\d+", name) for name in names]
-    if all(len(digits) == 1 for digits in numbers):
-        counted = [int(digits[0]) for digits in numbers]
-        if counted == sorted(counted, reverse=True):
-            return True
-        if counted == sorted(counted):
-            return False
-    need = "stated by --order, roof-first or ground-first, where names and elevations do not say it"
-    raise refusal(InvalidBuildingFile, "order of the storeys", path.name, need, f"{short(first)} first")
+def _ask_level(file: str, got: str) -> NoReturn:
+    need = (
+        "stated by --base-level: the elevation (m) at which the building is held, the name of the floor there, or "
+        "lowest, where all rows are its storeys"
+    )
+    raise refusal(InvalidBuildingFile, "base level", file, need, got)
+
+
+def _heights(
+    file: str,
+    names: list[str],
+    heights: FloatArray | None,
+    levels: FloatArray | None,
+    base: float | None,
+    has_base: bool,
+    base_level: float | str | None,
+    remarks: list[str],
+) -> tuple[FloatArray | None, int]:
+    """Heights of the storeys above the base level, and the number of floors that are left out at it and below."""
+    if levels is not None:
+        base = _checked_levels(file, names, heights, levels, base, remarks)
+    lowest, level = 0, base
+    level_key = _key(str(base_level))
+    keys = [_key(name) for name in names]
+    if base_level is None:
+        under = () if levels is None or base is None or base > -1e-6 else levels < 1e-6
+        below = [name for name, is_under in zip_longest(names, under) if is_under or is_basement(name)]
+        if levels is not None and base is None:
+            tallest = float(np.diff(levels).max()) * _TALL if len(levels) > 1 else _TALLEST
+            if not 0.0 < levels[0] <= tallest:
+                _ask_level(file, f"{short(names[0])} at {levels[0]:g} m as the lowest floor, and no row Base")
+        if below and not has_base:
+            _ask_level(file, f"{few_names(below)} below ground, or at it, and no row Base")
+        sentence = "below ground, or at it: storeys, too, unless --base-level leaves them out"
+        remarks += [f"{few_names(below)} {sentence}"] * bool(below)
+    elif level_key in keys:
+        lowest = keys.index(level_key) + 1
+        level = None if levels is None else float(levels[lowest - 1])
+    elif level_key != "lowest":
+        result = readings(level_key)
+        if levels is None or len(set(result.values())) != 1:
+            _ask_level(file, f"{short(level_key)}{', but the tables have no elevations' * (levels is None)}")
+        level = next(iter(result.values()))
+        lowest = int(np.searchsorted(levels, level + 1e-6))
+        if base is not None and level < base - 1e-3:
+            _ask_level(file, f"{level:g} m, below the base at {base:g} m")
+    elif base is None and levels is not None:
+        _ask_level(file, "lowest, without heights and without the elevation of a row Base")
+    if lowest >= len(names):
+        _ask_level(file, f"{base_level}, above all floors")
+    remarks += [f"{few_names(names[:lowest])}: at the base level or below, left out"] * bool(lowest)
+    if levels is None:
+        return (None if heights is None else heights[lowest:]), lowest
+    if heights is None or lowest or level != base:
+        remarks.append(f"heights are differences of elevations, over a base at {level or 0.0:g} m")
+        return np.diff(levels[lowest:], prepend=level or 0.0), lowest
+    return heights, lowest
+
+
+def _checked_levels(
+    file: str,
+    names: list[str],
+    heights: FloatArray | None,
+    levels: FloatArray,
+    base: float | None,
+    remarks: list[str],
+) -> float | None:
+    """The elevation of the base where it is known; two floors at one elevation are refused."""
+    steps = np.diff(levels)
+    if (steps < 1e-6).any():
+        i = int(np.argmax(steps < 1e-6))
+        need = "each at an elevation of its own: make one row of parts of a floor, or of two roofs, with all mass"
+        got = f"{short(names[i])} and {short(names[i + 1])} at {levels[i]:g} m"
+        raise refusal(InvalidBuildingFile, "floors", file, need, got)
+    if heights is None:
+        return base
+    if not np.allclose(heights[1:], steps, rtol=0.01, atol=0.02):
+        i = int(np.argmax(np.abs(heights[1:] - steps)))
+        others = f"{heights[i + 1]:g} m of {short(names[i + 1])} over {steps[i]:g} m"
+        remarks.append(f"heights are not the differences of elevations ({others}): is a storey missing?")
+    return float(levels[0] - heights[0]) if base is None else base

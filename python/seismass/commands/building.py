@@ -16,11 +16,13 @@ from seismass.commands.options import (
     add_period_option,
     add_records_options,
     add_target_options,
+    check_files,
     numbers_option,
     read_code,
     read_motions,
     read_pairs,
     read_site,
+    refuse_options,
 )
 
 if TYPE_CHECKING:
@@ -53,6 +55,14 @@ def options(parser: argparse.ArgumentParser) -> None:
     add_drift_cap_option(choices)
     add_answer_options(parser, "the name of FILE")
     add_opensees_option(parser, "the building, with goods that slide and of both analyses")
+    back = parser.add_argument_group("into another program")
+    back.add_argument(
+        "--mass-source",
+        type=Path,
+        metavar="FILE",
+        help="write the mass sources of both analyses as lines of ETABS (.e2k) or SAP2000 (.s2k)",
+    )
+    back.add_argument("--live-pattern", metavar="NAME", help="load pattern of the design live load there (Live)")
     # A folder of its own for each building, so that a second never replaces the first.
     parser.set_defaults(out=None)
 
@@ -67,11 +77,18 @@ def run(args: argparse.Namespace) -> int:
         return 0
     from seismass.assessment import assess
     from seismass.assessment.building_file import read_building
+    from seismass.assessment.mass_source import mass_source_lines
     from seismass.assessment.run import write_models
     from seismass.base.errors import InvalidOption
+    from seismass.base.files import written_whole
     from seismass.media.result import check_out
 
     args.out = args.out or Path(args.file.stem)
+    if args.mass_source is None:
+        refuse_options(args, ("live_pattern",), "building", "where --mass-source is not given")
+    elif args.mass_source.suffix.lower() not in (".e2k", ".s2k"):
+        raise InvalidOption(f"--mass-source of building must have the suffix .e2k or .s2k; got {args.mass_source}")
+    check_files(args.mass_source)
     check_out(args.out, "assessment")
     building = read_building(args.file)
     code, target = read_code(args, "building"), read_site(args, "building")
@@ -93,6 +110,11 @@ def run(args: argparse.Namespace) -> int:
         )
     if args.opensees is not None:
         write_models(args.opensees, result, suite)
+    if args.mass_source is not None:
+        suffix = args.mass_source.suffix.lower()
+        lines = mass_source_lines(result.answer, building, suffix, args.live_pattern or "Live")
+        with written_whole(args.mass_source) as place:
+            place.write_text(lines, encoding="utf-8")
     files = write_answer(args, result)
     if files and not args.no_figures:
         files += _live_page(args.out, result)
@@ -144,6 +166,7 @@ building --example > warehouse.toml
 building warehouse.toml
 building warehouse.toml --records my_records/ --out warehouse
 building warehouse.toml --opensees warehouse_models
+building warehouse.toml --mass-source warehouse.e2k --live-pattern Storage
 building warehouse.toml --sds 0.8 --sd1 0.5
 building warehouse.toml --target ec8:1:C:0.3 --code ec8
 building warehouse.toml --mu-factors 1 1 --json > answer.json

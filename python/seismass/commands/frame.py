@@ -70,8 +70,11 @@ def seconds(args: argparse.Namespace) -> str:
 
 
 def columns() -> int | None:
-    """Return the width of the terminal, which COLUMNS may state; None where standard output is not a terminal."""
-    return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+    """Return the width of the terminal, which COLUMNS may state; into a file or pipe what COLUMNS states, else None."""
+    if sys.stdout.isatty():
+        return shutil.get_terminal_size().columns
+    stated = os.environ.get("COLUMNS", "")
+    return int(stated) if stated.isdecimal() and int(stated) > 0 else None
 
 
 def shows_bold() -> bool:

@@ -5,12 +5,18 @@ from __future__ import annotations
 import argparse
 import sys
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
+from seismass.base.units import STANDARD_GRAVITY
 from seismass.commands.answer_output import write_figure
 from seismass.commands.frame import Command, show
-from seismass.commands.options import check_files
+from seismass.commands.options import check_files, refuse_options
+
+if TYPE_CHECKING:
+    from seismass.assessment.building import OwnBuilding
+    from seismass.assessment.storey_table import StoreyTable
 
 _OPTIONS = {
     "name": ("TEXT", "name of the building"),
@@ -36,9 +42,27 @@ def options(parser: argparse.ArgumentParser) -> None:
         answers.add_argument(f"--{name.replace('_', '-')}", metavar=metavar, help=text)
     table = parser.add_argument_group("storeys of another program")
     table.add_argument(
-        "--from", dest="table", type=Path, metavar="TABLE", help="storey table, .csv or .xlsx, as ETABS exports it"
+        "--from",
+        dest="table",
+        type=Path,
+        action="append",
+        metavar="TABLE",
+        help="storey table as ETABS exports it: text or .xlsx, all sheets; given several times, joined by storey",
+    )
+    table.add_argument("--case", metavar="NAME", help="load case of its stiffnesses, where there are several")
+    table.add_argument(
+        "--mass-includes",
+        metavar="SHARE",
+        help="share of the live load in its masses: 0.25, or the mass source, '1.0 D + 0.25 L'; it is taken off",
+    )
+    table.add_argument(
+        "--base-level", metavar="LEVEL", help="elevation (m) or floor at which the building is held; or lowest"
+    )
+    table.add_argument(
+        "--loaded", action="append", metavar="NAME", help="roof or penthouse that carries goods; several times for more"
     )
     table.add_argument("--units", metavar="F-L", help="force and length of its numbers without a unit: kN-m, kip-in")
+    table.add_argument("--decimal", choices=("comma", "point"), help="decimal mark, where no number shows it (1,204)")
     table.add_argument(
         "--order", choices=("roof-first", "ground-first"), help="order of its rows, where they do not say it"
     )
@@ -48,8 +72,9 @@ def options(parser: argparse.ArgumentParser) -> None:
         "--pushover",
         type=Path,
         metavar="CURVES",
-        help="shears over drifts, .csv or .xlsx: of the roof, or with a column of storeys; draws the fit beside FILE",
+        help="shears over drifts, text or .xlsx: of the roof, or with a column of storeys; draws the fit beside FILE",
     )
+    push.add_argument("--pushover-case", metavar="NAME", help="load case of the curves, where there are several")
     push.add_argument("--lines", type=int, choices=(2, 3), default=2, help="straight lines of a spring (2)")
     push.add_argument(
         "--forces",
@@ -62,8 +87,9 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Ask, write the file and say what comes next; return the exit code."""
+    from seismass.assessment.answer import doubt_lines
     from seismass.assessment.building_file import read_building
-    from seismass.assessment.new_file import building_text, fit_of_curves, questions_for, weight_per_area
+    from seismass.assessment.new_file import MASS_INCLUDES, building_text, fit_of_curves, questions_for
     from seismass.assessment.pushover_file import read_pushover
     from seismass.assessment.storey_table import read_storey_table
     from seismass.base.errors import InvalidOption
@@ -75,13 +101,15 @@ def run(args: argparse.Namespace) -> int:
     if args.out.exists() and not args.force:
         raise refusal(InvalidOption, "file", "new", "one that does not exist, or --force be given", str(args.out))
     check_files(args.out)
-    table = None
+    if args.table is None:
+        refuse_options(args, ("mass_includes", "base_level", "loaded"), "new", "where --from is not given")
+    reading = {name: getattr(args, name) for name in ("units", "order", "direction", "decimal")}
+    table = curves = None
     if args.table is not None:
-        table = read_storey_table(args.table, units=args.units, order=args.order, direction=args.direction)
+        table = read_storey_table(args.table, case=args.case, base_level=args.base_level, **reading)
         show(table.text)
-    curves = None
     if args.pushover is not None:
-        curves = read_pushover(args.pushover, units=args.units, order=args.order, direction=args.direction)
+        curves = read_pushover(args.pushover, case=args.pushover_case, **reading)
         show(curves.text)
     answers: dict[str, Any] = {}
     for question in questions_for(table, curves):
@@ -90,22 +118,58 @@ def run(args: argparse.Namespace) -> int:
             answers[question.name] = _asked(question)
         elif value is not None or question.default:
             answers[question.name] = question.answer(question.default if value is None else value)
+    if table is not None and args.mass_includes is not None and "mass_includes" not in answers:
+        if table.mass is None:
+            raise refusal(
+                InvalidOption, "mass_includes", "new", "left out: the tables have no masses", args.mass_includes
+            )
+        answers["mass_includes"] = MASS_INCLUDES.answer(args.mass_includes)
     fit = None
     if curves is not None:
         shape: Literal["bilinear", "trilinear"] = "bilinear" if args.lines == 2 else "trilinear"
         fit = fit_of_curves(curves, answers, table, shape=shape, pattern=args.forces)
-    text = building_text(answers, table, curves, fit)
-    read_building(tomllib.loads(text))  # refused before anything is written
+    text = building_text(answers, table, curves, fit, args.loaded or ())
+    building = read_building(tomllib.loads(text))  # refused before anything is written
+    for line in (*_table_lines(table, answers, args.loaded or ()), *doubt_lines(_doubts(building))):
+        show(line)
     with written_whole(args.out) as place:
         place.write_text(text, encoding="utf-8")
-    if table is not None and (loads := weight_per_area(table, answers["area"])) is not None:
-        show(f"  floors weigh {min(loads):.3g} to {max(loads):.3g} kPa over {answers['area']:g} m2")
     if fit is not None:
         figure = args.out.with_name(f"{args.out.stem}_pushover.png")
         write_figure(fit.plot(), figure)
         show(f"{fit.text}\n{figure} is drawn")
     show(f"{args.out} is written: look at it, then run\n  seismass building {args.out}")
     return 0
+
+
+def _doubts(building: OwnBuilding) -> tuple[str, ...]:
+    """What `seismass building` would doubt of the file before it solves anything."""
+    from seismass.assessment.doubts import building_doubts
+
+    return building_doubts(building, building.scene(building.target), building.target)
+
+
+def _table_lines(table: StoreyTable | None, answers: dict[str, Any], loaded: Sequence[str]) -> list[str]:
+    """What is made of a table: weights over the area, the live load in its masses, and floors without goods."""
+    from seismass.assessment.new_file import bare_floors, bare_mass
+
+    if table is None:
+        return []
+    lines, bare = [], bare_floors(table.names, loaded)
+    mass = bare_mass(table, answers, bare)
+    if mass is not None:
+        loads = 1e-3 * STANDARD_GRAVITY * mass / answers["area"]
+        lines.append(f"  floors weigh {min(loads):.3g} to {max(loads):.3g} kPa over {answers['area']:g} m2")
+        included = answers.get("mass_includes", 0.0)
+        lines.append(
+            f"  {included:g} of the live load is taken off the masses of loaded floors"
+            if included > 0.0
+            else "  masses are taken as those without live load; --mass-includes takes off a share of it"
+        )
+    without = [name for name, each in zip(table.names, bare, strict=True) if each]
+    if without:
+        lines.append(f"  no goods on {', '.join(without)}: roofs and penthouses; --loaded NAME puts goods there")
+    return lines
 
 
 def _asked(question: Any) -> Any:
@@ -132,6 +196,7 @@ COMMAND = Command(
     examples="""
 new warehouse.toml
 new own.toml --from storeys.csv --units kN-m
+new own.toml --from definitions.csv --from masses.csv --from stiffnesses.csv --case EQX --mass-includes 0.25
 new own.toml --from storeys.csv --area 1200 --sds 1.0 --sd1 0.6 --live-load 7.2 --friction 0.3
 new shed.toml --from storeys.csv --pushover push.csv --area 1200 --sds 1 --sd1 0.6 --live-load 7.2 --friction 0.3
 """,
@@ -139,7 +204,8 @@ new shed.toml --from storeys.csv --pushover push.csv --area 1200 --sds 1 --sd1 0
     run=run,
     note="""
 A storey table has a column for storeys and others among elevation, height, mass, weight, stiffness, yield shear, shear
-and drift, with units in its head or in a row below, roof or ground first. What is read is printed. Pushover curves have
+and drift, with units in its head or in a row below, roof or ground first: text, s2k and e2k, or all sheets of a
+workbook. Several are joined by the names of storeys. What is read and what is left out is printed. Pushover curves have
 a column of drifts and one of shears; a curve of the roof is shared among storeys by assumptions that are printed.
 """,
 )

@@ -5,6 +5,7 @@ numbers are typed.
 from __future__ import annotations
 
 import argparse
+import difflib
 import importlib
 import re
 import textwrap
@@ -122,13 +123,16 @@ GROUPS: Final = {
 }
 """Subcommands by what one wants, as --help lists them."""
 
+NEVER_BARE: Final = ("scale",)
+"""Subcommands that would run without any option, on motions and for a site that nobody chose."""
 _DESCRIPTION: Final = """How much of a building's live load acts as mass in an earthquake.
 
 the number for your building:
   seismass building --example > warehouse.toml    a file to edit: the building, its goods and its site
   seismass building warehouse.toml                the share to count as mass, with drifts, slips and assumptions"""
 _EPILOG: Final = (
-    "`seismass COMMAND --help` has examples. exit codes: 0 done, 1 a run failed, 2 bad input, 130 interrupted"
+    "`seismass COMMAND --help` has examples. COLUMNS=80 states the width of what is printed into a pipe. exit codes: 0 "
+    "done, 1 a run failed, 2 bad input, 130 interrupted"
 )
 
 
@@ -148,9 +152,28 @@ def build_parser(only: str | None = None) -> argparse.ArgumentParser:
 
 
 def parse(words: Sequence[str]) -> argparse.Namespace:
-    """Return the options of a command line, without the name of the program; numbers in a row are one list."""
+    """Return the options of a command line, without the name of the program; numbers in a row are one list. An unknown
+    option is refused with the one that it resembles; a command that needs an option shows its help where it has none.
+    """
     command = next((word for word in words if not word.startswith("-")), "")
-    return build_parser(command).parse_args(list(joined_numbers(words)))
+    parser = build_parser(command)
+    actions = (action for action in parser._actions if isinstance(action, argparse._SubParsersAction))
+    command_parser = next(actions).choices.get(command, parser)
+    if list(words) == [command] and command in NEVER_BARE:
+        command_parser.print_help()
+        command_parser.exit(BAD_INPUT)
+    args, unknown = parser.parse_known_args(list(joined_numbers(words)))
+    if unknown:
+        option = unknown[0].partition("=")[0]
+        close = (
+            difflib.get_close_matches(option, command_parser._option_string_actions, n=1)
+            if option.startswith("--")
+            else []
+        )
+        command_parser.error(
+            f"unrecognized arguments: {' '.join(unknown)}{f' (did you mean {close[0]}?)' if close else ''}"
+        )
+    return args
 
 
 def joined_numbers(words: Sequence[str]) -> Iterator[str]:

@@ -28,6 +28,16 @@ GRAVITY_LOAD_RANGE: Final = (0.01, 100.0)
 """Gravity load of a floor over the weight of its mass, where it is not zero."""
 PERIOD_RANGE: Final = (0.01, 10.0)
 """First period (s)."""
+PERIODS_BY_HEIGHT: Final = ((0.1, 0.0488, 0.75), (12.0, 0.0724, 0.8))
+"""Shortest and longest first period: a factor of C_t h^x of ASCE 7 (Table 12.8-2, from memory) with the height h (m),
+of all other structures and of steel frames. A thousandth of the stiffness gives 32 times the period.
+"""
+LEAST_RECORD: Final = 5.0
+"""Duration (s) from which a motion is a record and no pulse of a test."""
+MIN_PGA: Final = 0.04
+"""Peak ground acceleration of a record as it is used (g); numbers in g that are read as m/s2 are a tenth."""
+MAX_DT: Final = 0.1
+"""Time step of a record (s); those of networks have 0.02 s at most."""
 MAX_PGA: Final = 5.0
 """Peak ground acceleration (g); the largest recorded one is about 4 g."""
 MAX_MEAN_PGA: Final = 3.0
@@ -91,15 +101,21 @@ def model_remarks(building: Building | None, blocks: Sequence[Block]) -> tuple[s
 def _building_remarks(building: Building) -> Iterator[str]:
     period = float(building.periods[0])
     shortest, longest = PERIOD_RANGE
+    of_height = ""
+    if building.heights is not None:
+        height = float(building.heights.sum())
+        low, high = (factor * c * height**x for factor, c, x in PERIODS_BY_HEIGHT)
+        shortest, longest = max(shortest, low), min(longest, high)
+        of_height = f" for {height:.3g} m of height"
     if period > longest:
         yield (
-            f"first period is {period:.4g} s, above {longest:g} s: are stiffnesses in N/m and masses in kg "
-            "(kN/m beside kg gives 32 times the period)?"
+            f"first period is {period:.4g} s, above {longest:.3g} s{of_height}: are stiffnesses in N/m and masses in "
+            "kg (kN/m beside kg gives 32 times the period)?"
         )
     elif period < shortest:
         yield (
-            f"first period is {period:.4g} s, below {shortest:g} s: are stiffnesses in N/m and masses in kg "
-            "(N/m beside t gives a thirty-second of the period)?"
+            f"first period is {period:.4g} s, below {shortest:.2g} s{of_height}: are stiffnesses in N/m and masses "
+            "in kg (N/m beside t gives a thirty-second of the period)?"
         )
     if building.heights is not None:
         yield from _numbered(
@@ -139,10 +155,16 @@ def motion_remarks(motions: Any) -> tuple[str, ...]:
     remarks = []
     for number, motion in enumerate(listed, start=1):
         pga = float(np.abs(motion.acceleration).max()) / STANDARD_GRAVITY
+        is_record = len(motion.acceleration) * motion.dt >= LEAST_RECORD
+        name = getattr(motion, "name", "")
+        called = f"motion {number}, {name}," if name else f"motion {number}"
         if pga > MAX_PGA:
-            name = getattr(motion, "name", "")
-            called = f"motion {number}, {name}," if name else f"motion {number}"
             remarks.append(f"{called} has a PGA of {pga:.4g} g, above {MAX_PGA:g} g: are its accelerations in m/s2?")
+        elif is_record and motion.dt > MAX_DT:
+            remarks.append(f"{called} has a time step of {motion.dt:g} s, above {MAX_DT:g} s: is it in s?")
+        elif is_record and 0.0 < pga < MIN_PGA:
+            asked = "are its accelerations in g, and read as m/s2?"
+            remarks.append(f"{called} has a PGA of {pga:.4g} g, below {MIN_PGA:g} g: {asked}")
     return tuple(remarks)
 
 

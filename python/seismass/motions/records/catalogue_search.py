@@ -71,7 +71,8 @@ def find_catalogue(folder: str | os.PathLike[str]) -> CatalogueSearch:
     """
     place = as_path(folder, "catalogue search", RecordFormatError)
     if not place.is_dir():
-        raise RecordFormatError(f"folder of catalogue search must be a directory; got {place}")
+        missing = "" if place.exists() else ", which does not exist"
+        raise RecordFormatError(f"folder of catalogue search must be a directory; got {place}{missing}")
     files = files_below(place)
     matches = [one for file in files for one in _identified(file)]
     order = {recording.rsn: position for position, recording in enumerate(_ALL)}

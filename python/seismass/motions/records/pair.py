@@ -482,7 +482,8 @@ def find_pairs(folder: str | os.PathLike[str], *, lengths: Literal["shorter", "p
             files = [(file, directory / names[file]) for file in files_below(inside)]
             return _pairs_of(printable(directory.stem), files, lengths)
     if not directory.is_dir():
-        raise RecordFormatError(f"folder of pairs must be a directory; got {printable(str(directory))}")
+        missing = "" if directory.exists() else ", which does not exist"
+        raise RecordFormatError(f"folder of pairs must be a directory; got {printable(str(directory))}{missing}")
     files = [(file, file) for file in files_below(directory)]
     return _pairs_of(printable(directory.resolve().name), files, lengths)
 

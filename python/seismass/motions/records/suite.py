@@ -196,7 +196,9 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
             return named_after(_read_directory(folder), source, names)
     if source.suffix.lower() == ".csv":
         return _read_list(source)
-    raise RecordFormatError(f"suite of records must be a directory, a ZIP archive or a .csv file; got {source}")
+    missing = "" if source.exists() else ", which does not exist"
+    need = "a directory, a ZIP archive or a .csv file"
+    raise RecordFormatError(f"suite of records must be {need}; got {source}{missing}")
 
 
 def suite_of_file(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from typing import Any, Final, Self, Unpack, get_args
 
@@ -10,7 +11,7 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
-from seismass.base.errors import InvalidOption, InvalidScene
+from seismass.base.errors import DoubtfulInput, InvalidOption, InvalidScene
 from seismass.base.fork_check import require_polars
 from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, is_one_of, refusal, same_content
 from seismass.base.views import Card
@@ -247,19 +248,28 @@ class Grid(Card):
         InvalidScene, InvalidMotion, InvalidOption
             As for `Grid`.
 
+        Warns
+        -----
+        DoubtfulInput
+            One mass ratio loads the roof, and neither `roof` nor `floors` says that it is meant.
+
         Examples
         --------
         >>> import seismass as sm
         >>> building = sm.Building.uniform(2, 0.3, yield_shear_over_weight=[0.2, 0.12])
-        >>> grid = sm.Grid.product(building, mass_ratio=[0.5, 1.0], mu=[0.2, 0.3, 0.4], scale=[0.5, 1.0, 2.0])
+        >>> grid = sm.Grid.product(building, roof="loaded", mass_ratio=[0.5, 1.0], mu=[0.2, 0.3, 0.4], scale=[1.0, 2.0])
         >>> len(grid)
-        18
-        >>> grid.table(4, 5)["mu_s"].to_list()
+        12
+        >>> grid.table(3, 4)["mu_s"].to_list()
         [0.3, 0.3]
         """
         settings = grid_options(dict(options), "Grid.product")
         grid = cls.__new__(cls)
         index, periods = grid._set_common(building, settings)
+        one_ratio = "mass_ratio" in options and np.ndim(settings["mass_ratio"]) < 2
+        if one_ratio and max(grid.floors, default=1) > 1 and not {"roof", "floors"} & set(options):
+            warning = 'the roof carries goods, too: roof="bare" leaves it without, roof="loaded" says that it is meant'
+            warnings.warn(warning, DoubtfulInput, stacklevel=2)
         if settings["storeys"] is None:
             index = np.arange(len(grid.buildings))
         values = grid._values(settings)
