@@ -27,6 +27,9 @@ def unused_lines(request: pytest.FixtureRequest) -> list[str]:
     return request.config.stash[UNUSED]
 
 
+# The processes of pytest-xdist have a width, and a user's shell may: what is printed into a pipe would be folded to it.
+os.environ.pop("COLUMNS", None)
+
 # A shared machine may be slow; a failure prints what reproduces it.
 settings.register_profile("seismass", deadline=None, print_blob=True)
 settings.load_profile("seismass")

@@ -7,7 +7,7 @@ from typing import Any, get_args
 import pytest
 
 import seismass as sm
-from seismass.assessment.advice import about_code, about_code_mass
+from seismass.assessment.advice import code_mass_remarks, code_remark
 from seismass.model.codes import CODE_IDS, Use
 from seismass.model.occupancy import OCCUPANCY_IDS
 
@@ -119,7 +119,7 @@ def test_goods_and_loads_of_a_larger_fraction_have_it_and_that_is_said(code: str
                 found = building({"id": code}, where, load)
                 (counted,) = found.counted
                 assert counted.fraction == right
-                said = [line for line in about_code_mass(found) if "more than the use that is stated has" in line]
+                said = [line for line in code_mass_remarks(found) if "more than the use that is stated has" in line]
                 assert len(said) == (right > fraction)
                 assert all(f"floor 1: {right:g} of its live load is counted as " in line for line in said)
         # Bolted goods are mass in full, and say nothing of the loose ones; what is stated of the floor counts.
@@ -134,11 +134,11 @@ def test_storage_under_a_code_of_two_classes_says_which_is_taken() -> None:
     for code in ({"id": "rpa99"}, {"id": "rpa99", "use": "storage"}):
         found = building(code, {})
         assert found.code.fraction == 1.0
-        assert "the upper end of 0.5 to 1" in about_code(found)
+        assert "the upper end of 0.5 to 1" in code_remark(found)
         remark = "RPA 99/2003, Algeria has 0.5 to 1 for the use storage, and 1 is taken: 0.50 in depots and hangars"
-        assert any(line.startswith(remark) for line in about_code_mass(found))
+        assert any(line.startswith(remark) for line in code_mass_remarks(found))
     assert building({"id": "rpa99"}, {"fraction": 0.5}).code_share == 0.5
-    assert not any("is taken" in line for line in about_code_mass(building({"id": "rpa99", "use": "archive"}, {})))
+    assert not any("is taken" in line for line in code_mass_remarks(building({"id": "rpa99", "use": "archive"}, {})))
 
 
 def test_shops_are_as_full_as_surveys_find_them_and_car_parks_full() -> None:

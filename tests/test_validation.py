@@ -34,7 +34,7 @@ from seismass.studies.validation.three_storeys import (
     OPENSEES,
     PEAK_G,
     SPRINGS,
-    kept,
+    opensees_results,
     samples_digest,
 )
 
@@ -116,11 +116,11 @@ def test_programs_converge_to_the_exact_kernel(built_in: Validation) -> None:
 
 def test_kept_results_of_opensees_are_of_these_settings(built_in: Validation) -> None:
     (record,) = components("Brawley Airport")
-    mine = kept().filter(samples=samples_digest(record))
+    mine = opensees_results().filter(samples=samples_digest(record))
     assert mine.height == 4  # two second slopes, two settings
-    assert kept().height == 12
-    assert set(kept()["version"]) == {"3.8.0"}
-    assert set(kept()["peak_g"]) == {PEAK_G}
+    assert opensees_results().height == 12
+    assert set(opensees_results()["version"]) == {"3.8.0"}
+    assert set(opensees_results()["peak_g"]) == {PEAK_G}
     # Its envelopes over all steps are the exact peaks in continuous time, to the error of springs of 1e5 k.
     for row in mine.filter(stiffness_ratio=1e5).rows(named=True):
         response = sm.simulate(section4_scene(row["second_slope"]), record.scaled(PEAK_G / record.pga_g))
