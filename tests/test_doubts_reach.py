@@ -96,7 +96,7 @@ def test_commands_say_it_before_their_answer(
     text = example_file().read_text(encoding="utf-8")
     file = tmp_path / "b.toml"
     file.write_text(
-        text.replace("live_load_kpa = 7.2", "live_load_kpa = 30").replace("drift_limit = 0.020", "drift_limit = 0.3")
+        text.replace("live_load_kpa = 7.2", "live_load_kpa = 30").replace("# drift_limit = 0.020", "drift_limit = 0.3")
     )
     hazard = tmp_path / "hazard.csv"
     levels = np.geomspace(0.01, 100.0, 40)

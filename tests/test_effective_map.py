@@ -129,18 +129,19 @@ def test_table(small: sm.EffectiveMassMap) -> None:
 
 def test_shears_and_rules_of_a_yielding_case_by_hand(small: sm.EffectiveMassMap) -> None:
     """C1 is the smaller of 1.07 V_e/W and (V_y/W) min(Omega, 1 + r2 (m - 1)); m - 1 = (R_e - 1)(1 + 0.6 T_c/T)."""
-    g, factors, corner = sm.STANDARD_GRAVITY, small.scaling.factors, small.metadata["corner_period"]
+    g = sm.STANDARD_GRAVITY
     defaults = sm.EffectiveMassParameters()
     cases = small.table.filter(R=4.0, mu=0.2)
     assert cases.height == 4
     for row in cases.iter_rows(named=True):
+        factors, corner = small.scaling[row["building"], row["alpha"]].factors, row["corner_period"]
         bare = sm.Building.uniform(row["storeys"], row["period"], mass=1.0)
         goods = np.full(row["storeys"], row["alpha"])
         if row["roof"] == "bare":
             goods[-1] = 0.0
         designed, whole = (
             response_spectrum_analysis(
-                bare.mass + share * goods, bare.stiffness, lambda at: mean_spectrum(SUITE, factors, at)
+                bare.mass + share * goods, bare.stiffness, lambda at, factors=factors: mean_spectrum(SUITE, factors, at)
             )
             for share in (0.25, 1.0)
         )

@@ -10,6 +10,7 @@ import pytest
 
 import seismass as sm
 from seismass.assessment.advice import _envelope
+from seismass.assessment.checks import largest_excess
 from seismass.assessment.doubts import _load_doubts
 from seismass.assessment.models import motion_of_runs
 from seismass.show.assessment.page import building_page
@@ -145,34 +146,37 @@ def test_sentences_name_the_storey_and_the_friction_of_the_largest_ratio(unequal
     ratio, storey, friction = largest("code")
     assert f"({friction}) storey {storey} drifts {ratio:.2f} times the model with the code's" in text
     ratio, storey, friction = largest("advised")
-    if ratio <= 1.05:
-        assert f"is at most {ratio:.2f} times its own (storey {storey}, {friction})" in text
-    else:
-        assert f"storey {storey} drifts {ratio:.2f} times its own ({friction})" in text
-        ratio, storey, friction = largest("advised", "bare")
-        assert f"more than {ratio:.2f} times the larger of both (storey {storey}, {friction})" in text
+    covers = "covers every storey here" if ratio <= 1.05 else "does not cover every storey"
+    assert f"Analysis 1 alone {covers}: with sliding goods storey {storey} drifts {ratio:.2f} times its own" in text
+    assert f"drifts {ratio:.2f} times its own ({friction})" in text
     ratio, storey, friction = largest("advised", "bare")
     assert unequal.answer.governs[-1].endswith(f"{ratio:.2f} times the larger (storey {storey}, {friction})")
 
 
 @pytest.mark.parametrize(
-    ("advised", "bare", "words"),
+    ("advised", "words", "bare", "over_both"),
     [
         # Storey 2: 24 over 20, and over the larger of 20 and 15; then over the larger of 20 and 22.
-        ([0.010, 0.020], [0.008, 0.015], "drifts 1.20 times its own (mu as stated). No storey drifts more than 1.20"),
-        ([0.010, 0.020], [0.008, 0.022], "drifts 1.20 times its own (mu as stated). No storey drifts more than 1.09"),
+        ([0.010, 0.020], "does not cover every storey: with sliding goods storey 2 drifts 1.20", [0.008, 0.015], 1.2),
+        (
+            [0.010, 0.020],
+            "does not cover every storey: with sliding goods storey 2 drifts 1.20",
+            [0.008, 0.022],
+            12 / 11,
+        ),
         # Exactly 1.05 is covered still.
-        ([0.010, 0.024 / 1.05], [0.0, 0.0], "Analysis 1 alone covers every storey here: the mean drift with sliding"),
+        ([0.010, 0.024 / 1.05], "covers every storey here: with sliding goods storey 2 drifts 1.05", [0.0, 0.0], 1.05),
     ],
 )
 def test_what_the_pair_covers_is_by_the_larger_of_both(
-    unequal: sm.Assessment, advised: list[float], bare: list[float], words: str
+    unequal: sm.Assessment, advised: list[float], words: str, bare: list[float], over_both: float
 ) -> None:
     drifts = {"real": [0.009, 0.024], "advised": advised, "bare": bare}
     rows = pl.DataFrame([{"model": model, "mean": value} for model, values in drifts.items() for value in values])
-    (sentence,) = _envelope(unequal.building, rows, ("real",))
-    assert words in sentence
-    assert "storey 2" in sentence
+    assert _envelope(unequal.building, rows, ("real",)) == f"Analysis 1 alone {words} times its own (mu as stated)."
+    columns = {"sliding": drifts["real"], "advised": advised, "bare": bare}
+    governing = pl.DataFrame({"storey": [1, 2], **columns, "sliding_at": ["mu as stated"] * 2})
+    assert largest_excess(governing) == (pytest.approx(over_both, rel=1e-12), 2, "mu as stated")
 
 
 @pytest.mark.parametrize(
