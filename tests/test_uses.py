@@ -141,7 +141,7 @@ def test_a_code_of_which_nothing_is_known_is_refused_until_a_fraction_is_stated(
 
 @pytest.mark.parametrize(
     ("code", "occupancy"),
-    # Of each use one occupancy under every code; all under one whose four uses of goods differ.
+    # Of each use one occupancy under every code; all under one where storage, shops and offices differ.
     [
         (code, occupancy)
         for code in KNOWN
