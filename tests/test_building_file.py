@@ -68,7 +68,7 @@ def test_unequal_storeys_and_goods(unequal_file: dict[str, Any]) -> None:
     for name, expected in {
         "mass": 1e3 * np.array([5.3 * 530.0, 4.7 * 470.0, 3.7 * 410.0]) / G,
         "live_load": 1e3 * loads / G,
-        "goods": 1e3 * present * loads / G,
+        "goods_mass": 1e3 * present * loads / G,
         "code_mass": 0.25 * 1e3 * loads / G,
         "gravity_load": [3.07e6, 2.39e6, 1.64e6],
         "stiffness": [1.93e8, 1.57e8, 1.13e8],

@@ -298,7 +298,9 @@ def test_progress_is_drawn_on_a_terminal_alone(monkeypatch: pytest.MonkeyPatch, 
     monkeypatch.setattr(sys, "stderr", io.StringIO())
     with progress() as tell:
         assert tell is None
-    program = "import sys; from seismass.cli import main; main(['scale']); print('rich' in sys.modules)"
+    program = (
+        "import sys; from seismass.cli import main; main(['scale', '--period', '1']); print('rich' in sys.modules)"
+    )
     said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
     assert said.endswith("False\n")
 

@@ -104,7 +104,7 @@ def test_a_floor_is_occupied_as_surveys_say() -> None:
         goods={"occupancy": "storage, sustained", "live_load_kpa": None, "live_load_kg": 1000.0},
         building={"area_m2": None, "dead_load_kpa": None, "mass_kg": 1000.0},
     )
-    assert sm.read_building(loads).goods[0] == pytest.approx(1000.0 * 3.5 / 6.0, rel=1e-14)
+    assert sm.read_building(loads).goods_mass[0] == pytest.approx(1000.0 * 3.5 / 6.0, rel=1e-14)
     small = sm.read_building(given(goods={"occupancy": "storage, sustained", "live_load_kpa": 2.0}))
     assert small.kinds[0].occupied == 1.0
     assert small.kinds[0].presence.endswith("which is more than all of it")

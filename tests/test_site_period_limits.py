@@ -73,7 +73,14 @@ def test_a_file_of_the_site_is_beside_the_building(tmp_path: Path) -> None:
         ({"site": {"target": "ec8:1:Q:0.3"}}, "site.target of building must be .*ground .* must be one of A, B"),
         ({"site": {"sds_g": 1.0}}, "site.sds_g of building must be left out where site.target is given; got both"),
         ({"site": {"target": 8}}, "site.target of building must be text; got 8"),
-        ({"building": {"system": "other"}}, "building.period_s of building must be left out where building.system is"),
+        (
+            {"building": {"system": "mud"}},
+            "building.system of building must be one of steel-moment-frame, .*; got 'mud'",
+        ),
+        (
+            {"building": {"system": "other", "period_code": "ec8"}},
+            "building.period_code of building must be left out where building.period_s is given; got both",
+        ),
         ({"building": {"period_s": None, "system": "mud"}}, "building.system of building must be one of steel-moment"),
         (
             {"building": {"period_s": None, "system": "other", "period_code": "ansi-rmi"}},
@@ -85,13 +92,13 @@ def test_a_file_of_the_site_is_beside_the_building(tmp_path: Path) -> None:
         ),
         ({"building": {"period_code": "ec8"}}, "period_code of building must be left out where building.system is not"),
         (
-            {"building": {"drift_limit": 0.01, "risk_category": "III"}},
-            "building.drift_limit of building must be left out where building.risk_category is given; got both",
+            {"building": {"drift_limit": 0.01, "drift_class": "other"}},
+            "building.drift_class of building must be left out where building.drift_limit is given; got both",
         ),
         ({"building": {"risk_category": "V"}}, "building.risk_category of building must be one of I, II, III, IV"),
         ({"building": {"drift_class": "glass"}}, "drift_class of building must be one of brittle-partitions, ductile-"),
         (
-            {"building": {"risk_category": "II"}, "code": {"id": "e030"}},
+            {"building": {"drift_class": "other"}, "code": {"id": "e030"}},
             "drift_limit_code of building must be one of the codes whose drift limits are known here: asce7-10",
         ),
     ],
@@ -120,6 +127,17 @@ def test_a_system_gives_the_period_with_the_codes_share(code: str, system: str, 
     assert building.period_rule.status == status
 
 
+def test_a_system_beside_a_period_limits_that_of_the_design_alone() -> None:
+    """ASCE/SEI 7-10, 12.8.2: C_u T_a, with C_u = 1.4 for S_D1 >= 0.4 and T_a = 0.0488 h^0.75 of all other systems."""
+    code = {"site": {"target": "asce7:1:0.6"}, "code": {"id": "asce7-10"}}
+    building = sm.read_building(tables(building={"system": "other"}, **code))
+    assert (building.stated_period, building.period_mass, building.period_rule) == (0.5, "bare", None)
+    assert building.period() == pytest.approx(0.5, rel=1e-12)
+    assert building.code_design().period == pytest.approx(1.4 * 0.0488 * 12.0**0.75, rel=1e-12)
+    without = sm.read_building(tables(**code)).code_design().period
+    assert without == pytest.approx(building.period(building.design_mass), rel=1e-12)
+
+
 def test_another_code_and_another_mass_may_be_stated() -> None:
     changes = {"period_s": None, "system": "moment-frame-by-storeys", "period_code": "asce7-10", "period_mass": "all"}
     building = sm.read_building(tables(building=changes))
@@ -141,6 +159,20 @@ def test_limits_of_codes(keys: dict[str, str], code: str, ratio: float, status: 
     assert building.drift_limit == pytest.approx(ratio, rel=1e-14)
     assert building.drift_limit_rule is not None
     assert building.drift_limit_rule.status == status
+
+
+@pytest.mark.parametrize(("category", "ratio"), [(None, 0.020), ("III", 0.015), ("IV", 0.010)])
+def test_a_code_without_drift_limits_has_those_of_asce_7(category: str | None, ratio: float) -> None:
+    """ASCE/SEI 7-10, table 12.12-1, all other structures: 0.020, 0.015 and 0.010 of the height."""
+    building = sm.read_building(tables(building={"risk_category": category}, code={"id": "e030"}))
+    assert building.drift_limit == pytest.approx(ratio, rel=1e-14)
+    assert building.drift_limit_rule is not None
+    assert building.drift_limit_rule.code_id == "asce7-10"
+
+
+def test_a_limit_may_be_stated_beside_the_category_of_the_design() -> None:
+    building = sm.read_building(tables(building={"drift_limit": 0.013, "risk_category": "III"}))
+    assert (building.drift_limit, building.drift_limit_rule, building.risk_category) == (0.013, None, "III")
 
 
 @pytest.fixture(scope="module")
@@ -167,7 +199,7 @@ def test_an_assessment_under_eurocode_8_says_what_it_took(cold_store: sm.Assessm
     assert document["input"]["period_rule"]["clause"] == "4.3.3.2.2(3)"
     assert document["input"]["drift_limit_rule"]["structure"] == "ductile-partitions"
     cold_store.write(tmp_path, figures=False)
-    checks = pl.read_csv(tmp_path / "checks.csv").filter(check="mean drift ratio")
+    checks = pl.read_csv(tmp_path / "checks.csv").filter(check="capped mean drift ratio")
     assert checks["limit"].unique().to_list() == [0.015]
     assert checks["source"][0].startswith("Eurocode 8, EN 1998-1, 4.4.3.2(1)")
 
@@ -216,9 +248,14 @@ def test_the_command_writes_a_target(tmp_path: Path, capsys: pytest.CaptureFixtu
 def test_scale_takes_the_site_of_the_building(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = str(written(tmp_path / "b.json"))
     assert main(["scale", "--building", file, "--method", "asce7-16"]) == 0
-    assert "target  Eurocode 8 elastic, type 1, ground C, a_gR = 0.3 g" in capsys.readouterr().out
+    # ASCE 7-16, 16.2.1: MCE_R, which is 1.5 times the design spectrum (11.4.5); Eurocode 8 scales to its own.
+    assert "target  1.5 times Eurocode 8 elastic, type 1, ground C, a_gR = 0.3 g" in capsys.readouterr().out
     assert main(["scale", "--building", file, "--method", "asce7-16", "--target", "asce7:1:0.6"]) == 0
-    assert "target  ASCE 7 shape, S_DS = 1 g" in capsys.readouterr().out
+    assert "target  1.5 times ASCE 7 shape, S_DS = 1 g" in capsys.readouterr().out
+    assert main(["scale", "--building", file]) == 0
+    said = capsys.readouterr().out
+    assert "target  Eurocode 8 elastic, type 1, ground C, a_gR = 0.3 g" in said
+    assert "method  Eurocode 8, T = " in said
     assert main(["scale", "--building", file, "--method", "asce7-16", "--sds", "1"]) == 2
     assert "site spectrum of scale must be given by --sds and --sd1 together" in capsys.readouterr().err
 
@@ -292,8 +329,6 @@ def test_the_example_has_a_file_of_each_kind_of_limit() -> None:
         ("period_s = 0.57 ", "# period_s = 0.57 "),
         ("# system =", "system ="),
         ("# period_code =", "period_code ="),
-        ("drift_limit = 0.020 ", "# drift_limit = 0.020 "),
-        ("# risk_category =", "risk_category ="),
         ("# drift_class =", "drift_class ="),
         ("# drift_limit_code =", "drift_limit_code ="),
     )
@@ -301,5 +336,6 @@ def test_the_example_has_a_file_of_each_kind_of_limit() -> None:
         assert old in text
         text = text.replace(old, new, 1)
     building = sm.read_building(tomllib.loads(text))
-    assert building.drift_limit == pytest.approx(0.005 / 0.4, rel=1e-14)
+    # EN 1998-1, 4.4.3.2(1): brittle partitions 0.005, nu 0.5 in the importance class II that the example states.
+    assert building.drift_limit == pytest.approx(0.005 / 0.5, rel=1e-14)
     assert building.stated_period == pytest.approx(0.0724 * 18.0**0.8, rel=1e-14)

@@ -654,7 +654,7 @@ def test_version_spectrum_and_scale_commands(capsys: pytest.CaptureFixture[str],
     expected = sm.scaling.scale_asce7_10(sm.builtin_suite("seven"), TARGET)
     assert [row["factor"] for row in document["motions"]] == expected.factors.tolist()
     assert document["motions"][0]["remarks"] == list(sm.builtin_suite("seven")[0].remarks)
-    assert command("scale") == 0
+    assert command("scale", "--suite", "seven") == 0
     printed = capsys.readouterr().out
     assert "synthetic-1" in printed
     assert "100 periods from 0.2 to 1.5 s" in printed

@@ -75,7 +75,9 @@ def test_suites_that_there_are_not(name: object) -> None:
         builtin_suite(name)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize(("options", "motions"), [([], 7), (["--suite", "seven"], 7), (["--suite", "eleven"], 11)])
+@pytest.mark.parametrize(
+    ("options", "motions"), [(["--period", "1"], 7), (["--suite", "seven"], 7), (["--suite", "eleven"], 11)]
+)
 def test_commands_take_seven_unless_told(options: list[str], motions: int, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["scale", *options]) == 0
     assert f": {motions} motions\n" in capsys.readouterr().out

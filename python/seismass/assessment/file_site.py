@@ -23,6 +23,7 @@ from seismass.design import (
     code_period,
     drift_limit,
     drift_limit_table,
+    period_table,
 )
 from seismass.design.rules import CATEGORIES
 from seismass.design.scaling.asce7 import spectra_of
@@ -86,6 +87,9 @@ def period_of(building: Table, heights: FloatArray | None, storeys: int, code: C
     if "system" not in building.values or "period_s" in building.values:
         if "system" not in building.values:
             building.left_out(("period_code",), f"{building.key('system')} is not given")
+        else:  # it limits the period of the design, by the code of the file
+            building.left_out(("period_code",), f"{building.key('period_s')} is given", "both")
+            building.choice("system", period_table()["system"].unique(maintain_order=True))
         if "period_mass" in building.values:
             building.needed("period_s", "system")
         value = building.number("period_s", need=POSITIVE) if "period_s" in building.values else None

@@ -266,13 +266,13 @@ class Grid(Card):
         settings = grid_options(dict(options), "Grid.product")
         grid = cls.__new__(cls)
         index, periods = grid._set_common(building, settings)
+        values = grid._values(settings)
         one_ratio = "mass_ratio" in options and np.ndim(settings["mass_ratio"]) < 2
         if one_ratio and max(grid.floors, default=1) > 1 and not {"roof", "floors"} & set(options):
             warning = 'the roof carries goods, too: roof="bare" leaves it without, roof="loaded" says that it is meant'
             warnings.warn(warning, DoubtfulInput, stacklevel=2)
         if settings["storeys"] is None:
             index = np.arange(len(grid.buildings))
-        values = grid._values(settings)
         lengths = {"building": len(index), **axis_lengths(values, settings["mu"])}
         each, total = {}, 1
         for axis in reversed(lengths):
