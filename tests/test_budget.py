@@ -20,7 +20,7 @@ LINES = """
 assessment 6712   base 1735   commands 4086   design 3666   design/scaling 1119   effective_mass 3077   media 1605
 model 2969   motions 377   motions/matching 1478   motions/pulses 1053   motions/records 4009
 motions/records/formats 3853   motions/records/synthetic 1150   motions/scaling 810   motions/spectra 1814   runs 3337
-runs/grid 1574   show 3133   show/animation 1518   show/assessment 2108   show/explore 288   show/plots 1836
+runs/grid 1574   show 3133   show/animation 1518   show/assessment 2107   show/explore 288   show/plots 1836
 show/study 2022   studies 8   studies/campaign 1604   studies/fragility 3172   studies/risk 1594   studies/slip 1776
 studies/study 1783   studies/validation 1227   top 85
 """

@@ -16,7 +16,14 @@ from seismass.show.validation import claims_markdown, platform_figure, section4_
 from seismass.studies.validation import Platform, Section4, components, section4_scene, validate
 from seismass.studies.validation.paper_claims import MOST
 from seismass.studies.validation.shaking_table import AMPLITUDES, DAMPINGS, FRICTIONS, LENGTH_RATIO, PERIODS
-from seismass.studies.validation.three_storeys import COMPARED_SLOPES, FRICTION_SPRINGS, MU, PEAK_G, SPRINGS, kept
+from seismass.studies.validation.three_storeys import (
+    COMPARED_SLOPES,
+    FRICTION_SPRINGS,
+    MU,
+    PEAK_G,
+    SPRINGS,
+    opensees_results,
+)
 
 FINER_STEPS: Final = 50
 """Steps per sample interval of the softest friction springs, beside those of the table."""
@@ -64,7 +71,7 @@ def of_programs(page: Page, result: Section4, finer: list[float]) -> None:
         for row in differences.rows(named=True)
     ]
     page.tables(table("component | r2 | program | setting | drift, mm | slip, mm", rows))
-    first = kept().row(0, named=True)
+    first = opensees_results().row(0, named=True)
     page.words(
         "scaled to a peak of {} g, and r2 is {}.", PEAK_G, " or ".join(f"{slope:g}" for slope in COMPARED_SLOPES)
     )

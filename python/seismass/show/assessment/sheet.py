@@ -14,8 +14,7 @@ from seismass.media.page import table_html, text_html, whole_html
 from seismass.media.roles import apart, isolated, sentence_html
 from seismass.model.codes import FROM_MEMORY, MARK, SECOND_HAND
 from seismass.show.assessment.figures import answer_lines, box_class, building_drawing
-from seismass.show.assessment.tables import AssessmentTables
-from seismass.show.assessment.text import quantity_text
+from seismass.show.assessment.tables import AssessmentTables, quantity_text
 
 HEAD: Final = {"name": "Project", "number": "Number", "author": "Author", "checker": "Checked by", "date": "Date"}
 """Entries of the head of the sheet; what the file does not say is left to be filled in by hand."""

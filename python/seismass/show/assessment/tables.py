@@ -207,3 +207,10 @@ def _fraction(values: dict[str, Any], curve: pl.DataFrame) -> Fraction:
         interval=None if ends is None else (number(ends[0]), number(ends[1])),
         curve=curve,
     )
+
+
+def quantity_text(value: float, unit: str) -> str:
+    """Return a quantity of a design as offices write it: forces in kN."""
+    if unit == "N":
+        return f"{1e-3 * value:.0f} kN"
+    return f"{value:.3f} s" if unit == "s" else f"{value:.4g}"

@@ -24,7 +24,7 @@ from seismass.effective_mass.estimate import RULE, RULE_UNKNOWN, SAFE_RULE
 from seismass.media.result import PAGE, check_out, write_folder
 from seismass.media.text_table import number_text, text_table
 from seismass.model.codes import CODE_NAMES, FROM_MEMORY, MARK, NOT_CHECKED, SECOND_HAND
-from seismass.show.assessment.tables import ANIMATION, DOCUMENT, FIGURES, TABLES, assessment_tables
+from seismass.show.assessment.tables import ANIMATION, DOCUMENT, FIGURES, TABLES, assessment_tables, quantity_text
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -237,13 +237,6 @@ def _design(result: Assessment) -> list[str]:
         rows.append([name, quantity_text(row["value"], row["unit"]), row["clause"] + mark, note])
     marked = any(MARK in row[2] for row in rows)
     return [*lines, *text_table(rows, left=4), *([f"  {MARK} {NOT_CHECKED}"] if marked else [])]
-
-
-def quantity_text(value: float, unit: str) -> str:
-    """Return a quantity of a design as offices write it: forces in kN."""
-    if unit == "N":
-        return f"{1e-3 * value:.0f} kN"
-    return f"{value:.3f} s" if unit == "s" else f"{value:.4g}"
 
 
 def _slips(result: Assessment) -> list[str]:

@@ -184,7 +184,7 @@ def _study_of(change: _Change, threads: int | None) -> pl.DataFrame:
     result = run_study(suite, change.target, change.parameters, scaling=scaling, threads=threads)
     drifts = drifts_of(result.responses, len(suite), change.parameters)
     lists = {model: pl.Series(values.tolist(), dtype=pl.List(pl.Float64)) for model, values in drifts.items()}
-    return result.summary.select(_KEYS, *_COLLAPSES).with_columns(**lists)
+    return result.summary.select(*_KEYS, *_COLLAPSES).with_columns(**lists)
 
 
 def _changes(setup: StudyParameters, target: TargetSpectrum, suite: Suite) -> Iterator[_Change]:
