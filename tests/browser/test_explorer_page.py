@@ -14,7 +14,7 @@ import pytest
 import seismass as sm
 from seismass.cli import main
 from seismass.runs.scene_file import read_scene
-from seismass.show.assessment.page_input import own_case
+from seismass.show.assessment.page_input import live_case
 from seismass.show.assessment.tables import assessment_tables
 from seismass.show.explore import explorer_html
 from seismass.show.explore import page as compiled
@@ -111,7 +111,7 @@ def test_the_link_of_a_calculation_page_opens_the_same_building(html: str, open_
         "storeys": [{}, {"live_load_kpa": 0.0}],
     }
     result = sm.assess(tables, mu_factors=(1.0, 1.0), resamples=2)
-    case, reasons, differences = own_case(assessment_tables(result))
+    case, reasons, differences = live_case(assessment_tables(result))
     assert case is not None
     assert reasons == ()
     assert differences == ("motions are the seven built-in ones, scaled to their own target, not those of this page",)
