@@ -34,7 +34,7 @@ def test_claims_are_filtered_and_storeys_sorted(study: str, open_page: Any) -> N
         claims.locator("input").fill("section 4")
         shown = claims.locator("tbody tr:visible")
         assert 0 < shown.count() < claims.locator("tbody tr").count()
-        storeys = page.locator(".table", has_text="Mean peak drift of every storey")
+        storeys = page.locator(".table", has_text="Capped mean drift of every storey")
         header = storeys.locator("th button", has_text="under-estimation")
         header.click()
         header.click()
