@@ -15,8 +15,9 @@ from pages.parts import NoRecordings, Page, made, names
 from pages.risk import limits
 from pages.sensitivity import part
 from pages.study import placed, study_of
-from seismass.effective_mass import EffectiveMassMap
+from seismass.effective_mass import EffectiveMassMap, EffectiveMassParameters, effective_mass_map
 from seismass.motions.records import builtin_suite, read_suite
+from seismass.motions.spectra import TargetSpectrum
 from seismass.studies.study import StudyResult, sensitivity
 
 ROOT = Path(__file__).parents[1]
@@ -67,8 +68,9 @@ def study_says(result: StudyResult) -> None:
 
 
 def builtin_map_says(result: EffectiveMassMap) -> None:
-    rules = result.rules()
-    # An independent run of the same grid, to three digits: bias, log scatter, share unsafe.
+    # An independent run of the same grid, motions scaled for 1 s, to three digits: bias, log scatter, share unsafe.
+    parameters = EffectiveMassParameters(shares=26, resamples=1, scaling_period=1.0)
+    rules = effective_mass_map(builtin_suite("seven"), TargetSpectrum.asce7(), parameters).rules()
     for rule, bias, scatter, unsafe in (
         ("min(1, eta^2), earlier", 1.015, 0.095, 0.16),
         ("min(1, eta), earlier", 1.077, 0.107, 0.01),
@@ -81,10 +83,10 @@ def builtin_map_says(result: EffectiveMassMap) -> None:
         assert abs(row["bias"] - bias) < 1e-3
         assert abs(row["log_scatter"] - scatter) < 1e-3
         assert abs(row["unsafe"] - unsafe) < 1e-2
-    # What the page says of the rule: seldom unsafe in any class of period; the earlier one in up to half of the cases.
+    # What the page says of the rule: seldom unsafe in any class of period; the earlier one in more than a third.
     classes = result.rules_by_period()
     assert classes.filter(rule="min(1, eta_h^p)")["unsafe"].max() <= 0.15
-    assert classes.filter(rule="min(1, eta^2), earlier")["unsafe"].max() > 0.4
+    assert classes.filter(rule="min(1, eta^2), earlier")["unsafe"].max() > 1.0 / 3.0
 
 
 def fragility_says(blocks: dict[str, list[str]]) -> None:
@@ -142,8 +144,11 @@ def default_suite_says(found: dict[str, Any]) -> None:
         assert default[2] < (1.9 if period == 1.5 else 1.35) * recorded[2]
     assert abs(found["drift"]) < 0.1
     assert abs(found["friction as stated"]) < 0.1
-    for one in found["buildings"]:
-        assert one.collapses[0] <= one.collapses[1]
+    (default, recorded), motions = found["collapses"], (40, 36)
+    assert default / motions[0] <= recorded / motions[1]
+    # The public library has four against one.
+    assert sum(one.collapses[0] > one.collapses[1] for one in found["buildings"]) <= 1
+    assert all(one.collapses[0] - one.collapses[1] <= 3 for one in found["buildings"])
 
 
 SAYS: Final[dict[str, Callable[[Any], None]]] = {

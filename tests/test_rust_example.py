@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 import subprocess
@@ -15,19 +16,19 @@ import seismass as sm
 ROOT = Path(__file__).parents[1]
 
 
-def program() -> list[str]:
-    """The program as `cargo test` has built it, or what builds it and runs it."""
-    built = ROOT / "target" / "debug" / "examples" / "warehouse"
-    sources = (ROOT / "crates" / "seismass").rglob("*.rs")
-    if built.is_file() and built.stat().st_mtime > max(file.stat().st_mtime for file in sources):
-        return [str(built)]
+def program() -> str:
+    """The program, built with the kernel that the extension and the integration tests share."""
     if shutil.which("cargo") is None:
         pytest.skip("no cargo on the path: the example is not built")
-    return ["cargo", "run", "--locked", "--quiet", "-p", "seismass", "--example", "warehouse"]
+    shared = ["--locked", "--release", "--workspace", "--exclude", "seismass-bench"]
+    command = ["cargo", "build", *shared, "--message-format=json", "--example", "warehouse"]
+    text = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True, timeout=1200).stdout
+    built = [message.get("executable") for message in map(json.loads, text.splitlines())]
+    return next(executable for executable in built if executable)
 
 
 def test_the_rust_program_prints_the_numbers_of_python() -> None:
-    text = subprocess.run(program(), cwd=ROOT, capture_output=True, text=True, check=True, timeout=600).stdout
+    text = subprocess.run([program()], cwd=ROOT, capture_output=True, text=True, check=True, timeout=600).stdout
     building = sm.Building.uniform(3, 0.6, mass=1e5, yield_shear_over_weight=[0.24, 0.20, 0.12])
     goods = [sm.Block(floor, mass=1e5, mu=0.3) for floor in (1, 2)]
     samples = 5.0 * np.sin(0.1 * np.arange(1000)) * np.exp(-0.002 * np.arange(1000))

@@ -21,6 +21,8 @@ SCALED_FOR: Final = (0.3, 0.57, 1.0, 1.6)
 PERIODS: Final = (0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0)
 CAP: Final = 0.10
 """Drift over storey height that a larger drift and a collapsed run count as."""
+UNBOUNDED: Final = 100.0
+"""An end of an interval of logarithms beyond this is of slips that are zero, or of collapses."""
 LEAST_SLIP: Final = 0.001
 """Slip (m) below which two slips are not compared."""
 RESAMPLES: Final = 2000
@@ -182,7 +184,8 @@ def compared(file: Path, suites: tuple[Suite, Suite]) -> Compared:
 def with_interval(value: float, samples: Array) -> str:
     """A number with its 90 % interval."""
     low, high = np.quantile(samples, (0.05, 0.95))
-    return f"{value:+.2f} [{low:+.2f}, {high:+.2f}]"
+    ends = (f"{end:+.2f}" if abs(end) < UNBOUNDED else "none" for end in (low, high))
+    return f"{value:+.2f} [{', '.join(ends)}]"
 
 
 def upper(slips: Array) -> Any:
