@@ -21,6 +21,8 @@ from seismass.cli import main
 from seismass.show.assessment.page import building_page
 from seismass.show.assessment.tables import assessment_tables
 
+TWO_STOREYS = Path(__file__).with_name("data") / "two_storeys.json"
+"""A building file: two storeys with goods on the first, that slide under the built-in suite."""
 G = 9.80665
 FEW = list(sm.builtin_suite("forty"))[:3]
 """Three motions, where neither their number nor a number that they give is tested."""
@@ -29,19 +31,7 @@ MODELS = ["real", "real_mu_low", "real_mu_high", "advised", "code", "attached", 
 
 def tables(**changes: dict[str, Any]) -> dict[str, Any]:
     """Two storeys with goods on the first, that slide under the built-in suite; tables changed as told."""
-    building: dict[str, Any] = {
-        "site": {"sds_g": 1.0, "sd1_g": 0.6},
-        "building": {
-            "period_s": 0.4,
-            "height_m": 4.0,
-            "area_m2": 500.0,
-            "dead_load_kpa": 5.0,
-            "design": True,
-            "R": 3.0,
-        },
-        "goods": {"live_load_kpa": 6.0, "occupied": 0.8, "mu": 0.2},
-        "storeys": [{}, {"live_load_kpa": 0.0}],
-    }
+    building: dict[str, Any] = json.loads(TWO_STOREYS.read_text(encoding="utf-8"))
     for table, values in changes.items():
         merged = {**building.get(table, {}), **values}
         building[table] = {key: value for key, value in merged.items() if value is not None}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,21 +12,12 @@ import pytest
 import seismass as sm
 from seismass.assessment.answer import DESIGN_SHARES, design_share, fractions_by_friction
 
+TWO_STOREYS = Path(__file__).with_name("data") / "two_storeys.json"
+"""A building file: two storeys with goods on the first, that slide under the built-in suite."""
+
 
 def building(collapse: float | None) -> sm.assessment.OwnBuilding:
-    tables: dict[str, Any] = {
-        "site": {"sds_g": 1.0, "sd1_g": 0.6},
-        "building": {
-            "period_s": 0.4,
-            "height_m": 4.0,
-            "area_m2": 500.0,
-            "dead_load_kpa": 5.0,
-            "design": True,
-            "R": 3.0,
-        },
-        "goods": {"live_load_kpa": 6.0, "occupied": 0.8, "mu": 0.2},
-        "storeys": [{}, {"live_load_kpa": 0.0}],
-    }
+    tables: dict[str, Any] = json.loads(TWO_STOREYS.read_text(encoding="utf-8"))
     if collapse is not None:
         tables["building"]["collapse_drift_ratio"] = collapse
     return sm.read_building(tables)

@@ -15,6 +15,7 @@ from seismass.cli import main
 from seismass.model.plausibility import limit_remarks
 from seismass.runs.scene_file import example_scene
 
+TWO_STOREYS = Path(__file__).with_name("data") / "two_storeys.json"
 WORD = "mu_s of block 1 is 20, above 1.5: friction coefficients are ratios, not per cent"
 
 
@@ -119,21 +120,11 @@ def test_a_scene_file_with_a_limit_in_per_cent(capsys: pytest.CaptureFixture[str
 
 def test_without_goods_few_collapses_are_in_the_headline() -> None:
     """The headline says how many."""
-    tables = {
-        "site": {"sds_g": 1.0, "sd1_g": 0.6},
-        "building": {
-            "period_s": 0.4,
-            "height_m": 4.0,
-            "area_m2": 500.0,
-            "dead_load_kpa": 5.0,
-            "design": True,
-            "R": 3.0,
-        },
-        "storeys": [{}, {}],
-    }
+    tables = json.loads(TWO_STOREYS.read_text(encoding="utf-8"))
+    tables = {name: tables[name] for name in ("site", "building")} | {"storeys": [{}, {}]}
     largest = sm.assess(tables).runs.group_by("motion").agg(pl.col("peak_drift_ratio").max())
     second, first = sorted(largest["peak_drift_ratio"].to_list())[-2:]
-    tables["building"] = {**tables["building"], "collapse_drift_ratio": 0.5 * (first + second)}  # type: ignore[dict-item]
+    tables["building"] = {**tables["building"], "collapse_drift_ratio": 0.5 * (first + second)}
     result = sm.assess(tables)
     assert result.collapses == {"bare": 1}
     assert result.answer.statement.startswith("No answer, because there are no goods")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
@@ -21,6 +22,7 @@ from seismass.motions.records.read import suspicions
 from seismass.studies.fragility import HuntAndFill
 from seismass.studies.slip.squat import Base, BlockSize, newmark_bound, newmark_pulse
 
+TWO_STOREYS = Path(__file__).with_name("data") / "two_storeys.json"
 BUILDING = sm.Building.uniform(2, 0.3, mass=1e5)
 MODES = sm.design.vibration_modes(BUILDING.mass, BUILDING.stiffness)
 
@@ -40,15 +42,7 @@ def file_with(place: str, key: str) -> Callable[[float], object]:
 
     def read(value: float) -> object:
         tables: dict[str, Any] = {
-            "site": {"sds_g": 1.0, "sd1_g": 0.6},
-            "building": {
-                "period_s": 0.4,
-                "height_m": 4.0,
-                "area_m2": 500.0,
-                "dead_load_kpa": 5.0,
-                "design": True,
-                "R": 3.0,
-            },
+            **json.loads(TWO_STOREYS.read_text(encoding="utf-8")),
             "goods": {"live_load_kpa": 6.0, "mu_s": 0.3, "mu_k": 0.2},
             "storeys": [{}, {}],
         }

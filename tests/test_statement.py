@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -21,6 +22,8 @@ from seismass.media.roles import sentence_html
 from seismass.show.assessment.page import building_page
 from seismass.show.assessment.tables import assessment_tables
 
+TWO_STOREYS = Path(__file__).with_name("data") / "two_storeys.json"
+"""A building file: two storeys with goods on the first, that slide under the built-in suite."""
 SLIDING_ALL = ("real", "real_mu_high", "real_mu_low")
 SURVEYED = 3.5 + np.sqrt(2.5**2 + 6.9**2 * 100.0 / 500.0)
 FEW = list(sm.builtin_suite("forty"))[:3]
@@ -35,19 +38,7 @@ SUPPORTS: tuple[dict[str, Any], ...] = (
 
 def tables(**changes: Any) -> dict[str, Any]:
     """Two storeys with goods on the first; values of tables added."""
-    found: dict[str, Any] = {
-        "site": {"sds_g": 1.0, "sd1_g": 0.6},
-        "building": {
-            "period_s": 0.4,
-            "height_m": 4.0,
-            "area_m2": 500.0,
-            "dead_load_kpa": 5.0,
-            "design": True,
-            "R": 3.0,
-        },
-        "goods": {"live_load_kpa": 6.0, "occupied": 0.8, "mu": 0.2},
-        "storeys": [{}, {"live_load_kpa": 0.0}],
-    }
+    found: dict[str, Any] = json.loads(TWO_STOREYS.read_text(encoding="utf-8"))
     for table, values in changes.items():
         found[table] = {**found.get(table, {}), **values} if isinstance(values, dict) else values
     return found
