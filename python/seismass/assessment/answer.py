@@ -152,9 +152,7 @@ def doubt_lines(doubts: tuple[str, ...]) -> tuple[str, ...]:
 
 @dataclass(frozen=True, eq=False)
 class DesignShare:
-    """Share that goes into the design of the strengths: `found`, None where many runs collapse, and the `reason` why
-    there is none.
-    """
+    """Share for the design of the strengths: `effective`, None where many runs collapse, and the `reason` for none."""
 
     effective: EffectiveMass | None
     reason: str

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from datetime import date, datetime
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -318,8 +318,8 @@ class OwnBuilding(Card):
                 floors.setdefault(kind.use or self.code.use, []).append(kind.floor)
         if len(floors) < 2:
             return next(iter(floors), self.code.use)
-        listed = {use: ", ".join(map(str, dict.fromkeys(floor_kinds))) for use, floor_kinds in floors.items()}
-        return " and ".join(f"{use} (floor {floor_kinds})" for use, floor_kinds in listed.items())
+        listed = {use: ", ".join(map(str, dict.fromkeys(numbers))) for use, numbers in floors.items()}
+        return " and ".join(f"{use} (floor {numbers})" for use, numbers in listed.items())
 
     @property
     def code_mass(self) -> FloatArray:
@@ -399,14 +399,20 @@ class OwnBuilding(Card):
         InvalidOption
             There is no site spectrum, or it does not cover the modal periods.
         """
-        return response_spectrum_analysis(
-            self.mass + self.frames + (self.design_mass if attached is None else attached),
-            self.stiffness,
-            self.site_spectrum(target),
-            stiffness_matrix=self.walls,
-            combination="srss" if self.design is None else self.design.combination,
-            damping=self.damping or DEFAULT_DAMPING,
-        )
+        design, options = self._of_design(target, attached)
+        return response_spectrum_analysis(*design, **options)
+
+    def _of_design(
+        self, target: TargetSpectrum | None, attached: FloatArray | None
+    ) -> tuple[tuple[FloatArray, FloatArray, TargetSpectrum], dict[str, Any]]:
+        """Masses, stiffnesses and spectrum of a design, and the options of its modal analysis."""
+        mass = self.mass + self.frames + (self.design_mass if attached is None else attached)
+        options: dict[str, Any] = {
+            "stiffness_matrix": self.walls,
+            "combination": "srss" if self.design is None else self.design.combination,
+            "damping": self.damping or DEFAULT_DAMPING,
+        }
+        return (mass, self.stiffness, self.site_spectrum(target)), options
 
     def code_design(self, target: TargetSpectrum | None = None, attached: FloatArray | None = None) -> CodeDesign:
         """Return the design of the strengths by the code.
@@ -424,19 +430,16 @@ class OwnBuilding(Card):
         if self.design is None:
             requirement = "designed (building.design = true); they are as stated"
             raise refusal(InvalidOption, "strengths", f"building {self.name}", requirement, "no design")
+        design, options = self._of_design(target, attached)
         return design_by_code(
-            self.mass + self.frames + (self.design_mass if attached is None else attached),
-            self.stiffness,
-            self.site_spectrum(target),
+            *design,
             self.design.R,
             code_id=self.rules_code,
             risk_category=self.risk_category,
             system=self.system,
             height=None if self.heights is None else float(self.heights.sum()),
             s_1=self.s_1,
-            stiffness_matrix=self.walls,
-            combination=self.design.combination,
-            damping=self.damping or DEFAULT_DAMPING,
+            **options,
         )
 
     def site_spectrum(self, target: TargetSpectrum | None = None) -> TargetSpectrum:

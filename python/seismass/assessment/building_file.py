@@ -52,6 +52,7 @@ from seismass.assessment.file_site import (
 )
 from seismass.assessment.floors import by_floor, counted_fractions
 from seismass.base.errors import InvalidBuildingFile
+from seismass.base.files import data_directory
 from seismass.base.input_table import (
     BUILDING_FILE,
     NOT_NEGATIVE,
@@ -68,7 +69,6 @@ from seismass.base.values import as_path, printable
 from seismass.design import Combination, vibration_modes
 from seismass.model.building import DEFAULT_DAMPING
 from seismass.model.springs import DEFAULT_THIRD_SLOPE, SHAPE_FIELDS
-from seismass.motions.records.builtin import data_directory
 
 SI: Final = "si"
 US: Final = "us"

@@ -277,15 +277,15 @@ def drifts_of(building: OwnBuilding, runs: pl.DataFrame) -> FloatArray:
 
 
 def left_out_table(
-    building: OwnBuilding, runs: pl.DataFrame, effective: dict[str, EffectiveMass], columns_of_motions: dict[str, Any]
+    building: OwnBuilding, runs: pl.DataFrame, effective: dict[str, EffectiveMass], labels: dict[str, Any]
 ) -> pl.DataFrame:
-    """Return one row per motion: what it is (`about`), and without it the largest effective fraction and the governing
+    """Return one row per motion: what it is (`labels`), and without it the largest effective fraction and the governing
     drift, the largest of any storey; null for a motion alone. Analysis 1 keeps its share.
     """
     drifts = capped(drifts_of(building, runs), building.drift_cap)
     others = drifts.shape[1] - 1
     without = (drifts.sum(axis=1, keepdims=True) - drifts) / (others or np.nan)
-    columns = {"motion": pl.int_range(1, others + 2, dtype=pl.UInt32, eager=True), **columns_of_motions}
+    columns = {"motion": pl.int_range(1, others + 2, dtype=pl.UInt32, eager=True), **labels}
     shares = {name: one.records["value_without"] for name, one in effective.items()}
     columns |= {"fraction": pl.DataFrame(shares).max_horizontal() if shares else None}
     columns |= {"governing": without.max(axis=(0, 2))}

@@ -45,13 +45,13 @@ from seismass.assessment.statement import PresentGoods, governing_drifts, other_
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.files import without_formulas
-from seismass.base.values import brief, refusal
+from seismass.base.values import FloatArray, brief, refusal
 from seismass.design.scaling import ScalingResult
 from seismass.effective_mass.models import SHARES_BEYOND, bootstrap_counts, check_cap, goes_beyond
 from seismass.effective_mass.runs import Stages, named_motions
 from seismass.model.codes import CodeFraction
 from seismass.model.friction import bound_factors
-from seismass.motions.motion import motion_names
+from seismass.motions.motion import motion_names, scaled_motions
 from seismass.motions.records import Pair, Pairs, Record, Suite, builtin_pairs, builtin_suite
 from seismass.motions.spectra import TargetSpectrum
 from seismass.runs.simulate import instruction_set
@@ -143,7 +143,8 @@ def assess(
     suite = _suite((builtin_pairs() if in_plane else builtin_suite("forty")) if motions is None else motions, in_plane)
     spectrum = stated.site_spectrum(target) if scale or stated.design is not None else None
     scaling = scaled_to_site(stated, suite, spectrum, scaling_period, threads=threads) if scale else None
-    scaled = _scaled(suite, scaling)
+    factors = _factors(suite, scaling)
+    scaled = scaled_motions(suite, factors)
     loaded = bool((stated.goods_mass > 0.0).any())
     frictions = friction_factors(stated) if loaded else {}
     models = len(frictions) + FIXED_MODELS if loaded else 1
@@ -168,8 +169,9 @@ def assess(
         """The answer for another amount of goods, with motions scaled for it."""
         tell = stages.next(of_amount * len(suite))
         try:
-            of_case = scaled_to_site(case, suite, spectrum, scaling_period, threads=threads) if scale else None
-            how = (_scaled(suite, of_case), {**bootstrap, "resamples": 1}, threads, tell, SHARES_OF_AMOUNTS)
+            own_scaling = scaled_to_site(case, suite, spectrum, scaling_period, threads=threads) if scale else None
+            motions = scaled_motions(suite, _factors(suite, own_scaling))
+            how = (motions, {**bootstrap, "resamples": 1}, threads, tell, SHARES_OF_AMOUNTS)
             effective = fractions_by_friction(case, spectrum, frictions, *how)
         except (InvalidScene, InvalidOption) as error:  # P-Delta or the site spectrum may not allow so much
             return PresentGoods(floors, case.present_share, reason=f"{error}")
@@ -204,7 +206,7 @@ def assess(
     }
     yields = effective[SLIDING].by_hand.yields if effective else None
     period = period_sentences(stated, spectrum, scaled, yields)
-    about_motions = {"record": names, "factor": np.ones(len(suite)) if scaling is None else scaling.factors}
+    about_motions = {"record": names, "factor": factors}
     left_out = left_out_table(stated, runs, effective, {**about_motions, **ground_peaks(scaled)})
     doubts = (*doubts_of(stated, sliding_scene, scaled, spectrum, storeys), *motion_doubts(left_out, effective))
     tables = (storeys, governing, runs, left_out, collapses, slip, amounts)
@@ -228,9 +230,7 @@ def assess(
             stated.pairs_as if scaling is not None else "geometric mean",
             threads=threads,
         ),
-        example=Shown(
-            sliding_scene, scaled[place], place + 1, 1.0 if scaling is None else float(scaling.factors[place])
-        ),
+        example=Shown(sliding_scene, scaled[place], place + 1, float(factors[place])),
         scaling=scaling,
         suite=facts,
         advice=advice_of(stated, answer, storeys, slip, collapses, len(suite), effective.get(SLIDING), runs),
@@ -289,9 +289,8 @@ def _suite(motions: Any, in_plane: bool) -> Any:
     return suite
 
 
-def _scaled(suite: Any, scaling: ScalingResult | None) -> list[Any]:
-    factors = np.ones(len(suite)) if scaling is None else scaling.factors
-    return [motion.scaled(float(factor)) for motion, factor in zip(suite, factors, strict=True)]
+def _factors(suite: Any, scaling: ScalingResult | None) -> FloatArray:
+    return np.ones(len(suite)) if scaling is None else scaling.factors
 
 
 def ground_peaks(motions: list[Any]) -> dict[str, list[float]]:
@@ -317,7 +316,7 @@ def write_models(folder: str | os.PathLike[str], result: Assessment, suite: Suit
 
     share = next((one.share_of_goods_present for one in result.answer.analyses if one.model == ADVISED), None)
     scenes = compared_models(result.building, result.target, share)
-    motions = _scaled(suite, result.scaling)
+    motions = scaled_motions(suite, _factors(suite, result.scaling))
     models = {title: scenes[name] for name, title in TITLES.items() if name in scenes}
     table = analysis_table(result.answer, result.building)
     return write_opensees(folder, models, motions, documents={f"{ANALYSIS}.csv": without_formulas(table).write_csv()})

@@ -150,25 +150,25 @@ def design_table(building: OwnBuilding, target: TargetSpectrum | None) -> pl.Dat
     and V_y. Two directions stand below each other, with their `direction`.
     """
     if building.other is None:
-        return _one(building, target).with_columns(direction=pl.lit(""))
-    both = {"x": building, "y": building.other}
-    return pl.concat([_one(one, target).with_columns(direction=pl.lit(name)) for name, one in both.items()])
+        return _design_of_direction(building, target).with_columns(direction=pl.lit(""))
+    both = {"x": _design_of_direction(building, target), "y": _design_of_direction(building.other, target)}
+    return pl.concat([table.with_columns(direction=pl.lit(name)) for name, table in both.items()])
 
 
-def _one(building: OwnBuilding, target: TargetSpectrum | None) -> pl.DataFrame:
+def _design_of_direction(building: OwnBuilding, target: TargetSpectrum | None) -> pl.DataFrame:
     """The table of one direction; W has the clause of the code's fraction."""
     designed = building.design is not None
     table = building.code_design(target).table() if designed else _stated(building, target)
     stated = building.design is not None and building.design.fraction is not None
     words = f"floors and {building.design_fraction:.3g} of the design live load" + ", as stated" * stated
     code, of_weight = building.code, pl.col("quantity") == "W"
-    design_rows = {
+    columns = {
         "clause": "" if stated else code.clause,
         "status": "" if stated else code.status,
         "note": words,
     }
     return table.with_columns(
-        pl.when(of_weight).then(pl.lit(value)).otherwise(name).alias(name) for name, value in design_rows.items()
+        pl.when(of_weight).then(pl.lit(value)).otherwise(name).alias(name) for name, value in columns.items()
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import csv
 import errno
 import hashlib
 import os
@@ -18,6 +19,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final, Literal
 from uuid import uuid4
 
+from seismass.base.errors import RecordFormatError
+
 if TYPE_CHECKING:
     import polars as pl
 
@@ -28,6 +31,24 @@ _NAME = re.compile(
     re.escape(PREFIX)
     + r"(?P<machine>[0-9a-f]{12})-(?P<boot>[0-9a-f]{8})-(?P<process>\d+)-(?P<started>\d+)-[0-9a-f]{32}\.part"
 )
+
+
+def data_directory() -> Path:
+    """Return the folder of the stored data: inside an installed package, or at the top of the source tree."""
+    package = Path(__file__).parents[1]
+    tree = package.parents[1]
+    # In the source tree a development build leaves a copy in the package, which the files themselves outdate. The
+    # folder above an installed package may be a project too, and not this one.
+    place = (tree if (tree / "crates" / "seismass").is_dir() else package) / "data"
+    if not (place / "synthetic" / "suite.csv").is_file():
+        raise RecordFormatError(f"built-in suite must be in {place}, as it was installed; got no suite.csv there")
+    return place
+
+
+def stored_rows(name: str) -> list[dict[str, str]]:
+    """Return the rows of a table in data/tables, as texts by column."""
+    text = (data_directory() / "tables" / f"{name}.csv").read_text(encoding="utf-8")
+    return list(csv.DictReader(text.splitlines()))
 
 
 def temporary_path(folder: Path) -> Path:

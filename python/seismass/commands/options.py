@@ -31,7 +31,7 @@ _LISTED_SINGLY: Final = 8
 
 
 def add_motion_options(parser: argparse.ArgumentParser, period: float | None = 1.0, owner: str = "1 s") -> None:
-    """Add --records, --suite, --target, --sds, --sd1, --tl and --period, whose default is `period`, in words `of`."""
+    """Add --records, --suite, --target, --sds, --sd1, --tl and --period, by default `period`, in words `owner`."""
     motions = parser.add_argument_group("motions")
     add_records_options(motions)
     add_target_options(motions)

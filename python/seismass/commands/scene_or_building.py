@@ -17,6 +17,7 @@ from seismass.commands.options import (
     read_pairs,
     refuse_options,
 )
+from seismass.motions.motion import scaled_motions
 
 if TYPE_CHECKING:
     from seismass.assessment.building import OwnBuilding
@@ -73,8 +74,7 @@ class FileMotions(NamedTuple):
     @property
     def scaled(self) -> list[Any]:
         """The motions times their factors."""
-        listed: list[Any] = list(self.suite)
-        return [motion.scaled(float(factor)) for motion, factor in zip(listed, self.factors, strict=True)]
+        return scaled_motions(self.suite, self.factors)
 
 
 def motions_of_file(

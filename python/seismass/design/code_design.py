@@ -305,8 +305,8 @@ def _largest_from(target: TargetSpectrum, period: float) -> float:
     longest = min(target.longest, max(LONGEST_PERIOD, period))
     points = np.array(target.parameters.get("period", ()), dtype=np.float64)
     start = max(period, target.shortest)
-    ordinate = np.unique([start, longest, *np.geomspace(max(start, 1e-3), longest, 400), *points[points >= start]])
-    return float(np.max(target(ordinate[ordinate <= longest]))) / STANDARD_GRAVITY
+    periods = np.unique([start, longest, *np.geomspace(max(start, 1e-3), longest, 400), *points[points >= start]])
+    return float(np.max(target(periods[periods <= longest]))) / STANDARD_GRAVITY
 
 
 def _coefficient(
@@ -355,11 +355,11 @@ def _ec8_spectrum(made: _Design, target: TargetSpectrum, q: float) -> Callable[[
         made.lacks("S_d has the damping of the site spectrum; the code's is that of 5 %")
 
     def spectrum(periods: FloatArray) -> FloatArray:
-        times = np.asarray(periods, dtype=np.float64)
-        rising = ground * known["s"] * (2.0 / 3.0 + times / known["tb"] * (2.5 / q - 2.0 / 3.0))
-        longer = target(times) / q
-        longer = np.where(times >= known["tc"], np.maximum(longer, least.number * ground), longer)
-        return np.where(times < known["tb"], rising, longer)
+        period = np.asarray(periods, dtype=np.float64)
+        rising = ground * known["s"] * (2.0 / 3.0 + period / known["tb"] * (2.5 / q - 2.0 / 3.0))
+        falling = target(period) / q
+        falling = np.where(period >= known["tc"], np.maximum(falling, least.number * ground), falling)
+        return np.where(period < known["tb"], rising, falling)
 
     return spectrum
 

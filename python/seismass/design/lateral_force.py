@@ -10,10 +10,11 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
+from seismass.base.files import stored_rows
 from seismass.base.values import FloatArray, as_positive, frozen, known_id
 from seismass.base.views import Card
 from seismass.design.modes import moments, positive, positive_of_length
-from seismass.model.codes import CODE_NAMES, table_rows
+from seismass.model.codes import CODE_NAMES
 
 Exponent: TypeAlias = Literal["period", "one", "two"]
 Top: TypeAlias = Literal["none", "period", "eight-percent"]
@@ -57,7 +58,7 @@ _RULES: Final = tuple(
         row["clause"],
         row["status"],
     )
-    for row in table_rows("forces")
+    for row in stored_rows("forces")
 )
 DISTRIBUTION_CODES: Final = tuple(rule.code_id for rule in _RULES)
 """Short names of the codes whose distribution is known here."""

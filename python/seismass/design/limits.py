@@ -10,10 +10,11 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
+from seismass.base.files import stored_rows
 from seismass.base.values import FloatArray, as_array, as_positive, brief, frozen, known_id, refusal
 from seismass.design.modes import positive, positive_of_length
 from seismass.design.rules import CATEGORIES, RULES, known_category, rule_of
-from seismass.model.codes import VERIFIED, table_rows
+from seismass.model.codes import VERIFIED
 
 
 @dataclass(frozen=True)
@@ -58,7 +59,7 @@ _SYSTEMS: Final = {
         clause="table 12.2-1",
         status=VERIFIED,
     )
-    for row in table_rows("systems")
+    for row in stored_rows("systems")
 }
 
 

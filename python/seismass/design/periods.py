@@ -9,9 +9,10 @@ import numpy as np
 import polars as pl
 
 from seismass.base.errors import InvalidOption
+from seismass.base.files import stored_rows
 from seismass.base.values import as_count, as_number, brief, known_id, refusal
 from seismass.base.views import Card
-from seismass.model.codes import CODE_NAMES, FROM_MEMORY, SECOND_HAND, VERIFIED, table_rows
+from seismass.model.codes import CODE_NAMES, FROM_MEMORY, SECOND_HAND, VERIFIED
 
 Variable: TypeAlias = Literal["height", "storeys"]
 """What a formula takes: the height above the base (m), or the number of storeys."""
@@ -62,7 +63,7 @@ def _rule(row: dict[str, str]) -> PeriodRule:
     return PeriodRule(row["id"], CODE_NAMES[row["id"]], row["system"], *numbers, variable, upper, *texts)
 
 
-_RULES: Final = tuple(_rule(row) for row in table_rows("periods"))
+_RULES: Final = tuple(_rule(row) for row in stored_rows("periods"))
 
 PERIOD_CODES: Final = tuple(dict.fromkeys(rule.code_id for rule in _RULES))
 """Short names of the codes whose approximate period is known here."""

@@ -8,8 +8,9 @@ from typing import Final
 import polars as pl
 
 from seismass.base.errors import InvalidOption
+from seismass.base.files import stored_rows
 from seismass.base.values import is_one_of, refusal
-from seismass.model.codes import CODE_NAMES, SECOND_HAND, VERIFIED, table_rows
+from seismass.model.codes import CODE_NAMES, SECOND_HAND, VERIFIED
 
 CATEGORIES: Final = ("I", "II", "III", "IV")
 """Risk categories, importance classes or levels."""
@@ -71,15 +72,15 @@ RULES: Final = tuple(
     CodeRule(
         row["id"], CODE_NAMES[row["id"]], *(row[key] for key in ("rule", "case", "value", "clause", "status", "note"))
     )
-    for row in table_rows("rules")
+    for row in stored_rows("rules")
 )
 """All rules, code by code."""
 
 
 def rule_of(code_id: str, rule: str, case: str | None = None) -> CodeRule | None:
     """Return a rule of a code, that of a case where one is named; None where it is not known here."""
-    rows_of_code = (row for row in RULES if (row.code_id, row.rule) == (code_id, rule))
-    return next((row for row in rows_of_code if case in (None, row.case)), None)
+    rules = (row for row in RULES if (row.code_id, row.rule) == (code_id, rule))
+    return next((row for row in rules if case in (None, row.case)), None)
 
 
 def known_category(risk_category: str) -> str:

@@ -11,6 +11,7 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
+from seismass.base.files import stored_rows
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import (
     FloatArray,
@@ -26,7 +27,7 @@ from seismass.base.values import (
     short_repr,
 )
 from seismass.base.views import Card
-from seismass.model.codes import CODE_IDS, FROM_MEMORY, SECOND_HAND, VERIFIED, Use, code_fraction, table_rows
+from seismass.model.codes import CODE_IDS, FROM_MEMORY, SECOND_HAND, VERIFIED, Use, code_fraction
 
 FloorUse: TypeAlias = Use
 """Use of a floor."""
@@ -48,7 +49,7 @@ _SNOW: Final = {
     "nbc": (0.25, 0.0, "4.1.8.2", SECOND_HAND),
     "gb50011": (0.5, 0.0, "5.1.3", FROM_MEMORY),
 }
-_ROOF: Final = {row["id"]: row for row in table_rows("fractions") if row["use"] == "roof"}
+_ROOF: Final = {row["id"]: row for row in stored_rows("fractions") if row["use"] == "roof"}
 """Rows of roofs; of IS 1893 for any use, of other codes for ordinary roofs."""
 _ANY_ROOF: Final = ("is1893",)
 INTENSITY: Final = {"bnbc2017": (3000.0, "2.5.7.3", VERIFIED), "is1893": (3000.0, "table 10", FROM_MEMORY)}

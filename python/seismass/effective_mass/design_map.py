@@ -50,8 +50,8 @@ from seismass.model.building import DEFAULT_DAMPING, Building
 from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
 from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
-from seismass.motions.motion import motion_names
-from seismass.motions.records import Record, Suite
+from seismass.motions.motion import motion_names, scaled_motions
+from seismass.motions.records import Suite
 from seismass.motions.spectra import TargetSpectrum, corner_period, mean_spectrum
 from seismass.motions.spectra.target import target_remarks
 from seismass.runs.simulate import instruction_set
@@ -424,7 +424,7 @@ def effective_mass_map(
     curve_of: list[int] = []
     for intensity in options.intensities:
         for loads in designs:
-            motions = named_motions(_scaled(suite, intensity * loads[0].scaling.factors), "effective mass map")
+            motions = named_motions(scaled_motions(suite, intensity * loads[0].scaling.factors), "effective mass map")
             models = [attached(load.scenes[0], share, options.model_damping) for load in loads for share in fractions]
             model = solve(models, motions, threads=threads, progress=stages.next(len(models) * len(motions)))
             scenes = [scene for load in loads for scene in load.scenes]
@@ -461,11 +461,7 @@ def _remarks(scaling: dict[tuple[int, float], ScalingResult], suite: Suite) -> l
     remarks = [f"building {number}, alpha = {alpha:g}: {doubt}" for number, alpha, doubt in doubts]
     more = [f"and {len(remarks) - MOST_DOUBTS} more doubts about factors"] * (len(remarks) > MOST_DOUBTS)
     largest = np.max([result.factors for result in scaling.values()], axis=0)
-    return [*remarks[:MOST_DOUBTS], *more, *motion_remarks(_scaled(suite, largest))]
-
-
-def _scaled(suite: Suite, factors: FloatArray) -> list[Record]:
-    return [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
+    return [*remarks[:MOST_DOUBTS], *more, *motion_remarks(scaled_motions(suite, largest))]
 
 
 def _designs(

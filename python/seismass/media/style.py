@@ -118,8 +118,8 @@ def _letters_of_font() -> frozenset[int]:
 
 @dataclass(frozen=True)
 class Panels:
-    """Axes to draw into, one for each thing that is drawn; the same one several times where they share it. `own`: the
-    figure was made for them.
+    """Axes to draw into, one for each thing that is drawn; the same one several times where they share it. `is_new`:
+    the figure was made for them.
     """
 
     axes: list[Axes]

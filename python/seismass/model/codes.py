@@ -5,15 +5,14 @@ A row of which any part was not read in the code itself says so: check it in the
 
 from __future__ import annotations
 
-import csv
 import math
 from collections import Counter
 from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias, get_args
 
 from seismass.base.errors import InvalidOption
+from seismass.base.files import stored_rows
 from seismass.base.values import brief, is_one_of, known_id, refusal
-from seismass.motions.records.builtin import data_directory
 
 if TYPE_CHECKING:
     import polars as pl
@@ -119,12 +118,6 @@ class CodeFraction:
         return "" if self.checked else MARK
 
 
-def table_rows(name: str) -> list[dict[str, str]]:
-    """Return the rows of a table in data/tables, as texts by column."""
-    text = (data_directory() / "tables" / f"{name}.csv").read_text(encoding="utf-8")
-    return list(csv.DictReader(text.splitlines()))
-
-
 def _fraction(row: dict[str, str]) -> CodeFraction:
     high = float(row["fraction"] or "nan")
     use: Use = row["use"]  # type: ignore[assignment]
@@ -132,7 +125,7 @@ def _fraction(row: dict[str, str]) -> CodeFraction:
     return CodeFraction(row["id"], row["code"], use, high, float(row["low"] or high), high, *texts)
 
 
-_ROWS: Final = tuple(_fraction(row) for row in table_rows("fractions"))
+_ROWS: Final = tuple(_fraction(row) for row in stored_rows("fractions"))
 
 CODE_IDS: Final = tuple(dict.fromkeys(row.code_id for row in _ROWS))
 """Short names of all codes."""

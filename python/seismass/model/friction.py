@@ -11,8 +11,8 @@ from typing import Any, Final
 import polars as pl
 
 from seismass.base.errors import InvalidOption
+from seismass.base.files import stored_rows
 from seismass.base.values import as_number, brief, known_id, refusal
-from seismass.model.codes import table_rows
 
 __all__ = [
     "BOUNDS_SOURCE",
@@ -78,7 +78,7 @@ class FrictionPair:
 
 _ROWS: Final = tuple(
     FrictionPair(row["id"], row["contact"], float(row["mu_s"]), float(row["mu_k"]), row["source"], row["kind"])
-    for row in table_rows("friction")
+    for row in stored_rows("friction")
 )
 
 FRICTION_IDS: Final = tuple(row.pair_id for row in _ROWS)

@@ -12,8 +12,9 @@ from typing import Final
 import polars as pl
 
 from seismass.base.errors import InvalidOption
+from seismass.base.files import stored_rows
 from seismass.base.values import as_number, brief, is_one_of, known_id, refusal
-from seismass.model.codes import Use, table_rows
+from seismass.model.codes import Use
 
 __all__ = [
     "OCCUPANCY_IDS",
@@ -104,7 +105,7 @@ class SurveyedLoad:
 _LOADS: Final = ("mean", "floor_deviation", "point_deviation", "reference_area", "design_load")
 _ROWS: Final = tuple(
     SurveyedLoad(**{name: float(text) if name in _LOADS else text for name, text in row.items()})  # type: ignore[arg-type]
-    for row in table_rows("occupancy")
+    for row in stored_rows("occupancy")
 )
 OCCUPANCY_IDS: Final[tuple[str, ...]] = tuple(row.occupancy_id for row in _ROWS)
 """Ids of the table, as building files take them."""

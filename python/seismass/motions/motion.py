@@ -168,6 +168,11 @@ def as_motion(motion: Any, parameter: str, owner: str) -> Motion:
     return converted
 
 
+def scaled_motions(motions: Iterable[Any], factors: Iterable[float]) -> list[Any]:
+    """Return motions, records or pairs times a factor each."""
+    return [motion.scaled(float(factor)) for motion, factor in zip(motions, factors, strict=True)]
+
+
 def motion_names(motions: Iterable[Any]) -> list[str]:
     """Return the names of motions; one without a name is called by its number, from 1."""
     return [str(getattr(motion, "name", "")) or f"motion {n}" for n, motion in enumerate(motions, start=1)]

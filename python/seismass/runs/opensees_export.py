@@ -14,6 +14,7 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption, InvalidScene, SeismassError
+from seismass.base.files import data_directory
 from seismass.base.fork_check import require_polars
 from seismass.base.values import (
     FloatArray,
@@ -31,7 +32,6 @@ from seismass.media.result import folder_for, write_folder
 from seismass.model.building import Building
 from seismass.model.scene import Scene
 from seismass.motions.motion import Motion, MotionLike, as_motion
-from seismass.motions.records.builtin import data_directory
 from seismass.runs.response import EVENT_KINDS
 from seismass.runs.simulate import simulate
 

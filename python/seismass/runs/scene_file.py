@@ -11,6 +11,7 @@ import numpy as np
 
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, InvalidScene, InvalidSceneFile
+from seismass.base.files import data_directory
 from seismass.base.input_table import FINITE, POSITIVE, SCENE_FILE, Table, load_table, refuse_other_kind
 from seismass.base.units import ACCELERATION_UNITS
 from seismass.base.values import FloatArray, as_array, as_count, as_number, as_path, brief, refusal
@@ -21,7 +22,7 @@ from seismass.model.scene import Scene
 from seismass.model.springs import SPRING_FIELDS, is_per_storey
 from seismass.motions.motion import Motion, check_size
 from seismass.motions.records import Record, builtin_record, read_record
-from seismass.motions.records.builtin import builtin_names, data_directory
+from seismass.motions.records.builtin import builtin_names
 from seismass.runs.plane import motions_in_plane
 from seismass.runs.scene_goods import (
     GOODS_KEYS,

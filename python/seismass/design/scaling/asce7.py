@@ -158,15 +158,15 @@ def spectra_of(
     there = np.array([is_pair(item) for item in records])
     if not there.any():
         return first
-    spectra_by_item = first.copy()
+    spectra = first.copy()
     if pairs == "maximum direction":
         for index in np.flatnonzero(there):
-            spectra_by_item[index] = _largest_of_directions(records[index], periods, damping, threads)
-        return spectra_by_item
+            spectra[index] = _largest_of_directions(records[index], periods, damping, threads)
+        return spectra
     second = response_spectrum([records[i].second for i in np.flatnonzero(there)], periods, damping, threads=threads)
     check_not_zero(second)
-    spectra_by_item[there] = PAIRS[pairs](first[there], second)
-    return spectra_by_item
+    spectra[there] = PAIRS[pairs](first[there], second)
+    return spectra
 
 
 def _largest_of_directions(pair: Any, periods: FloatArray, damping: float, threads: int | None) -> FloatArray:
@@ -175,9 +175,9 @@ def _largest_of_directions(pair: Any, periods: FloatArray, damping: float, threa
     """
     step = 180.0 / DIRECTIONS
 
-    def ordinates(turns: Any, angle: FloatArray) -> FloatArray:
+    def ordinates(turns: Any, at_periods: FloatArray) -> FloatArray:
         rows = [Motion(row, pair.dt) for row in pair.at_angles(np.asarray(turns) * step)]
-        solved: FloatArray = response_spectrum(rows, angle, damping, threads=threads)
+        solved: FloatArray = response_spectrum(rows, at_periods, damping, threads=threads)
         return solved
 
     coarse = np.arange(0, DIRECTIONS, APART)

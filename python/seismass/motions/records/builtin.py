@@ -9,7 +9,8 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal
 
-from seismass.base.errors import InvalidOption, RecordFormatError
+from seismass.base.errors import InvalidOption
+from seismass.base.files import data_directory
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import brief, is_one_of, refusal
 from seismass.motions.records.read import FormatName, is_archive, read_record, read_text
@@ -31,18 +32,6 @@ _SUITES: Final = {
 
 MICRO: Final = 1e-6
 """Unit of the stored samples of the forty (g)."""
-
-
-def data_directory() -> Path:
-    """Return the folder of the stored data: inside an installed package, or at the top of the source tree."""
-    package = Path(__file__).parents[2]
-    tree = package.parents[1]
-    # In the source tree a development build leaves a copy in the package, which the files themselves outdate. The
-    # folder above an installed package may be a project too, and not this one.
-    place = (tree if (tree / "crates" / "seismass").is_dir() else package) / "data"
-    if not (place / "synthetic" / "suite.csv").is_file():
-        raise RecordFormatError(f"built-in suite must be in {place}, as it was installed; got no suite.csv there")
-    return place
 
 
 def builtin_suite(suite: BuiltinName = "eleven") -> Suite:

@@ -26,6 +26,7 @@ from seismass.model.block import blocks_on_floors
 from seismass.model.building import Building
 from seismass.model.codes import MARK, NOT_CHECKED, code_fraction
 from seismass.model.scene import Scene
+from seismass.motions.motion import scaled_motions
 from seismass.motions.records.builtin import builtin_suite
 from seismass.motions.spectra import TargetSpectrum, corner_period, mean_spectrum
 from seismass.show.animation.animation import FACTORS
@@ -111,7 +112,7 @@ def still_answer() -> Markup:
     )
     strength = design.storey_shear / REDUCTION / bare.weight
     scene = Scene(bare.replace(yield_shear_over_weight=strength), blocks_on_floors(GOODS, FRICTION))
-    share = effective_mass(scene, [record.scaled(factor) for record, factor in zip(suite, factors, strict=True)])
+    share = effective_mass(scene, scaled_motions(suite, factors))
     low, high = share.interval or (share.value, share.value)
     words = (
         f"{100 * share.value:.0f} % of the goods act as mass (90 % interval {100 * low:.0f} to {100 * high:.0f} %), in "

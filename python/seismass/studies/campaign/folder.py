@@ -14,11 +14,12 @@ from typing import Any, Final
 import polars as pl
 
 from seismass.base.errors import InvalidCampaignFile, InvalidOption
+from seismass.base.files import data_directory
 from seismass.base.input_table import CAMPAIGN_FILE, Table, load_table, refuse_other_kind
 from seismass.base.values import as_path, brief, refusal
 from seismass.base.views import Card
+from seismass.motions.motion import scaled_motions
 from seismass.motions.records import Record, Suite, builtin_suite, read_suite
-from seismass.motions.records.builtin import data_directory
 from seismass.motions.spectra import TargetSpectrum
 from seismass.runs.grid.grid import Grid
 from seismass.runs.grid.sample import SAMPLED
@@ -441,7 +442,7 @@ def _suite(table: Table | None, folder: Path, top: Table) -> list[Record]:
     target = _target(table, folder) if "target" in table.values else TargetSpectrum.asce7()
     scale = scale_asce7_10 if scaling == "asce7-10" else scale_asce7_16
     factors = scale(suite, target, table.number("period", 1.0)).factors
-    return [record.scaled(float(factor)) for record, factor in zip(suite, factors, strict=True)]
+    return scaled_motions(suite, factors)
 
 
 def _target(table: Table, folder: Path) -> TargetSpectrum:

@@ -177,7 +177,7 @@ class FragilityAnalysis(Result):
         Raises
         ------
         InvalidOption
-            `given` is another word, the levels are not what they must be, or motions are not scaled, as in a cloud.
+            `axis` is another word, the levels are not what they must be, or motions are not scaled, as in a cloud.
 
         Notes
         -----

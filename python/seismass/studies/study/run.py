@@ -23,7 +23,7 @@ from seismass.design.scaling import ScalingResult, scale_asce7_10
 from seismass.media.result import Result
 from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
-from seismass.motions.motion import Motion
+from seismass.motions.motion import Motion, scaled_motions
 from seismass.motions.records import Record, Suite
 from seismass.motions.spectra import TargetSpectrum, corner_period, mean_spectrum, response_spectrum
 from seismass.motions.spectra.target import target_remarks
@@ -204,7 +204,7 @@ def run_study(
 
     spectrum = _spectrum(suite, target, scaling, settings.damping, threads)
     buildings = list(study_buildings(settings, design_spectrum))
-    records = [record.scaled(factor) for record, factor in zip(suite, factors, strict=True)]
+    records = scaled_motions(suite, factors)
     motions = [record.motion for record in records]
     distinct, run_of, table = _solve(buildings, motions, threads, progress, store)
     names = display_names(suite)
