@@ -377,6 +377,22 @@ def test_ordinary_buildings_raise_no_doubt(small: sm.Assessment, warehouse: sm.A
     )
 
 
+@pytest.mark.parametrize("cap", [0.05, 0.1, np.inf])
+def test_a_drift_cap_needs_heights(cap: float, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It is a ratio: drifts in metres are not capped, by a file, an argument or an option."""
+    without = tables(building={"height_m": None})
+    with pytest.raises(
+        sm.errors.InvalidOption, match="drift_cap of assessment must be left out without storey heights"
+    ):
+        sm.assess(without, FEW, drift_cap=cap, resamples=2)
+    with pytest.raises(sm.errors.InvalidBuildingFile, match=r"height_m .* must be given where building\.drift_cap is"):
+        sm.read_building(tables(building={"height_m": None, "drift_cap": 0.05}))
+    file = tmp_path / "low.json"
+    file.write_text(json.dumps(without), encoding="utf-8")
+    assert main(["building", str(file), "--drift-cap", "0.05", "--no-figures", "--out", str(tmp_path / "out")]) == 2
+    assert "must be left out without storey heights" in capsys.readouterr().err
+
+
 def test_shares_and_drifts_without_each_motion() -> None:
     """By hand from the runs: the largest capped mean of the others over both analyses, frictions and storeys."""
     result = sm.assess(tables(building={"drift_cap": 0.02}), FEW, resamples=2)

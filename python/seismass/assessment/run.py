@@ -138,6 +138,8 @@ def assess(
     """
     stated = _building(building, code, mu_factors)
     if drift_cap is not None:
+        if stated.heights is None:
+            raise refusal(InvalidOption, "drift_cap", "assessment", "left out without storey heights", brief(drift_cap))
         stated = replace(stated, drift_cap=check_cap(drift_cap, "assessment"))
     in_plane = stated.other is not None
     suite = _suite((builtin_pairs() if in_plane else builtin_suite("forty")) if motions is None else motions, in_plane)
