@@ -299,7 +299,7 @@ def gravity_of_storeys(building: OwnBuilding, scene: Scene) -> FloatArray:
     return np.cumsum((STANDARD_GRAVITY * (building.mass + building.frames + building.goods_mass))[::-1])[::-1]
 
 
-def storey_table(building: OwnBuilding, sliding_scene: Scene, runs: pl.DataFrame) -> pl.DataFrame:
+def checked_storeys(building: OwnBuilding, sliding_scene: Scene, runs: pl.DataFrame) -> pl.DataFrame:
     """Return one row per model and storey: `drift_statistics`, limit, and theta = P d/(V h) of the capped mean drift
     and the mean peak shear with its limit (null beside walls).
     """

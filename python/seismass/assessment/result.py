@@ -59,7 +59,7 @@ class Assessment(Result):
         Share that a design of the strengths and the analysis have in common, at the friction that decides; see
         `seismass.effective_mass_of_design`. None where strengths are stated, and without an answer.
     storeys : polars.DataFrame
-        Drift, limit and stability coefficient by model and storey; see `seismass.assessment.checks.storey_table`.
+        Drift, limit and stability coefficient by model and storey; see `seismass.assessment.checks.checked_storeys`.
     governing : polars.DataFrame
         Drifts of both analyses and of goods that slide by storey; see `seismass.assessment.checks.governing_table`.
     slip : polars.DataFrame

@@ -25,7 +25,7 @@ from seismass.assessment.answer import (
 )
 from seismass.assessment.building import OwnBuilding, with_code
 from seismass.assessment.building_file import read_building
-from seismass.assessment.checks import collapses_of, governing_table, left_out_table, slip_table, storey_table
+from seismass.assessment.checks import checked_storeys, collapses_of, governing_table, left_out_table, slip_table
 from seismass.assessment.doubts import doubts_of, motion_doubts
 from seismass.assessment.file_site import spectra_table
 from seismass.assessment.models import (
@@ -195,7 +195,7 @@ def assess(
     drawn = named_motions(scaled, "assessment", sliding_scene)
     counts = bootstrap_counts(drawn.cluster_of, resamples, seed) if loaded and drawn.clusters > 1 else None
     slip = slip_table(stated, slips, counts, confidence)
-    storeys, collapses = storey_table(stated, sliding_scene, runs), collapses_of(runs)
+    storeys, collapses = checked_storeys(stated, sliding_scene, runs), collapses_of(runs)
     governing = governing_table(stated, storeys)
     drifts = governing["governing"].to_numpy()  # null is NaN
     amounts = () if advised is None else (present_goods(floors, stated, advised, drifts), *further)

@@ -268,7 +268,7 @@ def curve_table(
     )
 
 
-def storey_table(sliding: Peaks, model: Peaks, grid: Peaks, statistic: Statistic) -> pl.DataFrame:
+def storey_drifts(sliding: Peaks, model: Peaks, grid: Peaks, statistic: Statistic) -> pl.DataFrame:
     """Return drifts by storey at the answer, beside those of the first and last model of the grid."""
 
     def by_storey(peaks: Peaks, index: int) -> FloatArray:

@@ -56,7 +56,7 @@ from seismass.effective_mass.result import (
     curve_table,
     record_table,
     remarks_of,
-    storey_table,
+    storey_drifts,
 )
 from seismass.effective_mass.runs import LARGER, DriftMeasure, NamedMotions, Peaks, Progress, check_drift, solve
 from seismass.model.plausibility import usage_remarks
@@ -154,7 +154,7 @@ class Search:
         )
         with np.errstate(invalid="ignore"):
             excess = float(np.float64(sliding_drift) / model_drift - 1.0)
-        storeys = storey_table(sliding_at_value, model_at_value, model, options.statistic)
+        storeys = storey_drifts(sliding_at_value, model_at_value, model, options.statistic)
         collapses = {
             "real": int(sliding_at_value.collapsed.sum()),
             "model": int(model_at_value.collapsed.sum()),
