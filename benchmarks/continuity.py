@@ -22,7 +22,7 @@ import numpy as np
 
 import seismass as sm
 from seismass.assessment.answer import rounded_up
-from seismass.assessment.checks import collapses_of, governing_table, storey_table
+from seismass.assessment.checks import checked_storeys, collapses_of, governing_table
 from seismass.assessment.models import compared_models, friction_factors, scaled_to_site, solve_models
 from seismass.effective_mass.answer import solved_frictions
 from seismass.effective_mass.runs import named_motions
@@ -53,7 +53,7 @@ def answered(tables: dict[str, Any], suite: sm.records.Suite) -> Point:
     found = [one.answer() for one in solved_frictions(scenes, named_motions(motions, "continuity"), options)]
     share = max(one.value for one in found)
     runs, _ = solve_models(building, compared_models(building, None, rounded_up(share)), motions, scaling.names)
-    governing = governing_table(building, storey_table(building, scenes[0], runs))["governing"].to_numpy()
+    governing = governing_table(building, checked_storeys(building, scenes[0], runs))["governing"].to_numpy()
     return Point(share, float(governing.max()), governing, max(collapses_of(runs).values()))
 
 

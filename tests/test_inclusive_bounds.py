@@ -17,10 +17,11 @@ from seismass.base.errors import RecordFormatError
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.effective_mass.result import remarks_of
 from seismass.model.friction import bound_factors
+from seismass.model.tipping import BlockSize
 from seismass.motions.matching.match import matching_remarks
 from seismass.motions.records.read import suspicions
 from seismass.studies.fragility import HuntAndFill
-from seismass.studies.slip.squat import Base, BlockSize, newmark_bound, newmark_pulse
+from seismass.studies.slip.estimates import Base, newmark_bound, newmark_pulse
 
 TWO_STOREYS = Path(__file__).with_name("data") / "two_storeys.json"
 BUILDING = sm.Building.uniform(2, 0.3, mass=1e5)

@@ -24,7 +24,7 @@ from seismass.studies.slip import (
     wilson_interval,
 )
 from seismass.studies.slip.clearance import exceedance_table
-from seismass.studies.slip.squat import demand_in_g
+from seismass.studies.slip.estimates import demand_in_g
 
 G = sm.STANDARD_GRAVITY
 

@@ -18,6 +18,7 @@ from seismass.assessment.building import OwnBuilding
 from seismass.assessment.checks import ANALYSES, drifts_of, friction_words, largest_change, largest_excess
 from seismass.assessment.floors import by_floor
 from seismass.assessment.models import ADVISED, ATTACHED, BARE, SLIDING_ALL
+from seismass.assessment.rocking import tipping_sentences
 from seismass.assessment.statement import NO_MATTER, PresentGoods, collapsing, statement_of
 from seismass.base.statistics import capped, few_collapses
 from seismass.base.units import STANDARD_GRAVITY
@@ -92,7 +93,10 @@ class Answer:
     governs : tuple of str
         Which analysis governs which storeys, and what goods that slide drift beside it.
     goods : tuple of str
-        How the goods present are known; then share, drift and verdict with them, and with other amounts of goods.
+        How the goods present are known; then share, drift and verdict with them, and with other amounts of goods;
+        which goods tip, and share, drift and verdict under the other models of them.
+    tipping : tuple of PresentGoods
+        The answer under the other models of goods that tip.
     amounts : tuple of PresentGoods
         The same in numbers, that of the assessment first.
     why : str
@@ -114,6 +118,7 @@ class Answer:
     analyses: tuple[Analysis, ...] = ()
     governs: tuple[str, ...] = ()
     goods: tuple[str, ...] = ()
+    tipping: tuple[PresentGoods, ...] = ()
     amounts: tuple[PresentGoods, ...] = ()
     why: str = ""
     sensitivity: tuple[str, ...] = ()
@@ -170,6 +175,7 @@ def answer_of(
     collapses: dict[str, int],
     slip: pl.DataFrame,
     amounts: tuple[PresentGoods, ...],
+    tipping: tuple[pl.DataFrame, tuple[PresentGoods, ...]],
     suite: dict[str, Any],
     scaling: ScalingResult | None,
     doubts: tuple[str, ...],
@@ -182,14 +188,16 @@ def answer_of(
         few = "" if reason is not None else collapsing(building, collapses, len(suite["motions"]))
         return Answer(f"No answer, because {why}.{f' {few}.' * bool(few)}", why, doubts, motions=on)
     tables, motions = (storeys, governing, slip), len(suite["motions"])
+    of_tipping = (*tipping_sentences(building, tipping[0]), *(case.words for case in tipping[1]))
     change = largest_change(storeys, (*effective, ATTACHED, BARE))
     return Answer(
-        statement_of(building, deciding(effective), tables, collapses, motions, amounts),
+        statement_of(building, deciding(effective), tables, collapses, motions, amounts, tipping=tipping[0]),
         None,
         doubts,
         analyses=(_analysis(building, 1, ADVISED, advised), _analysis(building, 2, BARE, 0.0)),
         governs=_governs(governing),
-        goods=(presence_sentence(building), *(amount.words for amount in amounts)),
+        goods=(presence_sentence(building), *(amount.words for amount in amounts), *of_tipping),
+        tipping=tipping[1],
         amounts=amounts,
         why=_why(advised, effective, friction_words(building)),
         sensitivity=(*_left_out(left_out, governing), *_at_other_caps(building, advised, effective, runs)),
@@ -470,7 +478,8 @@ def design_share(
     values = ("mean", SAME_DAMPING, shares, 0.9, 1, 0, threads, progress)
     options = checked_options(*values, drift_cap=building.drift_cap)
     named = named_motions(motions, OWNER, scene)
-    solved = solved_designs(designed, scene.blocks, named, options, scene.racks, scene.collapse_drift, scene.base)
+    others = (scene.racks, scene.collapse_drift, scene.base, scene.fixed_goods)
+    solved = solved_designs(designed, scene.blocks, named, options, *others)
     fallen = solved.sliding.collapsed.sum(axis=1)
     if not few_collapses(int(fallen.max()), len(motions)):
         return DesignShare(None, _collapsing_shares(shares, fallen, len(motions)))

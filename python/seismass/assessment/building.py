@@ -273,10 +273,13 @@ class OwnBuilding(Card):
         """The kinds of loose goods of which some are present."""
         return tuple(kind for kind in self.loose if kind.mass > 0.0)
 
-    @property
-    def sliding(self) -> tuple[tuple[int, int], ...]:
+    def sliding(self, mu_factor: float = 1.0, *, rocking: bool = True) -> tuple[tuple[int, int], ...]:
         """Index in `loose` and level of the rack (0: on the floor) of each block of `scene`, in their order."""
-        there = [(number, kind) for number, kind in enumerate(self.loose) if kind.mass > 0.0]
+        there = [
+            (number, kind)
+            for number, kind in enumerate(self.loose)
+            if kind.mass > 0.0 and (not rocking or kind.staying(mu_factor) < 1.0)
+        ]
         on_floors = [(number, 0) for number, kind in there if kind.rack is None]
         levels = [(number, kind.rack.levels) for number, kind in there if kind.rack is not None]
         return (*on_floors, *((number, level) for number, count in levels for level in range(1, count + 1)))
@@ -501,7 +504,7 @@ class OwnBuilding(Card):
         matrix: FloatArray = relative.T @ above @ relative
         return matrix
 
-    def scene(self, target: TargetSpectrum | None = None, *, mu_factor: float = 1.0) -> Scene:
+    def scene(self, target: TargetSpectrum | None = None, *, mu_factor: float = 1.0, rocking: bool = True) -> Scene:
         """Return the building with its goods, one block per kind of loose goods on a floor.
 
         Parameters
@@ -509,21 +512,27 @@ class OwnBuilding(Card):
         target : TargetSpectrum, optional
             Site spectrum for strengths of a design; default the building's own.
         mu_factor : float, default 1.0
-            Factor of all friction coefficients.
+            Factor of all friction coefficients. Goods that tip first with it have the model of `FloorGoods.model`.
+        rocking : bool, default True
+            False: goods that tip first slide all the same.
 
         Raises
         ------
         InvalidOption, InvalidScene
             As for `structure`.
         """
-        blocks, racks = [], []
+        blocks, racks, fixed = [], [], np.zeros(self.storeys)
         for kind in self.present:
-            mu_s, mu_k = mu_factor * kind.mu_s, mu_factor * kind.mu_k
+            kind = kind if rocking else replace(kind, size=None)
+            (mu_s, mu_k), staying = kind.contact_at(mu_factor), kind.staying(mu_factor)
             if kind.rack is not None:
-                racks.append(kind.rack.under(kind.floor, kind.mass, (mu_s, mu_k), kind.stops))
+                racks.append(kind.rack.under(kind.floor, kind.mass, (mu_s, mu_k), kind.stops, staying))
                 continue
-            stops = None if kind.stops is None else kind.stops.beside(kind.mass)
-            blocks.append(Block(kind.floor, mass=kind.mass, mu_s=mu_s, mu_k=mu_k, stops=stops))
+            fixed[kind.floor - 1] += staying * kind.mass
+            sliding = (1.0 - staying) * kind.mass
+            stops = None if kind.stops is None else kind.stops.beside(sliding)
+            if sliding > 0.0:
+                blocks.append(Block(kind.floor, mass=sliding, mu_s=mu_s, mu_k=mu_k, stops=stops))
         collapse = (
             None
             if self.heights is None or self.collapse_drift_ratio is None
@@ -534,6 +543,7 @@ class OwnBuilding(Card):
             blocks,
             racks=racks,
             base=self.base,
+            fixed_goods=fixed,
             other_direction=False if self.other is None else self.other.structure(target),
             collapse_drift=collapse,
             name=self.name,

@@ -21,6 +21,7 @@ from seismass.assessment.file_parts import (
     OTHER_DIRECTION,
     PRESENT,
     REDUCTION,
+    SIZE,
     STRONG,
     SUPPORT,
     WALL_KEYS,
@@ -99,6 +100,11 @@ US_GOODS_KEYS: Final = {
     "live_load_kip": UsKey("live_load_kg", KIP / STANDARD_GRAVITY, NOT_NEGATIVE),
 }
 """Keys in US units of the goods of a floor, or of all in [goods]."""
+US_SIZE_KEYS: Final = {
+    "width_ft": UsKey("width_m", FOOT, POSITIVE),
+    "height_ft": US_STOREY_KEYS["height_ft"],
+}
+"""Keys in US units of the size of goods of one kind, or of all in [goods]."""
 PLAIN_STOREY_KEYS: Final = {
     "height": {SI: "height_m", US: "height_ft"},
     "area": {SI: "area_m2", US: "area_ft2"},
@@ -112,6 +118,11 @@ PLAIN_STOREY_KEYS: Final = {
 """Keys without a unit of a storey, by the system that the file states, as the keys that they stand for."""
 PLAIN_GOODS_KEYS: Final = {"live_load": {SI: "live_load_kpa", US: "live_load_psf"}}
 """The same of the goods of a floor."""
+PLAIN_SIZE_KEYS: Final = {
+    "width": {SI: "width_m", US: "width_ft"},
+    "height": PLAIN_STOREY_KEYS["height"],
+}
+"""The same of the size of goods."""
 
 
 def plain_keys(keys: dict[str, dict[str, str]], units: str) -> tuple[str, ...]:
@@ -123,11 +134,11 @@ def to_si(table: Table, units: str) -> None:
     """Convert the table in place to SI units: keys without a unit are in the `units` of the file ("", "si" or "us"). A
     key stated in two units is refused.
     """
-    for name, factors in (PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS).items():
+    for name, factors in (PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS | PLAIN_SIZE_KEYS).items():
         if name in table.values and units in factors:
             table.excluded(name, factors[units])
             table.values[factors[units]] = table.values.pop(name)
-    for name, us in (US_STOREY_KEYS | US_GOODS_KEYS).items():
+    for name, us in (US_STOREY_KEYS | US_GOODS_KEYS | US_SIZE_KEYS).items():
         if name in table.values:
             table.excluded(name, us.key)
             table.values[us.key] = us.factor * table.number(name, need=us.need)
@@ -148,7 +159,7 @@ _OF_STOREYS: Final = {
     "second_slope": ("second_slope",),
     "third_slope": ("third_slope",),
 }
-_OF_GOODS: Final = {"live_load": LIVE_LOAD, "present": PRESENT, "friction": FRICTION}
+_OF_GOODS: Final = {"live_load": LIVE_LOAD, "present": PRESENT, "friction": FRICTION, "size": SIZE[:1]}
 _OF_BUILDING: Final = {
     "period": ("period_s", "system"),
     "damping": ("damping",),
@@ -204,9 +215,9 @@ def _stated(keys: Sequence[str], default: tuple[str, Mapping[str, Any]], storeys
 
 def _in_other_units(keys: Sequence[str]) -> set[str]:
     """Keys in US units, and those without a unit, that stand in the place of keys."""
-    us = {**US_STOREY_KEYS, **US_GOODS_KEYS}
+    us = US_STOREY_KEYS | US_GOODS_KEYS | US_SIZE_KEYS
     others = {other for other, one in us.items() if one.key in keys}
-    for key, factors in (PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS).items():
+    for key, factors in (PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS | PLAIN_SIZE_KEYS).items():
         if any(one in keys or one in others for one in factors.values()):
             others.add(key)
     return others
@@ -264,22 +275,24 @@ KEYS: Final = {
     ),
     "walls": WALL_KEYS,
     "base": BASE_KEYS,
-    "goods": ("mu_factors", *_GOODS),
+    "goods": ("mu_factors", *_GOODS, *SIZE),
     "storeys": ("name", "fraction", "exempt", "goods", *_STOREY, *_GOODS),
-    "storeys.goods": ("name", "share", "attached", *_KIND),
+    "storeys.goods": ("name", "share", "attached", *_KIND, *SIZE),
     "other_direction": OTHER_DIRECTION,
 }
 """Keys of each table of a building file, the file itself first."""
 US_KEYS: Final[dict[str, tuple[str, ...]]] = {
     "building": tuple(US_STOREY_KEYS),
-    "goods": tuple(US_GOODS_KEYS),
+    "goods": (*US_GOODS_KEYS, *US_SIZE_KEYS),
     "storeys": (*US_STOREY_KEYS, *US_GOODS_KEYS),
+    "storeys.goods": tuple(US_SIZE_KEYS),
 }
 """Keys in US units, in place of those in SI units."""
 PLAIN_KEYS: Final[dict[str, dict[str, dict[str, str]]]] = {
     "building": PLAIN_STOREY_KEYS,
-    "goods": PLAIN_GOODS_KEYS,
+    "goods": PLAIN_GOODS_KEYS | PLAIN_SIZE_KEYS,
     "storeys": PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS,
+    "storeys.goods": PLAIN_SIZE_KEYS,
 }
 """Keys without a unit, in a file that states its system of units."""
 
@@ -345,8 +358,11 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
         top.refuse("storeys", "a table per storey, storey 1 first", "none")
     for storey in storeys:
         _known(storey, "storeys", units)
-        for kind in storey.tables("goods"):
+        kinds_of_storey = storey.tables("goods")
+        for kind in kinds_of_storey:
             _known(kind, "storeys.goods", units)
+        if kinds_of_storey:
+            storey.values["goods"] = [kind.values for kind in kinds_of_storey]
     building, goods_table, site, code, walls, base, project = (
         _table(top, key, units) for key in ("building", "goods", "site", "code", "walls", "base", "project")
     )

@@ -354,7 +354,7 @@ def slip_table(
     words = dict(zip(SLIDING_ALL, ("as stated", "lower bound", "upper bound"), strict=True))
     rows = []
     for model, factor in friction_factors(building).items():
-        for number, level in sorted(building.sliding):
+        for number, level in sorted(building.sliding(factor)):
             kind = building.loose[number]
             of_kind = slips.filter((pl.col("model") == model) & (pl.col("kind") == number) & (pl.col("level") == level))
             if of_kind.height == 0:

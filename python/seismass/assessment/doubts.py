@@ -50,6 +50,10 @@ MAX_FACTOR: Final = 4.0
 """Factor of a scaled motion."""
 MAX_CHANGE: Final = 0.1
 """Change of the share by one motion."""
+MAX_GOODS_HEIGHT: Final = 12.0
+"""Height of goods (m) on a floor without a storey of known height above it."""
+SAME_RATIO: Final = 0.01
+"""Relative difference of mu and b/h up to which one seems to be typed for the other."""
 ROOFS: Final = ("roof", "dach", "toit", "techo", "tetto")
 """Words in the name of a floor that is the uppermost."""
 
@@ -86,6 +90,7 @@ def building_doubts(building: OwnBuilding, sliding_scene: Scene, target: TargetS
         *_order_doubts(building),
         *_strength_doubts(building),
         *_limit_doubts(building),
+        *_size_doubts(building),
         *(() if target is None else target_remarks(target)),
     ]
     return tuple(dict.fromkeys(doubts))
@@ -184,6 +189,29 @@ def _limit_doubts(building: OwnBuilding) -> list[str]:
         if value is not None and value > largest
     ]
     return [*doubts, *[below] * (building.drift_cap <= building.drift_limit)]
+
+
+def _size_doubts(building: OwnBuilding) -> list[str]:
+    """Sizes that no goods have, and friction that is the width over the height."""
+    doubts = []
+    for kind in building.loose:
+        if kind.size is None or kind.live_load == 0.0:
+            continue
+        size, goods = kind.size, f"{kind.name or 'goods'} on floor {kind.floor}"
+        clear = MAX_GOODS_HEIGHT
+        if building.heights is not None and kind.floor < building.storeys:
+            clear = float(building.heights[kind.floor])
+        if max(size.width, size.height) > max(clear, MAX_GOODS_HEIGHT) or size.height > clear:
+            doubts.append(
+                f"the {goods} are {size.width:g} x {size.height:g} m, more than the {clear:.3g} m that they have: is "
+                "that the size of one of them, in the unit of its key?"
+            )
+        if np.isclose(kind.mu_s, size.uplift_g, rtol=SAME_RATIO, atol=0.0):
+            doubts.append(
+                f"mu of the {goods} is b/h = {size.uplift_g:.3g}: sliding with mu = b/h does not stand for goods that "
+                "tip and gives too small a share; state the friction of their contact"
+            )
+    return list(dict.fromkeys(doubts))
 
 
 def _drift_doubts(storeys: pl.DataFrame) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import math
 from collections.abc import Mapping
-from typing import Any, Final, NamedTuple, NoReturn
+from typing import Any, Final, NamedTuple, NoReturn, get_args
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from seismass.model.building import Building
 from seismass.model.friction import BOUND_FACTORS, bound_factors, friction_pair
 from seismass.model.occupancy import SURVEYED, surveyed_load
 from seismass.model.rack import DEFAULT_RACK_DAMPING, rack_direction
+from seismass.model.tipping import BlockSize, Tipping
 
 STRONG: Final = Need("positive (inf: the storey stays elastic)", lambda number: number > 0.0)
 """What a strength must be."""
@@ -135,6 +136,8 @@ FRICTION: Final = ("friction", "mu", "mu_s")
 """Keys of its friction."""
 PRESENT: Final = ("occupied", "occupancy")
 """Keys of how much of it is present: a share, or what surveys say."""
+SIZE: Final = ("width_m", "height_m", "tipping")
+"""Keys of the size of the goods, and of what stands for those that tip."""
 SUM_ERROR: Final = 1e-6
 """By how much the shares of the kinds of goods on a floor may miss one."""
 
@@ -162,8 +165,8 @@ def kinds_of(
         levels = (storey, goods_table)
         share, how, source = _present(levels, live_load, area, uses[0] or uses[1])
         contact = _friction(levels) if live_load * share > 0.0 else ("", 0.0, 0.0)
-        neighbours = (rack_of(levels), stops_of(levels))
-        return (FloorGoods(floor, "", live_load, share, how, False, *contact, *neighbours, source, uses[0]),)
+        neighbours, size = (rack_of(levels), stops_of(levels)), size_of((goods_table,))
+        return (FloorGoods(floor, "", live_load, share, how, False, *contact, *neighbours, source, uses[0], *size),)
     shares = [table.number("share", need=SHARE) if "share" in table.values else np.nan for table in tables]
     total = sum(shares)
     if not abs(total - 1.0) <= SUM_ERROR:
@@ -175,16 +178,31 @@ def kinds_of(
         name = printable(table.text("name"))
         load = part * live_load
         if attached:
-            table.left_out((*FRICTION, "mu_k", *SUPPORT), f"{table.key('attached')} is true", "both")
+            table.left_out((*FRICTION, "mu_k", *SUPPORT, *SIZE), f"{table.key('attached')} is true", "both")
             share, how, _ = _present((table,), live_load, area, "")
             kinds.append(FloorGoods(floor, name, load, share, how, True, "", 0.0, 0.0))
             continue
         places, uses_of_kind = (table, storey, goods_table), table.text("use") or uses[0]
         share, how, source = _present(places, live_load, area, uses_of_kind or uses[1])
         contact = _friction(places) if load * share > 0.0 else ("", 0.0, 0.0)
-        neighbours = (rack_of(places), stops_of(places))
-        kinds.append(FloorGoods(floor, name, load, share, how, False, *contact, *neighbours, source, uses_of_kind))
+        neighbours, size = (rack_of(places), stops_of(places)), size_of((table, goods_table))
+        kinds.append(
+            FloorGoods(floor, name, load, share, how, False, *contact, *neighbours, source, uses_of_kind, *size)
+        )
     return tuple(kinds)
+
+
+def size_of(tables: tuple[Table, ...]) -> tuple[BlockSize | None, str]:
+    """Return the size of goods, as the first of `tables` that has one states it, and what stands for goods that tip."""
+    place, model = held(tables, SIZE[:2]), held(tables, SIZE[2:])
+    stated_model = "" if model is None else model[0].choice(SIZE[2], get_args(Tipping))
+    if place is None:
+        if model is not None:
+            model[0].refuse(SIZE[2], f"left out where {SIZE[0]} and {SIZE[1]} of the goods are not given", stated_model)
+        return None, ""
+    for key in SIZE[:2]:
+        place[0].needed(key)
+    return BlockSize(*(place[0].number(key, need=POSITIVE) for key in SIZE[:2])), stated_model
 
 
 def _present(tables: tuple[Table, ...], live_load: float, area: float, use: str) -> tuple[float, str, str]:

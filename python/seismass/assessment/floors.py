@@ -17,6 +17,7 @@ from seismass.model.block import Stops
 from seismass.model.codes import CODE_IDS, STORED, CodeFraction, Use, code_fraction
 from seismass.model.occupancy import surveyed_load
 from seismass.model.rack import Rack, RackBlock
+from seismass.model.tipping import BlockSize, Tipping, staying_part, tipping_of
 
 DEFAULT_LEVELS: Final = 3
 """Levels of racks where none are stated, the goods evenly on them."""
@@ -83,7 +84,9 @@ class GoodsRack:
     damping: float
     strength: float | None
 
-    def under(self, floor: int, mass: float, mu: tuple[float, float], stops: GoodsStops | None) -> Rack:
+    def under(
+        self, floor: int, mass: float, mu: tuple[float, float], stops: GoodsStops | None, staying: float = 0.0
+    ) -> Rack:
         """Return the rack with goods.
 
         Parameters
@@ -96,11 +99,17 @@ class GoodsRack:
             Static and kinetic friction of the goods on their level.
         stops : GoodsStops or None
             Stops beside the goods of each level.
+        staying : float, default 0.0
+            Part of the goods that moves with the level.
         """
         part = mass / self.levels
-        part_stops = None if stops is None else stops.beside(part, 1.0 / self.levels)
-        goods = [
-            RackBlock(level, mass=part, mu_s=mu[0], mu_k=mu[1], stops=part_stops) for level in range(1, self.levels + 1)
+        sliding, levels = (1.0 - staying) * part, range(1, self.levels + 1)
+        part_stops = None if stops is None else stops.beside(sliding, 1.0 / self.levels)
+        goods = [RackBlock(level, mass=staying * part, fixed=True) for level in levels if staying > 0.0]
+        goods += [
+            RackBlock(level, mass=sliding, mu_s=mu[0], mu_k=mu[1], stops=part_stops)
+            for level in levels
+            if staying < 1.0
         ]
         return Rack(
             floor,
@@ -152,6 +161,10 @@ class FloorGoods:
         Surveyed occupancy that the file states; empty: none.
     use : str
         What they are for the code, as `CodeFraction` names uses; empty for bolted goods.
+    size : BlockSize or None
+        Size of one of them; None where it is not stated, and they then slide.
+    tipping : str
+        What stands for them as the file states it; empty: by size and friction.
     """
 
     floor: int
@@ -167,6 +180,30 @@ class FloorGoods:
     stops: GoodsStops | None = None
     occupancy: str = ""
     use: str = ""
+    size: BlockSize | None = None
+    tipping: str = ""
+
+    def tips_first(self, mu_factor: float = 1.0) -> bool:
+        """Whether they tip before they slide, with this factor of friction."""
+        return self.size is not None and self.size.rocks_first(mu_factor * self.mu_s)
+
+    def model(self, mu_factor: float = 1.0) -> Tipping:
+        """Return what stands for them with this factor of friction; where they slide first they slide."""
+        if not self.tips_first(mu_factor):
+            return "slide"
+        return cast(Tipping, self.tipping) or tipping_of(self.size, mu_factor * self.mu_s)
+
+    def staying(self, mu_factor: float = 1.0) -> float:
+        """Return the part of their mass that moves with the floor while the rest slides."""
+        parts = {"slide": 0.0, "attached": 1.0}
+        model = self.model(mu_factor)
+        return parts[model] if self.size is None or model in parts else staying_part(self.size.uplift_g)
+
+    def contact_at(self, mu_factor: float) -> tuple[float, float]:
+        """Return static and kinetic friction of the part that slides: of goods that rock b/h for both."""
+        if self.size is not None and self.model(mu_factor) == "split":
+            return self.size.uplift_g, self.size.uplift_g
+        return mu_factor * self.mu_s, mu_factor * self.mu_k
 
     @property
     def mass(self) -> float:

@@ -104,7 +104,7 @@ def solve_models(
     that slide, motion and kind of loose goods. In two directions drift and shear are the larger of both.
     """
     table = solve_many(list(scenes.values()), list(motions), threads=threads, progress=progress)
-    runs, in_plane = table.to_dicts(), "peak_drift_x" in table.columns
+    runs, in_plane, factors = table.to_dicts(), "peak_drift_x" in table.columns, friction_factors(building)
     rows: list[dict[str, Any]] = []
     slides: list[dict[str, Any]] = []
     for index, run in enumerate(runs):
@@ -113,14 +113,18 @@ def solve_models(
             raise SimulationError(f"run of model {model} under motion {motion + 1}, {names[motion]}: {run['reason']}")
         collapsed = run["status"] == "collapsed"
         labels = {"model": model, "motion": motion + 1, "collapsed": collapsed}
-        blocks = building.sliding if scenes[model].goods else ()
+        factor = factors.get(model, 1.0)
+        blocks = building.sliding(factor) if scenes[model].goods else ()
         slides += [
             {**labels, "kind": kind, "level": level, **{name: run[name][block] for name in _SLIPS}}
             for block, (kind, level) in enumerate(blocks)
+            if building.loose[kind].model(factor) == "slide"
         ]
         for storey in range(1, building.storeys + 1):
             of_floor = [
-                run["peak_slip"][i] for i, (kind, _) in enumerate(blocks) if building.loose[kind].floor == storey
+                run["peak_slip"][block]
+                for block, (kind, _) in enumerate(blocks)
+                if building.loose[kind].floor == storey and building.loose[kind].model(factor) == "slide"
             ]
             of_directions = {}
             if in_plane:

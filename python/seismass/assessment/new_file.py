@@ -21,6 +21,7 @@ from seismass.base.values import FloatArray, brief, refusal, short
 from seismass.design import PushoverFit, fit_pushover
 from seismass.design.pushover_fit import SpringShape
 from seismass.model.friction import friction_table
+from seismass.model.tipping import BlockSize, parse_size
 
 FloorForces: TypeAlias = Literal["triangular", "uniform"]
 """Lateral forces as mass times height above ground, or as mass."""
@@ -78,6 +79,19 @@ def live_share(stated: str) -> float:
     return _share(str(total))
 
 
+def _size(text: str) -> BlockSize | None:
+    """Width and height; None where nothing is stated."""
+    if not text.strip():
+        return None
+    try:
+        size = parse_size(text)
+    except InvalidOption:
+        raise ValueError from None
+    if size.centre is not None:
+        raise ValueError
+    return size
+
+
 @dataclass(frozen=True)
 class Question:
     """What has to be known of a building: its name as an option, the question, and how an answer is read."""
@@ -123,6 +137,12 @@ QUESTIONS: Final = (
         "Which friction do the goods have: a number, or a contact of `seismass building --frictions`?",
         "a positive number, or a contact of `seismass building --frictions`",
         _friction,
+    ),
+    Question(
+        "goods_size",
+        "How wide and high is one of the goods (m, as 1.0x1.2; nothing: not known, they slide)?",
+        "nothing, or WIDTHxHEIGHT (m)",
+        _size,
     ),
 )
 """What is asked, in order. The roof carries no goods."""
@@ -180,7 +200,7 @@ def fit_of_curves(
 def _need(answers: Mapping[str, Any], questions: Sequence[Question]) -> None:
     """Refuse answers that lack one."""
     for question in questions:
-        if question.name not in answers:
+        if question.name not in answers and question.read is not _size:
             need = f"given, by --{question.name.replace('_', '-')}, where it is not asked for"
             raise refusal(InvalidOption, question.name, "new building", need, "nothing")
 
@@ -238,9 +258,22 @@ def building_text(
         f"occupied = {answers['occupied']!r}               # share of it that is present",
         f"{'friction' if isinstance(friction, str) else 'mu'} = "
         f"{_quoted(friction) if isinstance(friction, str) else repr(friction)}",
+        *_size_lines(answers.get("goods_size")),
         "",
     ]
     return "\n".join([*lines, *_storeys(answers, table, curves, fit, loaded)])
+
+
+def _size_lines(size: BlockSize | None) -> list[str]:
+    """Size of goods, as it is stated or could be."""
+    if size is None:
+        return [
+            "# width_m = 1.0              # of one of them, with height_m: with b/h below mu they tip before they slide"
+        ]
+    return [
+        f"width_m = {size.width!r}                # of one of them: with b/h below mu they tip first",
+        f"height_m = {size.height!r}",
+    ]
 
 
 def _misfit(fit: PushoverFit) -> str:

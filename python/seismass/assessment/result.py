@@ -64,6 +64,8 @@ class Assessment(Result):
         Drifts of both analyses and of goods that slide by storey; see `seismass.assessment.checks.governing_table`.
     slip : polars.DataFrame
         Slip demand by friction and floor; see `seismass.assessment.checks.slip_table`.
+    tipping : polars.DataFrame
+        Goods that tip before they slide, and what stands for them; see `seismass.assessment.rocking.tipping_table`.
     runs : polars.DataFrame
         Peaks of every run by storey; see `seismass.assessment.models.solve_models`.
     left_out : polars.DataFrame
@@ -100,6 +102,7 @@ class Assessment(Result):
     storeys: pl.DataFrame = field(repr=False)
     governing: pl.DataFrame = field(repr=False)
     slip: pl.DataFrame = field(repr=False)
+    tipping: pl.DataFrame = field(repr=False)
     slips: pl.DataFrame = field(repr=False)
     runs: pl.DataFrame = field(repr=False)
     left_out: pl.DataFrame = field(repr=False)
@@ -141,7 +144,7 @@ class Assessment(Result):
     @property
     def tables(self) -> dict[str, pl.DataFrame]:
         """Tables by name: storeys, governing, analysis, slip, runs, left_out, slips, checks, spectra, design; curve,
-        scaling if known.
+        tipping, scaling if known.
         """
         tables = {
             "storeys": self.storeys,
@@ -160,6 +163,8 @@ class Assessment(Result):
         ]
         if curves:
             tables["curve"] = pl.concat(curves)
+        if self.tipping.height:
+            tables["tipping"] = self.tipping
         if self.scaling is not None:
             tables["scaling"] = self.scaling.table()
         return tables
@@ -211,6 +216,7 @@ class Assessment(Result):
             "governing": self.governing.to_dicts(),
             "left_out": self.left_out.to_dicts(),
             "slip": self.slip.to_dicts(),
+            "tipping": self.tipping.to_dicts(),
             "collapses": self.collapses,
             "suite": self.suite,
             "target": None if self.target is None else {"label": self.target.label, **self.target.parameters},
@@ -240,6 +246,7 @@ class Assessment(Result):
             "pair": list(answer.pair),
             "governs": list(answer.governs),
             "goods": list(answer.goods),
+            "tipping": [asdict(one) | {"verdict": one.verdict} for one in answer.tipping],
             "amounts": [asdict(one) | {"verdict": one.verdict} for one in answer.amounts],
             "why": answer.why,
             "sensitivity": list(answer.sensitivity),

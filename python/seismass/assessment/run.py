@@ -41,6 +41,7 @@ from seismass.assessment.models import (
     solve_models,
 )
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
+from seismass.assessment.rocking import other_models, tipping_table
 from seismass.assessment.statement import PresentGoods, governing_drifts, other_amounts, present_goods
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
@@ -154,8 +155,12 @@ def assess(
     designs = 2 * len(design_shares(stated)) if loaded and stated.design is not None else 0
     larger = len(SHARES_BEYOND) if loaded and goes_beyond(stated.scene(spectrum)) else 0
     floors, others = other_amounts(stated)
+    models_of_tipping = other_models(stated)
     of_amount = len(frictions) + len(SHARES_OF_AMOUNTS) + larger
-    stages = Stages(progress, (models + fractions + larger + designs + len(others) * of_amount) * len(suite))
+    stages = Stages(
+        progress,
+        (models + fractions + larger + designs + (len(others) + len(models_of_tipping)) * of_amount) * len(suite),
+    )
     bootstrap = {"confidence": confidence, "resamples": resamples, "seed": seed}
     effective = fractions_by_friction(
         stated, spectrum, frictions, scaled, bootstrap, threads, stages.next((fractions + larger) * len(suite))
@@ -185,6 +190,7 @@ def assess(
         return PresentGoods(floors, case.present_share, reason=why)
 
     further = [] if advised is None else [amount(name, case) for name, case in others.items()]
+    of_models = [] if advised is None else [amount(name, case) for name, case in models_of_tipping.items()]
     names = motion_names(suite)
     components = [record for motion in scaled for record in (tuple(motion) if in_plane else (motion,))]
     horizontal = [record for motion in scaled for record in (tuple(motion)[:2] if in_plane else (motion,))]
@@ -212,7 +218,8 @@ def assess(
     left_out = left_out_table(stated, runs, effective, {**about_motions, **ground_peaks(scaled)})
     doubts = (*doubts_of(stated, sliding_scene, scaled, spectrum, storeys), *motion_doubts(left_out, effective))
     tables = (storeys, governing, runs, left_out, collapses, slip, amounts)
-    answer = answer_of(stated, advised, effective, design, *tables, facts, scaling, doubts)
+    tipping = tipping_table(stated, sliding_scene, scaled)
+    answer = answer_of(stated, advised, effective, design, *tables, (tipping, tuple(of_models)), facts, scaling, doubts)
     return Assessment(
         building=stated,
         target=spectrum,
@@ -222,6 +229,7 @@ def assess(
         storeys=storeys,
         governing=governing,
         slip=slip,
+        tipping=tipping,
         slips=slips,
         runs=runs,
         left_out=left_out,

@@ -26,6 +26,8 @@ HARDLY: Final = 0.010
 """Slip (m) at 84 % of the motions up to which goods hardly slide."""
 LITTLE: Final = 0.05
 """Part of a drift that sliding takes off, up to which friction gives nothing."""
+MOVING: Final = {(False, True): "Sliding", (True, True): "Sliding and rocking", (True, False): "Rocking"}
+"""What goods do, by whether some tip and whether some slide."""
 NO_MATTER: Final = 0.01
 """Change of a drift below which the share does not matter."""
 
@@ -119,9 +121,11 @@ def statement_of(
     collapses: dict[str, int],
     motions: int,
     amounts: tuple[PresentGoods, ...],
+    *,
+    tipping: pl.DataFrame,
 ) -> str:
     """Return the answer in plain sentences. `friction` is the model that decides the share; `tables` are of storeys, of
-    what governs, and of slips; the first of `amounts` is that of the assessment.
+    what governs, and of slips; the first of `amounts` is that of the assessment; `tipping` is that of goods that tip.
     """
     (storeys, governing, slip), (first, *others) = tables, amounts
     words = {name: text for name, text in friction_words(building).items() if name in collapses}
@@ -131,7 +135,7 @@ def statement_of(
         sliding = f"The share does not matter: no storey's drift changes by more than {most}"
     else:
         drifts = dict(storeys.filter(storey=first.storey).select("model", "mean").iter_rows())
-        sliding = _sliding(first, drifts, friction, words, slip.filter(model=friction), motions)
+        sliding = _sliding(first, drifts, friction, words, slip.filter(model=friction), motions, tipping)
     verdict = f"The drift limit is {first.verdict}: storey {first.storey}, {first.drifts}" if first.verdict else ""
     for other in others if verdict else ():
         if other.verdict != first.verdict:
@@ -163,7 +167,13 @@ def _uncovered(building: OwnBuilding, governing: pl.DataFrame) -> str:
 
 
 def _sliding(
-    first: PresentGoods, drifts: dict[str, float], friction: str, words: dict[str, str], slip: pl.DataFrame, runs: int
+    first: PresentGoods,
+    drifts: dict[str, float],
+    friction: str,
+    words: dict[str, str],
+    slip: pl.DataFrame,
+    runs: int,
+    tipping: pl.DataFrame,
 ) -> str:
     """What sliding does to the storey that governs, and how much to count; `slip` is at that friction."""
     where, advised = f" with {words[friction]}" * (len(words) > 1), first.advised or 0.0
@@ -175,7 +185,10 @@ def _sliding(
     if advised < 1.0:
         same = round(100.0 * change) == round(100.0 * as_stated)
         stated = "" if same else f"; with {words[SLIDING]} it {_effect(as_stated, 'that drift')}"
-        return f"Sliding{where} {effect}{stated}: {count}"
+        return f"{MOVING[tipping.height > 0, slip.height > 0]}{where} {effect}{stated}: {count}"
+    if not slip.height:
+        may_fall = "; they may fall and are taken as attached" if (tipping["staying"] == 1.0).all() else ""
+        return f"Goods tip before they slide{where}{may_fall}: count all goods that are there as mass"
     slides, p84, most = (slip[name].to_numpy().max() for name in ("motions_that_slide", "peak_p84", "peak_max"))
     nothing = "no smaller share is enough" if change < -LITTLE else "friction gives nothing"
     nothing += "; count all goods that are there as mass"

@@ -31,6 +31,7 @@ _OPTIONS = {
     "live_load": ("KPA", "design live load of the loaded floors, kPa; the roof has none"),
     "occupied": ("SHARE", "share of it that is present"),
     "friction": ("MU", "friction of the goods: a number, or a contact of `seismass building --frictions`"),
+    "goods_size": ("BxH", "width and height of one of them, m; left out: they slide and do not tip"),
 }
 
 

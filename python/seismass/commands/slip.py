@@ -57,8 +57,12 @@ def run(args: argparse.Namespace) -> int:
         check_out(args.out, "slip demand")
     target = read_site(args, "slip")
     scene, building = read_scene_or_building(args.file, target)
+    stated = None
+    if building is not None:
+        scene = building.scene(target, rocking=False)  # how far they would slide; which of them tip is said beside it
+        stated = [building.loose[number].size for number, _ in building.sliding(rocking=False)]
     blocks = len(scene.goods)
-    sizes = _per_block("size", args.size, blocks, parse_size)
+    sizes = _per_block("size", args.size, blocks, parse_size, stated)
     plane = scene.other_direction is not False
     clearances = _per_block("clearance", args.clearance, blocks, partial(parse_clearance, plane=plane))
     file_motions = motions_of_file(args, "slip", scene, building, target)
@@ -109,13 +113,17 @@ def parse_clearance(text: str, *, plane: bool = False) -> Clearance:
     return Clearance(plus, minus, plus_y, minus_y, radius)
 
 
-def _per_block(name: str, words: list[str], blocks: int, parse: Any) -> list[Any] | None:
-    """Return one value per block from values for all blocks or for single ones; None where nothing is given."""
+def _per_block(
+    name: str, words: list[str], blocks: int, parse: Any, stated: list[Any] | None = None
+) -> list[Any] | None:
+    """Return one value per block from values for all blocks or for single ones, else those that the file has; None
+    where nothing is given.
+    """
     from seismass.base.errors import InvalidOption
     from seismass.base.values import refusal
 
     if not words:
-        return None
+        return stated
     values: dict[int, Any] = {}
     for text in words:
         number, equals, value = text.partition("=")
@@ -125,7 +133,8 @@ def _per_block(name: str, words: list[str], blocks: int, parse: Any) -> list[Any
         if block in values:
             raise refusal(InvalidOption, f"--{name}", "slip", "given once for a block", text)
         values[block] = parse(value if equals else text)
-    return [values.get(number, values.get(0)) for number in range(1, blocks + 1)]
+    others = stated or [None] * blocks
+    return [values.get(number, values.get(0, others[number - 1])) for number in range(1, blocks + 1)]
 
 
 COMMAND = Command(
@@ -146,7 +155,7 @@ slip scene.toml --clearance 0.3 --fragility --measure pga --out slip
     note="""
 --clearance: DISTANCE for all sides, PLUS,MINUS for each (one may be left empty), +X,-X,+Y,-Y in two directions,
 @DISTANCE for any direction, in m; --size: WIDTHxHEIGHT or
-WIDTHxHEIGHT@CENTRE, in m. BLOCK= before either makes it that of one block, counted from 1.
+WIDTHxHEIGHT@CENTRE, in m, else as the building file has it. BLOCK= before either makes it that of one block, from 1.
 """,
     codes={0: "done (a collapse is a result)", 1: "a run failed"},
 )

@@ -106,6 +106,7 @@ def solved_designs(
     racks: Iterable[Rack] = (),
     collapse_drift: FloatArray | None = None,
     base: SlidingBase | None = None,
+    fixed_goods: FloatArray | None = None,
 ) -> Solved:
     """Solve the building that is designed with each share, with sliding goods and with that share attached; arguments
     as in `effective_mass_of_design`.
@@ -123,8 +124,8 @@ def solved_designs(
             building, other = building
         if not isinstance(building, Building):
             raise refusal(InvalidScene, "design", OWNER, "a Building, or two in x and y", brief(building))
-        scene = Scene(building, goods, racks=standing, base=base, other_direction=other, collapse_drift=collapse_drift)
-        return check_any_load(scene)
+        what: dict[str, Any] = {"base": base, "fixed_goods": fixed_goods, "collapse_drift": collapse_drift}
+        return check_any_load(Scene(building, goods, racks=standing, other_direction=other, **what))
 
     shares = [float(share) for share in options.fractions]
     stages = Stages(options.progress, 2 * len(shares) * len(motions))

@@ -365,8 +365,8 @@ def building_of(scene: Scene) -> Building:
 
 
 def goods_mass(scene: Scene) -> FloatArray:
-    """Return the mass of the goods on each floor, those on its racks included (kg), shape (storeys,)."""
-    mass = np.zeros(scene.storeys)
+    """Return the mass of the goods on each floor, fixed ones and those on its racks included (kg), shape (storeys,)."""
+    mass = np.zeros(scene.storeys) if scene.fixed_goods is None else scene.fixed_goods.copy()
     for floor, block_mass in zip(scene.block_floor, scene.block_mass, strict=True):
         if floor > 0:
             mass[floor - 1] += block_mass

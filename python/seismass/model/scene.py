@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from seismass import _kernel
 from seismass.base.errors import InvalidScene
+from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, Value, as_array, as_name, brief, frozen, refusal
 from seismass.base.views import view
 from seismass.model.block import Block, SlidingBase, block_mass
@@ -39,6 +40,9 @@ class Scene(Value):
     base : SlidingBase, optional
         A slab that carries all of it and slides on the ground; floor 0 is the slab then. None: all stands on the
         ground.
+    fixed_goods : array_like, optional
+        Mass of goods on each floor that move with it (kg): bolted ones, or a part of goods that rock. They are live
+        load, so that shares and P-Delta count them, and are not in the damping of the building.
     initial_drift : array_like, optional
         Storey drifts at the start (m), within the elastic range. It and the next two need a building.
     initial_velocity : array_like, optional
@@ -52,6 +56,8 @@ class Scene(Value):
     ----------
     building, blocks, racks, base, other_direction, initial_drift, initial_velocity, collapse_drift, name, note
         As given; `blocks` and `racks` are tuples, arrays are read-only.
+    fixed_goods : ndarray, shape (storeys,), or None
+        As given; None where there are none.
 
     Raises
     ------
@@ -75,6 +81,7 @@ class Scene(Value):
         "blocks",
         "building",
         "collapse_drift",
+        "fixed_goods",
         "initial_drift",
         "initial_velocity",
         "name",
@@ -90,6 +97,7 @@ class Scene(Value):
     racks: tuple[Rack, ...]
     base: SlidingBase | None
     other_direction: Building | bool
+    fixed_goods: FloatArray | None
     initial_drift: FloatArray | None
     initial_velocity: FloatArray | None
     collapse_drift: FloatArray | None
@@ -104,6 +112,7 @@ class Scene(Value):
         racks: Iterable[Rack] = (),
         base: SlidingBase | None = None,
         other_direction: Building | bool = False,
+        fixed_goods: ArrayLike | None = None,
         initial_drift: ArrayLike | None = None,
         initial_velocity: ArrayLike | None = None,
         collapse_drift: ArrayLike | None = None,
@@ -143,6 +152,7 @@ class Scene(Value):
             racks=standing,
             base=base,
             other_direction=other,
+            fixed_goods=_fixed(per_storey("fixed_goods", fixed_goods), building),
             initial_drift=per_storey("initial_drift", initial_drift, pairs=True),
             initial_velocity=per_storey("initial_velocity", initial_velocity, pairs=True),
             collapse_drift=per_storey("collapse_drift", collapse_drift),
@@ -160,16 +170,26 @@ class Scene(Value):
             self._set(_plane_scene=_kernel.PlaneScene(*(one._of_general() for one in self._directions())))
             return
         self._refuse_plane_alone()
-        kernel: Any = None if building is None else building._kernel
+        kernel: Any = self._loaded_kernel()
         goods = [(block.floor, mass, *block.contact) for block, mass in zip(placed, masses, strict=True)]
         if self.engine == "chain":
             self._set(_chain_scene=_kernel.Scene(kernel, goods, **state))
             return
         self._set(_general_scene=self._of_general())
 
+    def _loaded_kernel(self) -> Any:
+        """The building as the kernel takes it, with the goods that are fixed to its floors."""
+        building, fixed = self.building, self.fixed_goods
+        if building is None or fixed is None:
+            return None if building is None else building._kernel
+        changes: dict[str, Any] = {"mass": building.mass + fixed, "damping": building.damping_matrix}
+        if building.gravity_load is not None:
+            changes["gravity_load"] = building.gravity_load + STANDARD_GRAVITY * fixed
+        return building.replace(**changes)._kernel
+
     def _of_general(self) -> _GeneralScene:
         """What the general engine takes of a scene in one direction."""
-        kernel: Any = None if self.building is None else self.building._kernel
+        kernel: Any = self._loaded_kernel()
         goods = [
             (block.floor, block_mass(block, number, self.building), *block.contact, block.stop_numbers)
             for number, block in enumerate(self.blocks, start=1)
@@ -208,7 +228,7 @@ class Scene(Value):
         ]
         in_y, of_y = [block.in_y() for block in self.blocks], [rack.in_y() for rack in self.racks]
         other: Any = self.building if self.other_direction is True else self.other_direction
-        shared: dict[str, Any] = {"collapse_drift": self.collapse_drift}
+        shared: dict[str, Any] = {"collapse_drift": self.collapse_drift, "fixed_goods": self.fixed_goods}
         x = Scene(self.building, in_x, racks=of_x, **of(0), **shared)
         return x, Scene(other, in_y, racks=of_y, **of(1), **shared)
 
@@ -344,6 +364,7 @@ class Scene(Value):
             "racks": self.racks,
             "base": self.base,
             "other_direction": self.other_direction,
+            "fixed_goods": self.fixed_goods,
             "initial_drift": self.initial_drift,
             "initial_velocity": self.initial_velocity,
             "collapse_drift": self.collapse_drift,
@@ -352,7 +373,7 @@ class Scene(Value):
         }
 
     def _content(self) -> tuple[Any, ...]:
-        arrays = (self.initial_drift, self.initial_velocity, self.collapse_drift)
+        arrays = (self.fixed_goods, self.initial_drift, self.initial_velocity, self.collapse_drift)
         return (
             self.building,
             self.blocks,
@@ -376,6 +397,20 @@ class Scene(Value):
             return f"Scene({name}{'ground' if self.base is None else 'slab'} only, {blocks}{racks})"
         noun = "storey" if self.storeys == 1 else "storeys"
         return f"Scene({name}{self.storeys} {noun}, T1 = {self.building.periods[0]:.4g} s, {blocks}{racks})"
+
+
+def _fixed(mass: FloatArray | None, building: Building | None) -> FloatArray | None:
+    """Masses of fixed goods (kg) on the floors of a building."""
+    if mass is None or building is None:
+        return None
+    if mass.shape != (building.storeys,) or not np.all(mass >= 0.0):
+        requirement = f"{building.storeys} masses, one per floor, not negative"
+        raise refusal(InvalidScene, "fixed_goods", "scene", requirement, brief(mass))
+    if not building.mass_is_stated:
+        raise refusal(
+            InvalidScene, "fixed_goods", "scene", "left out where the building's mass is not stated", brief(mass)
+        )
+    return mass if mass.any() else None
 
 
 def _other_direction(other: Building | bool, building: Building | None) -> Building | bool:

@@ -142,7 +142,7 @@ def model_content(scene: Scene, name: str = "") -> dict[str, Any]:
     if laws:
         raise refused(f"springs of the law {laws[0]}")
     return {
-        "mass": building.mass.tolist(),
+        "mass": (building.mass if scene.fixed_goods is None else building.mass + scene.fixed_goods).tolist(),
         "springs": [_parallel(building, storey) for storey in range(len(building.mass))],
         "p_over_h": scene.geometric_stiffness.tolist(),
         "damping": building.damping_matrix.tolist(),

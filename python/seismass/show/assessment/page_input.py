@@ -217,6 +217,7 @@ def _goods(result: AssessmentTables) -> list[Markup]:
     table = pl.DataFrame(rows, infer_schema_length=None).with_columns(
         pl.Series("area", [np.nan if area[row["floor"]] is None else area[row["floor"]] for row in rows]),
         contact=pl.when("attached").then(pl.lit("bolted")).otherwise("contact"),
+        size=pl.Series([_size(row.get("size")) for row in rows], dtype=pl.String),
     )
     table_of_goods = table.select(
         "floor",
@@ -228,8 +229,9 @@ def _goods(result: AssessmentTables) -> list[Markup]:
         contact="contact",
         mu_s="mu_s",
         mu_k="mu_k",
+        size="size",
     ).with_columns(pl.col("load").fill_nan(None))
-    unused = [name for name in ("name", "contact") if not any(table_of_goods[name])]
+    unused = [name for name in ("name", "contact", "size") if not any(table_of_goods[name])]
     unused += ["load"] if table_of_goods["load"].null_count() == table_of_goods.height else []
     headers = {
         "name": "goods",
@@ -239,6 +241,7 @@ def _goods(result: AssessmentTables) -> list[Markup]:
         "presence": "how that is known",
         "mu_s": f"{MU}_s",
         "mu_k": f"{MU}_k",
+        "size": "size of one (m)",
     }
     parts = "".join(
         f" {words}: {sources[name]}."
@@ -260,6 +263,10 @@ def _goods(result: AssessmentTables) -> list[Markup]:
             },
         )
     ]
+
+
+def _size(size: dict[str, float] | None) -> str:
+    return "" if size is None else f"{size['width']:g} x {size['height']:g}"
 
 
 def thousandth_text(value: float) -> str:

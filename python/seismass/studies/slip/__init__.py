@@ -1,8 +1,9 @@
 """Slip demand: how far goods slide, what that means at edges and walls, and whether they slide or rock."""
 
+from seismass.model.tipping import BlockSize, parse_size
 from seismass.studies.slip.clearance import Clearance, exceedance_table, signed_peaks, wilson_interval
 from seismass.studies.slip.demand import SlipDemand, slip_demand
-from seismass.studies.slip.squat import Base, BlockSize, asce43, newmark_bound, newmark_pulse, parse_size
+from seismass.studies.slip.estimates import Base, asce43, newmark_bound, newmark_pulse
 
 __all__ = [
     "Base",

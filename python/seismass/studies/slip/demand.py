@@ -17,6 +17,7 @@ from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, check_dam
 from seismass.effective_mass.runs import named_motions
 from seismass.media.result import Result, finite_values
 from seismass.model.scene import Scene
+from seismass.model.tipping import BlockSize, as_sizes
 from seismass.motions.motion import HasMotion, Motion
 from seismass.motions.records.pair import Pair
 from seismass.runs.batch import MotionsLike
@@ -28,7 +29,6 @@ from seismass.studies.fragility.limits import IntensityMeasure, LimitState, Meas
 from seismass.studies.fragility.run import SLIDING
 from seismass.studies.slip.clearance import Clearance, as_clearances, exceedance_table
 from seismass.studies.slip.runs import SlipModels, SlipRuns, solve_motion
-from seismass.studies.slip.squat import BlockSize, as_sizes
 from seismass.studies.slip.tables import (
     block_table,
     demand_remarks,

@@ -18,7 +18,7 @@ from seismass.runs.plane import PlaneMotion, PlaneResponse
 from seismass.runs.response import Response
 from seismass.runs.simulate import simulate
 from seismass.studies.slip.clearance import at_nodes, histories_at_nodes, places_of, signed_peaks, without_loose_goods
-from seismass.studies.slip.squat import Base, demand_in_g, estimates
+from seismass.studies.slip.estimates import Base, demand_in_g, estimates
 
 VECTOR = 2
 """Place of the length of the vector among peaks of `PlaneResponse`."""

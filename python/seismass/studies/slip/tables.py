@@ -16,9 +16,10 @@ from seismass.effective_mass.estimate import one_direction_of_slip
 from seismass.effective_mass.runs import NamedMotions
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
+from seismass.model.tipping import BlockSize
 from seismass.studies.slip.clearance import Clearance, place_columns, place_names, places_of
+from seismass.studies.slip.estimates import log_ratio
 from seismass.studies.slip.runs import SlipRuns, SolvedMotion
-from seismass.studies.slip.squat import BlockSize, log_ratio
 
 
 def block_table(

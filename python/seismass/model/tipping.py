@@ -1,22 +1,22 @@
-"""Whether a block slides or rocks: its size, the static rule, uplift by the floor's acceleration, and a limit of
-velocity below which overturning is not expected. The model of the kernel slides and does not rock.
+"""Goods that tip: the size of a block, whether it slides or rocks, and the model that stands for goods that rock.
+
+The kernel's blocks slide and do not rock. A split of their mass stands for goods that rock and do not fall: a part
+moves with the floor, the rest slides with mu = b/h.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Final, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
 from seismass.base.errors import InvalidOption
+from seismass.base.files import stored_rows
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_number, as_positive, brief, refusal
-from seismass.base.views import Card
-from seismass.motions.motion import Motion
-from seismass.motions.spectra import response_spectrum
+from seismass.base.values import as_number, as_positive, brief, refusal
 
 OWNER: Final = "block size"
 
@@ -149,114 +149,53 @@ def as_sizes(sizes: Any, blocks: int) -> tuple[BlockSize | None, ...]:
     return tuple(listed)
 
 
-def demand_in_g(acceleration: FloatArray, vertical: FloatArray | None) -> float:
-    """Return the largest abs(a)/(g + a_v) of a history (m/s2, up positive, NaN after a collapse), by which friction and
-    uplift are limited. Samples at which g + a_v is not positive have no contact and are left out.
+Tipping: TypeAlias = Literal["slide", "split", "attached"]
+"""What stands for the goods of one kind: they slide; they rock, and a part of them stays with the floor; all of them
+stay with the floor."""
+FALLS_BELOW: Final = 0.3
+"""b/h below which goods that rock may fall at the design level: of blocks 1 to 2 m high that lift off 82 % fall at 0.2
+and 42 % at 0.3, of those 4 to 6 m high 32 % and 3 %. An assumption, which `rocking` of a building file replaces."""
+ROCKING_PART: Final = 0.75
+"""Part of the mass of a slender block that does not follow its floor while it rocks."""
+
+
+def staying_part(ratio: float) -> float:
+    """Return the part of a rocking block of b/h = `ratio` that moves with the floor, 1 - 0.75/(1 + (b/h)^2): m times
+    1 - 0.75 cos^2 phi does, with tan phi = b/h as it lifts off (docs/rocking.md).
     """
-    weight = STANDARD_GRAVITY + (np.zeros(1) if vertical is None else vertical)
-    ratio = np.where(weight > 0.0, np.abs(acceleration) / np.where(weight > 0.0, weight, 1.0), 0.0)
-    return float(np.nanmax(ratio, initial=0.0))
+    return 1.0 - ROCKING_PART / (1.0 + ratio * ratio)
 
 
-BOUND_LIMIT: Final = 6.0
-"""Largest A/N of the bound of Newmark (1965); beyond it the bound is 6 V^2/(2 g N)."""
-ASCE43_DAMPING: Final = 0.10
-"""Damping ratio of the spectrum of ASCE/SEI 43-05, A.1."""
-_PERIODS: Final = np.geomspace(0.02, 20.0, 401)
-"""Periods (s) among which the frequency of ASCE/SEI 43-05 is sought: 1/20 to 50 Hz, steps of 1.7 %."""
-
-
-@dataclass(frozen=True, slots=True)
-class Base(Card):
-    """The motion of what a block stands on.
-
-    Attributes
-    ----------
-    motion : Motion
-        Its absolute acceleration.
-    acceleration, velocity, vertical : float
-        Peaks of the absolute acceleration (m/s2), of the absolute velocity (m/s) and of the vertical acceleration
-        (m/s2; zero without one).
+class Falls(NamedTuple):
+    """How many of single blocks of a size that lift off fall: b/h, height in words, share, and its range over single
+    buildings.
     """
 
-    motion: Motion
-    acceleration: float
-    velocity: float
-    vertical: float
+    ratio: float
+    height: str
+    highest: float
+    share: float
+    low: float
+    high: float
 
 
-def newmark_pulse(base: Base, mu_k: float) -> float:
-    """Return V^2/(2 mu g) (1 - mu g/A): the slip under a rectangular pulse with peaks A and V (m).
+FALLS: Final = tuple(
+    Falls(float(row["ratio"]), row["height"], *(float(row[name]) for name in ("highest", "share", "low", "high")))
+    for row in stored_rows("falls")
+)
+"""Falls at a design level of S_DS = 1 g, by b/h and height; made by benchmarks/rocking.py, see docs/rocking.md."""
 
-    Newmark (1965), Géotechnique 15:139-160; exact for one pulse of constant acceleration A that lasts V/A. No slip
-    where A <= mu g.
+
+def falls_of(ratio: float, height: float) -> Falls | None:
+    """Return the row of `FALLS` with the next smaller b/h and the height (m) of a block; None where there is none."""
+    rows = [row for row in FALLS if row.ratio <= ratio * (1.0 + 1e-9) and height <= row.highest]
+    return max(rows, key=lambda row: (-row.highest, row.ratio), default=None)
+
+
+def tipping_of(size: BlockSize | None, mu_s: float) -> Tipping:
+    """Return what stands for goods of a size: "slide" where it is not known or they slide first, "split" where they
+    rock, "attached" where they may fall.
     """
-    limit = mu_k * STANDARD_GRAVITY
-    if not base.acceleration > limit:
-        return 0.0
-    return np.inf if limit == 0.0 else base.velocity**2 / (2.0 * limit) * (1.0 - limit / base.acceleration)
-
-
-def newmark_bound(base: Base, mu_k: float) -> float:
-    """Return V^2/(2 mu g) min(A/(mu g), 6): an upper bound for earthquakes (m).
-
-    Newmark (1965), for a block that slides to one side only, and so of several pulses that add up; a block on a level
-    floor slides back as well. From memory, not checked in a source.
-    """
-    limit = mu_k * STANDARD_GRAVITY
-    if not base.acceleration > limit:
-        return 0.0
-    if limit == 0.0:
-        return np.inf
-    return base.velocity**2 / (2.0 * limit) * min(base.acceleration / limit, BOUND_LIMIT)
-
-
-def asce43(base: Base, mu_k: float) -> float:
-    """Return the sliding distance of ASCE/SEI 43-05, Appendix A.1 (m).
-
-    mu_e = mu (1 - 0.4 A_v/g), c_s = 2 mu_e g, and c_s/(2 pi f_es)^2, where f_es is the lowest frequency at which the
-    spectral acceleration at 10 % damping equals c_s: the spectral displacement there. mu_e, c_s and f_es were read in a
-    copy of the appendix; the last expression is from memory, as it was illegible there. The standard calls it a
-    conservatively biased best estimate and combines two horizontal directions, of which the model has one. Zero where
-    the spectrum is below c_s everywhere; infinite where c_s is zero, or exceeded at 0.05 Hz still.
-    """
-    effective = mu_k * max(1.0 - 0.4 * base.vertical / STANDARD_GRAVITY, 0.0)
-    coefficient = 2.0 * effective * STANDARD_GRAVITY
-    spectrum = response_spectrum(base.motion, _PERIODS, ASCE43_DAMPING)[0]
-    above = np.flatnonzero(spectrum >= coefficient)
-    if not len(above):
-        return 0.0
-    last = int(above[-1])
-    if last == len(_PERIODS) - 1 or coefficient == 0.0:
-        return np.inf
-    falling = np.log(spectrum[last : last + 2])
-    weight = (falling[0] - np.log(coefficient)) / (falling[0] - falling[1])
-    log_period = (1.0 - weight) * np.log(_PERIODS[last]) + weight * np.log(_PERIODS[last + 1])
-    return float(coefficient * (np.exp(log_period) / (2.0 * np.pi)) ** 2)
-
-
-ESTIMATES: Final[dict[str, Callable[[Base, float], float]]] = {
-    "newmark_pulse": newmark_pulse,
-    "newmark_bound": newmark_bound,
-    "asce43": asce43,
-}
-"""Estimates by name; each takes the motion of the base and the kinetic friction coefficient."""
-
-TITLES: Final[dict[str, str]] = {
-    "newmark_pulse": "Newmark (1965), one pulse",
-    "newmark_bound": "Newmark (1965), bound for one side",
-    "asce43": "ASCE/SEI 43-05, A.1",
-    "rigid_block": "rigid block, exact",
-}
-"""What texts and figures call estimates; the last is the kernel's block on that base."""
-
-
-def estimates(base: Base, mu_k: float) -> dict[str, float]:
-    """Return all estimates by name (m)."""
-    return {name: float(function(base, mu_k)) for name, function in ESTIMATES.items()}
-
-
-def log_ratio(estimate: FloatArray, exact: FloatArray) -> FloatArray:
-    """Return ln(estimate/exact) of the pairs in which both are positive and finite."""
-    both = (estimate > 0.0) & (exact > 0.0) & np.isfinite(estimate) & np.isfinite(exact)
-    return np.asarray(np.log(estimate[both] / exact[both]), dtype=np.float64)
+    if size is None or not size.rocks_first(mu_s):
+        return "slide"
+    return "attached" if size.uplift_g < FALLS_BELOW else "split"
