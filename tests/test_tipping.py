@@ -346,6 +346,7 @@ def test_commands_take_the_size_of_a_building_file(tmp_path: Path, capsys: pytes
     written = page_file.read_text(encoding="utf-8")
     assert "tips at 0.1 g" in written
     assert "tip before they slide" in written
+    assert "some of its goods tip before they slide" in written
 
 
 def test_new_asks_for_the_size(tmp_path: Path) -> None:

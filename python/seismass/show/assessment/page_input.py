@@ -305,6 +305,8 @@ def live_case(result: AssessmentTables) -> Outcome:
         reasons.append("its goods stand on racks")
     if any(kind["stops"] is not None for kind in loose):
         reasons.append("its goods have stops")
+    if result.document.get("tipping"):
+        reasons.append("some of its goods tip before they slide")
     if data["damping_from_storey"] > 1:
         reasons.append("its lowest storeys are not damped")
     strength = [row["yield_shear"] for row in storeys]
