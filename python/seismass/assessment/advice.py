@@ -118,7 +118,9 @@ def _presence_remark(building: OwnBuilding, there: list[FloorGoods]) -> str:
     source = f" Surveys: {surveyed_load(USUAL).source}." if surveyed else ""
     source += (
         " Full floors have the mean of the survey and one standard deviation of a floor of that area, at most the "
-        "design live load; all of it where the share is stated."
+        "design live load."
+        if surveyed
+        else " Full floors have all of the design live load."
     )
     return f"Goods present: {building.present_share:.3g} of the design live load of the whole building; {how}.{source}"
 

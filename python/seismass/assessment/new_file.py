@@ -58,10 +58,15 @@ _positive, _share = _number(POSITIVE), _number(SHARE)
 
 
 def _friction(text: str) -> str | float:
-    known = friction_table()["pair_id"].to_list()
+    known: list[str] = friction_table()["pair_id"].to_list()
     if text.strip() in known:
         return text.strip()
-    return _positive(text)
+    try:
+        return _positive(text)
+    except ValueError:
+        words = set(re.findall("[a-z]+", text.casefold()))
+        near = [name for name in known if words & set(name.split("-")) - {"on"}]
+        raise ValueError(f"; {', '.join(near)} are like it" if near else "") from None
 
 
 def live_share(stated: str) -> float:
@@ -106,8 +111,14 @@ class Question:
         """Read an answer, or refuse it."""
         try:
             return self.read(str(value))
-        except ValueError:
-            raise refusal(InvalidOption, self.name, "new building", self.must, brief(value)) from None
+        except ValueError as error:
+            near = str(error) if str(error).startswith(";") else ""
+            raise refusal(InvalidOption, self.option, "new building", self.must + near, brief(value)) from None
+
+    @property
+    def option(self) -> str:
+        """Its option of the command."""
+        return f"--{self.name.replace('_', '-')}"
 
 
 MASS_INCLUDES: Final = Question(
@@ -199,10 +210,10 @@ def fit_of_curves(
 
 def _need(answers: Mapping[str, Any], questions: Sequence[Question]) -> None:
     """Refuse answers that lack one."""
-    for question in questions:
-        if question.name not in answers and question.read is not _size:
-            need = f"given, by --{question.name.replace('_', '-')}, where it is not asked for"
-            raise refusal(InvalidOption, question.name, "new building", need, "nothing")
+    missing = [each for each in questions if each.name not in answers and each.read is not _size]
+    if missing:
+        need = f"given, by {', '.join(each.option for each in missing)}, where they are not asked for"
+        raise refusal(InvalidOption, missing[0].name, "new building", need, "nothing")
 
 
 def building_text(
@@ -250,7 +261,7 @@ def building_text(
             else []
         ),
         *(_SLOPES if fit is None else [f"# springs: {_misfit(fit)}"]),
-        "drift_limit = 0.020          # of the height",
+        "# drift_limit = 0.020        # of the height, in place of that of the code",
         "",
         "[goods]",
         'use = "storage"              # or "archive", "assembly", "shop", "ordinary"; by floor in [[storeys]]',

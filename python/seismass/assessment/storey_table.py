@@ -166,7 +166,7 @@ def read_storey_table(
         joined.remarks += [f"tables of {printable(path.name)} that are not read: {few_names(others)}"] * bool(others)
         tables += (_Rows(sheet, direction) for sheet in sheets)
     joined.add(tables, system)
-    return _ordered(joined, order, base_level)
+    return _ordered(joined, order, base_level, direction)
 
 
 class _Rows:
@@ -254,6 +254,7 @@ class _Joined:
         self.remarks: list[str] = []
         self.carried: dict[str, list[str]] = {}
         self.live_mass = self.case_used = False
+        self.of_other: list[str] = []
         self._owners: dict[str, str] = {}
 
     def add(self, tables: list[_Rows], system: tuple[float, float] | None) -> None:
@@ -270,6 +271,7 @@ class _Joined:
                     self._join(rows, kind, system)
             unread = few_names(rows.sheet.unread)
             self.remarks += [f"columns of {rows.sheet.label} that are not read: {unread}"] * bool(unread)
+            self.of_other += rows.sheet.of_other
 
     def _join(self, rows: _Rows, kind: str, system: tuple[float, float] | None) -> None:
         sheet = rows.sheet
@@ -315,7 +317,9 @@ def _key(name: str) -> str:
     return " ".join(name.casefold().split())
 
 
-def _ordered(joined: _Joined, order: Order | None, base_level: float | str | None) -> StoreyTable:
+def _ordered(
+    joined: _Joined, order: Order | None, base_level: float | str | None, direction: Literal["x", "y"]
+) -> StoreyTable:
     """Storeys from the ground up, without the row of the base and what is below the base level."""
     file, values, remarks = joined.source, joined.values, joined.remarks
     if joined.case is not None and not joined.case_used:
@@ -369,6 +373,10 @@ def _ordered(joined: _Joined, order: Order | None, base_level: float | str | Non
     if mass is None and weight is not None:
         mass = weight / STANDARD_GRAVITY
         remarks.append("masses are weights over g")
+    other = "y" if direction == "x" else "x"
+    if joined.of_other:
+        listed = few_names(tuple(dict.fromkeys(joined.of_other)))
+        remarks.append(f"direction {direction} is read, and not {listed}: --direction {other} reads {other}")
     result = {
         "height": heights,
         "mass": mass,
@@ -380,7 +388,8 @@ def _ordered(joined: _Joined, order: Order | None, base_level: float | str | Non
             if not 0.0 < number < np.inf:
                 got = "nothing" if np.isnan(number) else f"{number:g}"
                 what = f"{kind} of storey {short(names[i])}"
-                raise refusal(InvalidBuildingFile, what, file, "a positive number", got)
+                need = "a positive number" + f", or --direction {other} be given" * bool(joined.of_other)
+                raise refusal(InvalidBuildingFile, what, file, need, got)
     remarks += [
         f"{short(name)} is taken as a whole floor: where it covers a part, add its mass and height to the floor above"
         for name in names

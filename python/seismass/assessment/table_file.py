@@ -137,6 +137,7 @@ class Sheet:
     width: int
     states_units: bool
     unread: tuple[str, ...] = ()
+    of_other: tuple[str, ...] = ()
     mark: Mark | None = None
     system: tuple[float, float] | None = None
 
@@ -419,13 +420,14 @@ def _sheet(path: Path, title: str, rows: Rows, names: Names, needed: tuple[str, 
                     _refuse_vy(path, head)
                 units = {k: "" if units_of[p].lower() in _NO_UNIT else units_of[p] for k, p in columns.items()}
                 of_other = {name for words in known.values() for name in words}
-                unread = tuple(
-                    head[place]
-                    for place in full
-                    if place not in columns.values() and column_name(head[place].split("(")[0], other) not in of_other
+                further = [place for place in full if place not in columns.values()]
+                in_other = [place for place in further if column_name(head[place].split("(")[0], other) in of_other]
+                unread, others = (
+                    tuple(head[place] for place in further if (place in in_other) == known_there)
+                    for known_there in (False, True)
                 )
                 heads = {kind: head[place] for kind, place in columns.items()}
-                return Sheet(path, title, columns, heads, units, body, len(head), any(units_of), unread)
+                return Sheet(path, title, columns, heads, units, body, len(head), any(units_of), unread, others)
     return None
 
 

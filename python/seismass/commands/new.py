@@ -27,9 +27,9 @@ _OPTIONS = {
     "period": ("S", "first period without goods, s"),
     "sds": ("G", "S_DS of the site, g"),
     "sd1": ("G", "S_D1 of the site, g"),
-    "reduction": ("R", "R by which strengths are designed"),
+    "reduction": ("R", "R (or q) by which strengths are designed"),
     "live_load": ("KPA", "design live load of the loaded floors, kPa; the roof has none"),
-    "occupied": ("SHARE", "share of it that is present"),
+    "occupied": ("SHARE", "share of the design live load that is present, 0 to 1"),
     "friction": ("MU", "friction of the goods: a number, or a contact of `seismass building --frictions`"),
     "goods_size": ("BxH", "width and height of one of them, m; left out: they slide and do not tip"),
 }
@@ -54,7 +54,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     table.add_argument(
         "--mass-includes",
         metavar="SHARE",
-        help="share of the live load in its masses: 0.25, or the mass source, '1.0 D + 0.25 L'; it is taken off",
+        help="share of the live load in the masses of TABLE, taken off them: 0.25, or the mass source '1.0 D + 0.25 L'",
     )
     table.add_argument(
         "--base-level", metavar="LEVEL", help="elevation (m) or floor at which the building is held; or lowest"
@@ -67,7 +67,9 @@ def options(parser: argparse.ArgumentParser) -> None:
     table.add_argument(
         "--order", choices=("roof-first", "ground-first"), help="order of its rows, where they do not say it"
     )
-    table.add_argument("--direction", choices=("x", "y"), default="x", help="direction of its columns (x)")
+    table.add_argument(
+        "--direction", choices=("x", "y"), default="x", help="which of Stiff X and Y, UX and UY is read (x)"
+    )
     push = parser.add_argument_group("springs fitted to pushover curves; units and order as above")
     push.add_argument(
         "--pushover",
@@ -160,13 +162,16 @@ def _table_lines(table: StoreyTable | None, answers: dict[str, Any], loaded: Seq
     mass = bare_mass(table, answers, bare)
     if mass is not None:
         loads = 1e-3 * STANDARD_GRAVITY * mass / answers["area"]
-        lines.append(f"  floors weigh {min(loads):.3g} to {max(loads):.3g} kPa over {answers['area']:g} m2")
         included = answers.get("mass_includes", 0.0)
+        off = 0.0 if table.mass is None else float((table.mass - mass).max())
         lines.append(
-            f"  {included:g} of the live load is taken off the masses of loaded floors"
+            f"  {included:g} of the live load, {1e-3 * off:.4g} t, is taken off the masses of each loaded floor"
             if included > 0.0
             else "  masses are taken as those without live load; --mass-includes takes off a share of it"
         )
+        written = ", ".join(f"{name} {1e-3 * each:.6g}" for name, each in zip(table.names, mass, strict=True))
+        lines.append(f"  masses written (t): {written}")
+        lines.append(f"  floors then weigh {min(loads):.3g} to {max(loads):.3g} kPa over {answers['area']:g} m2")
     without = [name for name, each in zip(table.names, bare, strict=True) if each]
     if without:
         lines.append(f"  no goods on {', '.join(without)}: roofs and penthouses; --loaded NAME puts goods there")

@@ -273,7 +273,8 @@ def _limited(
     if rule is None:
         return calculated
     if not system or height is None or made.code_id not in PERIOD_CODES:
-        made.lacks("the upper limit of T is not applied: state building.system and heights")
+        missing = [name for name, known in (("building.system", system), ("heights", height)) if not known]
+        made.lacks(f"the upper limit of T is not applied: state {' and '.join(missing) or 'another code'}")
         return calculated
     try:
         limit = code_period(made.code_id, system, height=height, storeys=storeys, s_d1=_at_1_s(target)).limit
