@@ -473,7 +473,10 @@ MORE_WRONG: list[tuple[dict[str, Any], str]] = [
         {"building": {"height_m": None, "height_ft": -1.0}},
         "building.height_ft of building must be a positive number; got",
     ),
-    ({"goods": {"height_ft": 13.0}}, "goods.height_ft of building must be one of the keys"),
+    (
+        {"goods": {"height_ft": 13.0}},
+        "goods.width_m of building must be given: width_m and height_m are the size of one of the goods",
+    ),
     (
         {"building": {"period_mass": "all"}},
         "period_s of building must be given, or building.system; got nothing",

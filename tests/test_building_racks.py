@@ -49,7 +49,7 @@ def test_a_direction_stands_for_a_period() -> None:
     assert building.kinds[0].rack.levels == DEFAULT_LEVELS
     assert "from memory" in building.kinds[0].rack.how
     np.testing.assert_allclose(building.frames, DEFAULT_FRAME * building.goods_mass * [1, 0, 1], rtol=1e-14)
-    assert building.sliding == ((1, 0), (0, 1), (0, 2), (0, 3), (2, 1), (2, 2), (2, 3))
+    assert building.sliding() == ((1, 0), (0, 1), (0, 2), (0, 3), (2, 1), (2, 2), (2, 3))
 
 
 def test_kinds_of_goods_stand_differently() -> None:

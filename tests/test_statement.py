@@ -83,7 +83,9 @@ def made_up(seed: int) -> SimpleNamespace:
     ]
     amounts = (first, *further[int(draw.integers(2)) :][: int(draw.integers(2))])
     friction = str(draw.choice(reals))
-    statement = statement_of(building, friction, (storeys, governing, slip), collapses, motions, amounts)
+    statement = statement_of(
+        building, friction, (storeys, governing, slip), collapses, motions, amounts, tipping=pl.DataFrame()
+    )
     return SimpleNamespace(**{name: value for name, value in locals().items() if name not in ("draw", "rows")})
 
 

@@ -43,6 +43,7 @@ def test_elevations_masses_and_stiffnesses_with_a_row_of_units(tmp_path: Path) -
     assert found.remarks == (
         "row Base is the ground and no storey: left out",
         "heights are differences of elevations, over a base at 0.2 m",
+        "direction x is read, and not Mass Y, Stiffness Y: --direction y reads y",
     )
     assert "2       Roof" in found.text
     other = read_storey_table(file, direction="y")
@@ -197,7 +198,7 @@ def test_questions_are_asked_on_a_terminal(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """An answer that cannot be read is asked for again; an empty one takes the default."""
-    given = iter(["", "2", "4", "500", "-5", "5", "0.4", "1.0", "0.6", "", "6", "0.8", "timber-on-steel"])
+    given = iter(["", "2", "4", "500", "-5", "5", "0.4", "1.0", "0.6", "", "6", "0.8", "timber-on-steel", "1x2@3", "0.8x2.0"])
     asked: list[str] = []
 
     def answer(question: str) -> str:
@@ -208,9 +209,12 @@ def test_questions_are_asked_on_a_terminal(
     monkeypatch.setattr("sys.stdin.isatty", lambda: True)
     out = tmp_path / "own.toml"
     assert main(["new", str(out)]) == 0
-    assert len(asked) == 13
+    assert len(asked) == 15
     assert "a positive number, please" in capsys.readouterr().out
     building = read_building(out)
     assert building.name == "my building"
     assert building.kinds[0].contact == "timber-on-steel"
     assert [kind.occupied for kind in building.kinds] == [0.8, 0.8]
+    size = building.kinds[0].size
+    assert size is not None
+    assert (size.width, size.height) == (0.8, 2.0)

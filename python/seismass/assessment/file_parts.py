@@ -201,7 +201,11 @@ def size_of(tables: tuple[Table, ...]) -> tuple[BlockSize | None, str]:
             model[0].refuse(SIZE[2], f"left out where {SIZE[0]} and {SIZE[1]} of the goods are not given", stated_model)
         return None, ""
     for key in SIZE[:2]:
-        place[0].needed(key)
+        if key not in place[0].values:
+            both = (
+                f"given: {SIZE[0]} and {SIZE[1]} are the size of one of the goods (heights of storeys stand elsewhere)"
+            )
+            place[0].refuse(key, both, "nothing")
     return BlockSize(*(place[0].number(key, need=POSITIVE) for key in SIZE[:2])), stated_model
 
 
