@@ -236,7 +236,7 @@ def as_tables(rows: pl.DataFrame) -> tuple[pl.DataFrame, pl.DataFrame]:
         *(pl.lit(1.5).alias(name) for name in (*statistics, *scatter)),
         *(pl.lit(0).alias(f"collapses_{model}") for model in ("real", "code", "attached")),
     )
-    numbers = dict.fromkeys(("eta", "estimate", "conservative", "effective"), pl.lit(0.5))
+    numbers = dict.fromkeys(("eta", "estimate", "effective"), pl.lit(0.5))
     return summary, summary.select("building", **numbers)
 
 

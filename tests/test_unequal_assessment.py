@@ -10,6 +10,7 @@ import pytest
 
 import seismass as sm
 from seismass.assessment.advice import _envelope
+from seismass.assessment.answer import deciding
 from seismass.assessment.checks import largest_excess
 from seismass.assessment.doubts import _load_doubts
 from seismass.assessment.models import motion_of_runs
@@ -126,7 +127,8 @@ def test_shares_are_told_of_the_goods_present_and_of_the_design_load(unequal: sm
     np.testing.assert_allclose(masses["weight_1_kn"], floors + unequal.advised * present * loads, rtol=1e-12)
     real = unequal.effective["real"]
     mu_k = np.array([0.59 * 0.88 * 0.214 + 0.41 * 0.55 * 0.154, 0.71 * 0.184, 0.43 * 0.24]) @ loads / (present @ loads)
-    assert f"eta = mu_k/C1 = {mu_k / real.base_shear_coefficient:.3f}" in text
+    assert real.by_hand.friction == pytest.approx(mu_k, rel=1e-12)
+    assert f"mu_k = {unequal.effective[deciding(unequal.effective)].by_hand.friction:.3g}" in text
 
 
 def test_sentences_name_the_storey_and_the_friction_of_the_largest_ratio(unequal: sm.Assessment) -> None:
