@@ -18,17 +18,8 @@ from seismass import _kernel
 from seismass.base.errors import MissingPackage
 from seismass.design import response_spectrum_analysis
 from seismass.design.scaling import scale_asce7_10
-from seismass.effective_mass import effective_mass
+from seismass.effective_mass import effective_mass, rule
 from seismass.effective_mass.models import bootstrap_counts
-from seismass.effective_mass.rule import (
-    LARGEST_LOAD,
-    LARGEST_SECOND_SLOPE,
-    LEAST_OVERSTRENGTH,
-    OFFSET,
-    POWER,
-    SLOPE,
-    SMALL_OFFSET,
-)
 from seismass.media.page import page_html, templates
 from seismass.media.roles import CODE, SLIDE, YIELDS
 from seismass.model.block import blocks_on_floors
@@ -274,13 +265,13 @@ def _page_data() -> dict[str, Any]:
         "bins": [one.content for one in BINS],
         "enlargements": list(FACTORS),
         "rule": {
-            "slope": SLOPE,
-            "offset": OFFSET,
-            "smallOffset": SMALL_OFFSET,
-            "power": POWER,
-            "leastOverstrength": LEAST_OVERSTRENGTH,
-            "largestSecondSlope": LARGEST_SECOND_SLOPE,
-            "largestLoad": LARGEST_LOAD,
+            "slope": rule.SLOPE,
+            "offset": rule.OFFSET,
+            "smallOffset": rule.SMALL_OFFSET,
+            "power": rule.POWER,
+            "leastOverstrength": rule.LEAST_OVERSTRENGTH,
+            "largestSecondSlope": rule.LARGEST_SECOND_SLOPE,
+            "largestLoad": rule.LARGEST_LOAD,
         },
     }
 
