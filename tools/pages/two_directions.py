@@ -54,7 +54,7 @@ def fill(page: Page) -> None:
     failed, runs = (sum(case[name] for case in cases) for name in ("failed", "pairs"))
     reached = f"All but {failed} of {failed + runs}" if failed else f"All {runs}"
     page.words("\n\n{} runs in two directions reach their end.", reached)
-    page.words("mu_k counts {} times: lambda = 1.35 x {} mu_k/C1 - 0.15 ", *[f"{REDUCED_FRICTION:g}"] * 2)
+    page.words("mu counts {} times: lambda = 1.35 x {} mu/C1 - 0.15 ", *[f"{REDUCED_FRICTION:g}"] * 2)
     said = "building of {} storeys with stated strengths in two directions under {} pairs ({} of them turned in plan), "
     said += "with its three frictions, takes {} s of {} cores, {} s of processor"
     timed = ("storeys", "pairs", "turned", "seconds", "cores", "processor_seconds")
@@ -148,7 +148,7 @@ def code_table(cases: Sequence[Case]) -> str:
 
 RULES: Final[dict[str, Callable[[Case], float]]] = {
     f"{RULE}, of one direction": lambda case: _by_hand(case, 1.0),
-    "two directions: 0.8 mu_k in it": lambda case: _by_hand(case, REDUCED_FRICTION),
+    "two directions: 0.8 mu in it": lambda case: _by_hand(case, REDUCED_FRICTION),
 }
 """Rules that are compared with the runs in two directions."""
 

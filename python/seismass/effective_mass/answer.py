@@ -226,7 +226,7 @@ def effective_mass(
 
     In two directions the real building has friction on the circle, and models have the same share attached in both.
     Nothing couples the directions of a model, so that each is solved by itself; for the vector, as a run in two
-    directions. The rule by hand takes the building in x, or in y where `drift` is that, and 0.8 times mu_k
+    directions. The rule by hand takes the building in x, or in y where `drift` is that, and 0.8 times mu
     (docs/two_directions.md).
 
     Examples

@@ -88,8 +88,8 @@ class EffectiveMass(Result):
         Mean over the motions of the peak base shear of the fully attached model in the runs, over the weight of
         building and goods.
     by_hand : ByHand
-        The rule 1.35 mu_k/C1 - 0.15 without any run, with all that it takes; in two directions 0.8 mu_k in place of
-        mu_k.
+        The rule 1.35 mu/C1 - 0.15 without any run, with all that it takes; in two directions 0.8 mu in place of
+        mu.
     curve : polars.DataFrame
         One row per share and storey (0: the largest over the storeys of each run): fraction, storey, model_drift,
         real_drift, ratio (real over model), ratio_low and ratio_high (its bootstrap interval, for storey 0).

@@ -1,11 +1,12 @@
 """The effective fraction by hand, in one line, and how rules are compared with runs.
 
-    lambda = 1.35 mu_k/C1 - 0.15, from 0 to 1,     C1 = S_a/R_y^(2/3),     R_y = S_a W_g/V_y, at least 1.
+    lambda = 1.35 mu/C1 - 0.15, from 0 to 1,     C1 = S_a/R_y^(2/3),     R_y = S_a W_g/V_y, at least 1.
 
-mu_k is the kinetic friction coefficient of the goods, S_a (in g) the spectral acceleration at the first period of the
-building without goods, W_g the weight of the building with all goods on its floors, V_y the yield shear of storey 1.
-An elastic building has R_y = 1. 0.10 stands in place of 0.15 where the overstrength is below 1.5 or there is no second
-slope, where the second slope is above 0.1, and where a floor carries goods of more than twice its mass.
+mu is the mean of the static and the kinetic friction coefficient of the goods, since goods that are held do not slide;
+S_a (in g) is the spectral acceleration at the first period of the building without goods, W_g the weight of the
+building with all goods on its floors, V_y the yield shear of storey 1. An elastic building has R_y = 1. 0.10 stands in
+place of 0.15 where the overstrength is below 1.5 or there is no second slope, where the second slope is above 0.1, and
+where a floor carries goods of more than twice its mass.
 
 C1 is the geometric mean of S_a (once) and V_y/W_g (twice) where the building yields: what a floor feels
 grows beyond V_y with S_a. 1.35 and 0.15 are rounded, and were fitted on the FEMA P-695 far-field recordings and the
@@ -32,7 +33,7 @@ from seismass.model.scene import Scene
 from seismass.motions.spectra import TargetSpectrum, mean_spectrum
 
 SLOPE: Final = 1.35
-"""Factor of mu_k/C1."""
+"""Factor of mu/C1."""
 OFFSET: Final = 0.15
 """What is taken off in an ordinary building."""
 SMALL_OFFSET: Final = 0.10
@@ -44,12 +45,13 @@ LARGEST_SECOND_SLOPE: Final = 0.1
 LARGEST_LOAD: Final = 2.0
 """Goods over the mass of their floor."""
 
-RULE: Final = f"{SLOPE:g} mu_k/C1 - {OFFSET:.2f}"
+RULE: Final = f"{SLOPE:g} mu/C1 - {OFFSET:.2f}"
 """The rule, as texts and tables name it."""
 RULE_IN_WORDS: Final = (
-    "C1 = S_a/R_y^(2/3), R_y = S_a W_g/V_y, at least 1; S_a in g at the period without goods, W_g with all goods on "
-    f"the floors, V_y of storey 1; - {SMALL_OFFSET:.2f} with Omega below {LEAST_OVERSTRENGTH:g}, without a second "
-    f"slope, with r2 above {LARGEST_SECOND_SLOPE:g} or goods above {LARGEST_LOAD:g} times their floor"
+    "mu the mean of static and kinetic friction; C1 = S_a/R_y^(2/3), R_y = S_a W_g/V_y, at least 1; S_a in g at the "
+    "period without goods, W_g with all goods on the floors, V_y of storey 1; "
+    f"- {SMALL_OFFSET:.2f} with Omega below {LEAST_OVERSTRENGTH:g}, without a second slope, with r2 above "
+    f"{LARGEST_SECOND_SLOPE:g} or goods above {LARGEST_LOAD:g} times their floor"
 )
 """What its letters stand for."""
 
@@ -67,9 +69,9 @@ def floor_coefficient(spectral_acceleration_g: ArrayLike, yield_coefficient: Arr
     return coefficient
 
 
-def share_by_hand(mu_k: ArrayLike, coefficient: ArrayLike, offset: ArrayLike = OFFSET) -> FloatArray:
+def share_by_hand(mu: ArrayLike, coefficient: ArrayLike, offset: ArrayLike = OFFSET) -> FloatArray:
     """Return lambda of the rule for friction, C1 and what is taken off."""
-    share: FloatArray = np.clip(SLOPE * np.asarray(mu_k) / np.asarray(coefficient) - np.asarray(offset), 0.0, 1.0)
+    share: FloatArray = np.clip(SLOPE * np.asarray(mu) / np.asarray(coefficient) - np.asarray(offset), 0.0, 1.0)
     return share
 
 
@@ -86,7 +88,7 @@ def exceptions(building: Building, load_ratio: float) -> tuple[str, ...]:
 
 
 REDUCED_FRICTION: Final = 0.8
-"""Factor of mu_k in the rule for two directions, between 1/sqrt(2), which two equal directions share, and 1."""
+"""Factor of mu in the rule for two directions, between 1/sqrt(2), which two equal directions share, and 1."""
 SLIP_IN_EACH: Final = (1.25, 1.1, 3.0)
 """Peak slip in a direction over that of the direction alone: of all cases in sum, the smallest and the largest case."""
 SLIP_LENGTH: Final = 1.8
@@ -110,7 +112,7 @@ class ByHand:
     Attributes
     ----------
     friction : float
-        mu_k of the goods, averaged by mass.
+        mu: the mean of static and kinetic friction of the goods, averaged by mass.
     friction_factor : float
         By which it counts: 1, in two directions 0.8.
     period : float
@@ -154,7 +156,7 @@ class ByHand:
     def formula(self) -> str:
         """The rule of this building in letters."""
         factor = "" if self.friction_factor == 1.0 else f"{self.friction_factor:g} "
-        return f"{SLOPE:g} {factor}mu_k/C1 - {self.offset:.2f}"
+        return f"{SLOPE:g} {factor}mu/C1 - {self.offset:.2f}"
 
     @property
     def words(self) -> str:
@@ -168,7 +170,7 @@ class ByHand:
             strength = f"R_y = S_a W_g/V_y = {self.yield_reduction:.2f}, W_g = {weight}, V_y = {force}"
         why = f"; - {SMALL_OFFSET:.2f}: {', '.join(self.exceptions)}" if self.exceptions else ""
         return (
-            f"{self.formula} = {self.estimate:.2f}; mu_k = {self.friction:.3g}, C1 = S_a/R_y^(2/3) = "
+            f"{self.formula} = {self.estimate:.2f}; mu = {self.friction:.3g}, C1 = S_a/R_y^(2/3) = "
             f"{self.coefficient:.3f}, S_a = {self.spectral_acceleration_g:.3f} g at {self.period:.3f} s ({source}), "
             f"{strength}{why}"
         )
@@ -183,7 +185,8 @@ def by_hand(
     if drift == "y" and isinstance(scene.other_direction, Building):
         scene = scene.replace(building=scene.other_direction, other_direction=True)
     building, goods = building_of(scene), goods_mass(scene)
-    period, weight, mu_k = float(building.periods[0]), full_weight(scene), friction(scene)
+    period, weight = float(building.periods[0]), full_weight(scene)
+    mu = friction(scene, with_static=True)
     components = [] if motions is None else motions.components
     values = mean_spectrum(components, np.ones(len(components)), [period]) if target is None else target([period])
     acceleration = float(np.asarray(values)[0]) / STANDARD_GRAVITY
@@ -193,7 +196,7 @@ def by_hand(
     factor = 1.0 if scene.other_direction is False else REDUCED_FRICTION
     reasons = exceptions(building, float((goods / (building.mass + frame_mass(scene))).max()))
     found = ByHand(
-        friction=mu_k,
+        friction=mu,
         friction_factor=factor,
         period=period,
         spectral_acceleration_g=acceleration,
@@ -205,7 +208,7 @@ def by_hand(
         exceptions=reasons,
         estimate=0.0,
     )
-    return replace(found, estimate=float(share_by_hand(factor * mu_k, coefficient, found.offset)))
+    return replace(found, estimate=float(share_by_hand(factor * mu, coefficient, found.offset)))
 
 
 Rule: TypeAlias = Callable[[pl.DataFrame], FloatArray]

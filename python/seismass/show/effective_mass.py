@@ -269,7 +269,7 @@ def uncertainty_figure(result: LiveLoadUncertainty, name: str | None = None) -> 
 
 
 LARGEST_SHOWN: Final = 1.6
-"""Largest mu_k/C1 that the figure shows; beyond it the fraction is 1."""
+"""Largest mu/C1 that the figure shows; beyond it the fraction is 1."""
 _GROUPS: Final = (
     ("elastic", 0.0, 1.0, SKY, "^"),
     ("R up to 3", 1.0, 3.0, SLIDE.colour, "s"),
@@ -288,7 +288,7 @@ def map_figure(result: EffectiveMassMap, name: str | None = None) -> Figure:
 
 
 def collapse_figure(result: EffectiveMassMap) -> Figure:
-    """Effective fraction against mu_k/C1, every case in which goods slide, by R, with the rule and the codes."""
+    """Effective fraction against mu/C1, every case in which goods slide, by R, with the rule and the codes."""
     sliding = result.table.filter(pl.col("slides"))
     with mpl.rc_context(STYLE):
         # Names of codes reach beyond the axes by more than the layout leaves them.
@@ -324,7 +324,7 @@ def collapse_figure(result: EffectiveMassMap) -> Figure:
             )
         axes.set_xlim(0.0, LARGEST_SHOWN)
         axes.set_ylim(-0.03, 1.05)
-        axes.set_xlabel(r"$\mu_k$ / $C_1$,   $C_1$ = $S_a$ / $R_y^{2/3}$,   $R_y$ = $S_a W_g$ / $V_y$ $\geq$ 1")
+        axes.set_xlabel(r"$\mu$ / $C_1$,   $C_1$ = $S_a$ / $R_y^{2/3}$,   $R_y$ = $S_a W_g$ / $V_y$ $\geq$ 1")
         axes.set_ylabel(EFFECTIVE)
         axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
         legend = figure.legend(loc="outside upper center", ncols=2, frameon=False)

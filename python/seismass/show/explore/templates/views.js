@@ -47,9 +47,9 @@ function runWords({ state, real, code, full }, name) {
 
 // The rule of `seismass.effective_mass.rule`, with the constants that the page carries; S_a of the suite in g.
 function ruleBy(scene, acceleration, constants) {
-  const { storeys, massRatio, muK, strength, overstrength, secondSlope } = scene;
+  const { storeys, massRatio, muS, muK, strength, overstrength, secondSlope } = scene;
   const goods = massRatio.reduce((sum, ratio) => sum + ratio, 0);
-  const friction = massRatio.reduce((sum, ratio, i) => sum + ratio * muK[i], 0) / goods;
+  const friction = massRatio.reduce((sum, ratio, i) => sum + (ratio * (muS[i] + muK[i])) / 2, 0) / goods;
   const yieldCoefficient = strength[0] / (1 + goods / storeys);
   const reduction = Math.max(1, acceleration / yieldCoefficient);
   const coefficient = acceleration / reduction ** constants.power;
@@ -58,9 +58,10 @@ function ruleBy(scene, acceleration, constants) {
   const offset = less ? constants.smallOffset : constants.offset;
   const share = (mu) => Math.min(1, Math.max(0, (constants.slope * mu) / coefficient - offset));
   const words =
-    `${constants.slope} mu_k/C1 - ${fixed(offset, 2)} = ${fixed(share(friction), 3)}; C1 = S_a/R_y^(2/3) = ${fixed(coefficient, 3)}, ` +
+    `${constants.slope} mu/C1 - ${fixed(offset, 2)} = ${fixed(share(friction), 3)}; C1 = S_a/R_y^(2/3) = ${fixed(coefficient, 3)}, ` +
     `S_a = ${fixed(acceleration, 3)} g, R_y = ${fixed(reduction, 2)}`;
-  return { coefficient, share, estimate: share(friction), words };
+  const kinetic = massRatio.reduce((sum, ratio, i) => sum + ratio * muK[i], 0) / goods;
+  return { coefficient, share, estimate: share(friction), overKinetic: friction / kinetic, words };
 }
 
 function fractionWords(found, rule) {
@@ -294,7 +295,7 @@ function drawRule(canvas, colours, found, bins, rule, state) {
   }
   const known = found !== null && !found.error;
   if (known) {
-    const curve = Array.from({ length: 101 }, (_, i) => (i / 100) * most).map((eta) => [eta, rule.share(eta * found.coefficient)]);
+    const curve = Array.from({ length: 101 }, (_, i) => (i / 100) * most).map((eta) => [eta, rule.share(eta * found.coefficient * rule.overKinetic)]);
     panel.line(curve, { colour: colours.ink, width: 1.6 });
   }
   panel.line([[0, state.counted], [most, state.counted]], { colour: colours.code, width: 1.3, dash: [4, 3] });
