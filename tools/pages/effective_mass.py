@@ -74,7 +74,8 @@ def of_building(file: Path, suites: tuple[Suite, Suite]) -> list[list[str]]:
             factors = scaled_to_site(building, suite, target).factors
             motions = scaled_motions(suite, factors)
             how = {"fractions": SHARES, "drift_cap": building.drift_cap, "resamples": 1}
-            found = sm.effective_mass(scene, motions, target=target, **how)
+            level = None if target is None else building.motion_target(target)
+            found = sm.effective_mass(scene, motions, target=level, **how)
             curve = found.curve.filter(storey=0)
             ratio = np.interp(found.by_hand.estimate, curve["fraction"], curve["ratio"])
             by_runs.append("none" if np.isnan(found.value) else f"{found.value:.2f}")

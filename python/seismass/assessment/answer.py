@@ -430,7 +430,8 @@ def fractions_by_friction(
     scenes = [building.scene(target, mu_factor=factor) for factor in frictions.values()]
     drawn = (bootstrap["confidence"], bootstrap["resamples"], bootstrap["seed"])
     values = ("mean", SAME_DAMPING, shares, *drawn, threads, progress)
-    options = checked_options(*values, drift_cap=building.drift_cap, target=target)
+    level = None if target is None else building.motion_target(target)  # of the rule by hand
+    options = checked_options(*values, drift_cap=building.drift_cap, target=level)
     named = named_motions(motions, OWNER, scenes[0])
     solved = solved_frictions(scenes, named, options)
     return {name: one.answer() for name, one in zip(frictions, solved, strict=True)}
@@ -468,7 +469,7 @@ def design_share(
     scene = building.scene(target, mu_factor=factor)
     shares = design_shares(building)
     values = ("mean", SAME_DAMPING, shares, 0.9, 1, 0, threads, progress)
-    options = checked_options(*values, drift_cap=building.drift_cap, target=target)
+    options = checked_options(*values, drift_cap=building.drift_cap)
     named = named_motions(motions, OWNER, scene)
     solved = solved_designs(designed, scene.blocks, named, options, scene.racks, scene.collapse_drift, scene.base)
     fallen = solved.sliding.collapsed.sum(axis=1)

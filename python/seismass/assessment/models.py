@@ -220,7 +220,8 @@ def _with_period_of(building: OwnBuilding, mass: str) -> OwnBuilding:
 
 def _by_hand(building: OwnBuilding, target: TargetSpectrum | None, motions: list[Any]) -> float:
     scene = building.scene(target)
-    return by_hand(scene, named_motions(motions, OWNER, scene), target).estimate
+    level = None if target is None else building.motion_target(target)
+    return by_hand(scene, named_motions(motions, OWNER, scene), level).estimate
 
 
 class Shown(NamedTuple):

@@ -191,7 +191,7 @@ def effective_mass(
         Shares at which models are solved before roots are refined, from 0 to 1; by default 0, 0.01, ..., 1, of
         vectors 0, 0.05, ..., 1.
     target : TargetSpectrum, optional
-        Design spectrum from which the rule by hand takes S_a; by default the mean spectrum of the motions.
+        Spectrum from which the rule by hand takes S_a; by default the mean spectrum of the motions.
     confidence : float, default 0.90
         Probability of the bootstrap interval.
     resamples : int, default 2000

@@ -118,9 +118,9 @@ class ByHand:
     period : float
         First period of the building without goods (s).
     spectral_acceleration_g : float
-        S_a at that period (g): of the design spectrum where one is given, else of the mean spectrum of the motions.
+        S_a at that period (g): of the target spectrum where one is given, else of the mean spectrum of the motions.
     of_target : bool
-        Whether it is of a design spectrum.
+        Whether it is of a target spectrum.
     weight : float
         W_g: building, racks and all goods on the floors (N).
     yield_shear : float or None
@@ -161,7 +161,7 @@ class ByHand:
     @property
     def words(self) -> str:
         """The rule in letters and numbers, in one sentence."""
-        source = "design spectrum" if self.of_target else "mean spectrum of the motions"
+        source = "target spectrum" if self.of_target else "mean spectrum of the motions"
         if self.yield_shear is None:
             strength = "R_y = 1, as no strength limits the base shear"
         else:
