@@ -170,7 +170,7 @@ class ByHand:
             strength = f"R_y = S_a W_g/V_y = {self.yield_reduction:.2f}, W_g = {weight}, V_y = {force}"
         why = f"; - {SMALL_OFFSET:.2f}: {', '.join(self.exceptions)}" if self.exceptions else ""
         return (
-            f"{self.formula} = {self.estimate:.2f}; mu = {self.friction:.3g}, C1 = S_a/R_y^(2/3) = "
+            f"{self.formula} = {self.estimate:.2f}; mu = (mu_s + mu_k)/2 = {self.friction:.3g}, C1 = S_a/R_y^(2/3) = "
             f"{self.coefficient:.3f}, S_a = {self.spectral_acceleration_g:.3f} g at {self.period:.3f} s ({source}), "
             f"{strength}{why}"
         )
