@@ -220,7 +220,7 @@ def test_page_of_a_study_of_several_frictions_without_validation(tmp_path: Path)
         (lambda out: (out / "summary.parquet").write_bytes(b"x"), "content of summary.parquet must be a Parquet table"),
         (lambda out: (out / "study.json").write_text("{"), "content of study.json must be JSON"),
         (lambda out: (out / "study.json").write_text("[]"), "content of study.json must be a JSON object; got list"),
-        (lambda out: (out / "study.json").write_text("{}"), "schema_version of study.json must be 4; got None"),
+        (lambda out: (out / "study.json").write_text("{}"), "schema_version of study.json must be 5; got None"),
         (lambda out: (out / "study.json").unlink(), "No such file"),
     ],
 )

@@ -369,7 +369,7 @@ def test_files_are_written_whole_and_agree(small: StudyResult, tmp_path: Path) -
         assert pl.read_parquet(out / f"{name}.parquet").equals(table)
         assert pl.read_csv(out / f"{name}.csv").height == table.height
     document = json.loads((out / "study.json").read_text())
-    assert document["schema_version"] == 4
+    assert document["schema_version"] == 5
     assert document["package_version"] == sm.__version__
     assert document["parameters"]["second_slope"] == 0.05
     assert document["instructions"] == sm.runs.instruction_set()

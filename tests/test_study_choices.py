@@ -256,7 +256,7 @@ def test_files_carry_what_their_numbers_depend_on(small: StudyResult, tmp_path: 
     document = json.loads((tmp_path / "tables.json").read_text())
     for file in tables:
         found = pl.read_parquet_metadata(file)
-        assert json.loads(found["seismass.schema_version"]) == 4
+        assert json.loads(found["seismass.schema_version"]) == 5
         assert json.loads(found["seismass.package_version"]) == sm.__version__
         assert json.loads(found["seismass.inputs_sha256"]) == small.metadata["inputs_sha256"]
         assert json.loads(found["seismass.target"])["label"] == TARGET.label
