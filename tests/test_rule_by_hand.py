@@ -52,8 +52,8 @@ def test_the_rule_of_a_scene() -> None:
     assert found.estimate == pytest.approx(1.35 * 0.2 * 4.0 ** (2.0 / 3.0) - 0.15, rel=1e-12)
     assert found.exceptions == ()
     assert found.words == (
-        f"{RULE} = 0.53; mu = (mu_s + mu_k)/2 = 0.2, C1 = S_a/R_y^(2/3) = 0.397, S_a = 1.000 g at 0.300 s (target spectrum), "
-        "R_y = S_a W_g/V_y = 4.00, W_g = 392.2660 kN, V_y = 98.0665 kN"
+        f"{RULE} = 0.53; mu = (mu_s + mu_k)/2 = 0.2, C1 = S_a/R_y^(2/3) = 0.397, S_a = 1.000 g at 0.300 s (target "
+        "spectrum), R_y = S_a W_g/V_y = 4.00, W_g = 392.2660 kN, V_y = 98.0665 kN"
     )
 
 
