@@ -31,13 +31,13 @@ import polars as pl
 import seismass as sm
 from environment import page_module
 from seismass.base.values import FloatArray
-from seismass.effective_mass.estimate import exponent, height_ratio
 from seismass.effective_mass.models import attached, full_weight, interpolated
+from seismass.effective_mass.rule import by_hand
 from seismass.effective_mass.runs import named_motions, solve
 from seismass.model.building import Building
 from seismass.model.scene import Scene
 from seismass.motions.records import Pair
-from seismass.motions.spectra import corner_period, mean_spectrum
+from seismass.motions.spectra import mean_spectrum
 from seismass.runs.batch import solve_many
 
 ROOT: Final = Path(__file__).parents[1]
@@ -81,7 +81,6 @@ def cases_of(suite: str) -> list[dict[str, Any]]:
     def spectrum(periods: FloatArray) -> FloatArray:
         return mean_spectrum(motions, np.ones(len(motions)), periods)
 
-    corner = corner_period(spectrum)
     found = []
     for storeys, period in BUILDINGS:
         bare = Building.uniform(storeys, period, mass=1e5)
@@ -91,7 +90,7 @@ def cases_of(suite: str) -> list[dict[str, Any]]:
             design = sm.design.response_spectrum_analysis(bare.mass * (1.0 + 0.25 * ratios), bare.stiffness, spectrum)
             strength = np.inf if reduction == 1.0 else design.storey_shear / reduction
             building = bare.replace(yield_shear=strength)
-            found += _cases(suite, building, ratios, reduction, pairs, components, corner)
+            found += _cases(suite, building, ratios, reduction, pairs, components)
     return found
 
 
@@ -102,18 +101,14 @@ def _cases(
     reduction: float,
     pairs: Sequence[Pair],
     components: Sequence[Any],
-    corner: float,
 ) -> list[dict[str, Any]]:
     """The cases of one building, by eta."""
     stuck = Scene(building, sm.blocks_on_floors(ratios, mu=1.0))
     named = named_motions(components, "study")
     model = solve([attached(stuck, float(share), "same") for share in SHARES], named)
     coefficient = float(model.base_shear[-1].mean()) / full_weight(stuck)
-    yields = bool((model.drift[-1].mean(axis=0) > building.yield_shear / building.stiffness).any())
     period = float(building.periods[0])
-    goods = building.mass * ratios
-    power = float(exponent(period, corner, yields))
-    heights = height_ratio(goods, building.mass)
+    of_rule = by_hand(stuck, None, sm.TargetSpectrum.asce7())
     rows = []
     for eta in ETAS:
         blocks = sm.blocks_on_floors(ratios, mu=eta * coefficient)
@@ -142,9 +137,7 @@ def _cases(
                 "R": reduction,
                 "eta": eta,
                 "mu": eta * coefficient,
-                "exponent": power,
-                "height_ratio": heights,
-                "yields": yields,
+                "coefficient": of_rule.coefficient,
                 "slides": slides,
                 "pairs": int(known.sum()),
                 "failed": int((~known).sum()),

@@ -147,10 +147,10 @@ def test_an_assessment_with_racks() -> None:
     np.testing.assert_allclose(advised.mass, masses, rtol=1e-14)
     assert result.slip["goods"].to_list() == ["level 1", "level 2"] * 2
     assert result.slips["level"].to_list()[:4] == [1, 2, 1, 2]
-    advice = [line for line in result.advice if line.startswith("The rule by period is not applied")]
-    assert f"the runs with them give {effective.value:.2f}, less than it says" in advice[0]
+    advice = [line for line in result.advice if line.startswith("The rule by hand is not applied")]
+    assert f"the runs with them give {effective.value:.2f}, at most what it says" in advice[0]
     assert any(line.startswith("Racks: goods on floor 1 evenly on 2 levels") for line in result.assumptions)
-    assert "not applied: the rule by period knows no racks" in result.text.replace("\n          ", " ")
+    assert "not applied: the rule by hand knows no racks" in result.text.replace("\n          ", " ")
 
 
 def test_an_assessment_with_stiff_racks_may_ask_for_more_than_all() -> None:

@@ -15,7 +15,7 @@ import pytest
 import seismass as sm
 from seismass.cli import main
 from seismass.design import response_spectrum_analysis
-from seismass.effective_mass.estimate import RULES
+from seismass.effective_mass.rule import RULE, RULES
 from seismass.motions.spectra import mean_spectrum
 
 SUITE = sm.builtin_suite("seven")
@@ -103,11 +103,8 @@ def test_table(small: sm.EffectiveMassMap) -> None:
     assert small.table.columns == [
         *("building", "storeys", "period", "roof", "R", "alpha", "intensity", "mu", "eta", "base_shear_coefficient"),
         *(
-            "base_shear_coefficient_by_hand",
-            "height_ratio",
-            "corner_period",
-            "yields",
-            "exponent",
+            "coefficient",
+            "by_hand",
             "slides",
             "value",
             "kind",
@@ -128,29 +125,26 @@ def test_table(small: sm.EffectiveMassMap) -> None:
 
 
 def test_shears_and_rules_of_a_yielding_case_by_hand(small: sm.EffectiveMassMap) -> None:
-    """C1 is the smaller of 1.07 V_e/W and (V_y/W) min(Omega, 1 + r2 (m - 1)); m - 1 = (R_e - 1)(1 + 0.6 T_c/T)."""
+    """V_y of the design, C1 = S_a/R_y^(2/3) with S_a of the target at the bare period, and ratios of runs."""
     g = sm.STANDARD_GRAVITY
-    defaults = sm.EffectiveMassParameters()
     cases = small.table.filter(R=4.0, mu=0.2)
     assert cases.height == 4
     for row in cases.iter_rows(named=True):
-        factors, corner = small.scaling[row["building"], row["alpha"]].factors, row["corner_period"]
+        factors = small.scaling[row["building"], row["alpha"]].factors
         bare = sm.Building.uniform(row["storeys"], row["period"], mass=1.0)
         goods = np.full(row["storeys"], row["alpha"])
         if row["roof"] == "bare":
             goods[-1] = 0.0
-        designed, whole = (
-            response_spectrum_analysis(
-                bare.mass + share * goods, bare.stiffness, lambda at, factors=factors: mean_spectrum(SUITE, factors, at)
-            )
-            for share in (0.25, 1.0)
+        designed = response_spectrum_analysis(
+            bare.mass + 0.25 * goods, bare.stiffness, lambda at, factors=factors: mean_spectrum(SUITE, factors, at)
         )
         weight = g * (bare.mass + goods).sum()
-        strength, elastic = designed.storey_shear[0] / 4.0 / weight, whole.base_shear / weight
-        ductility = (elastic / strength - 1.0) * (1.0 + 0.6 * corner / whole.modes.periods[0])
-        growth = min(defaults.overstrength, 1.0 + defaults.second_slope * ductility)
-        by_hand = min(1.07 * elastic, strength * growth)
-        assert row["base_shear_coefficient_by_hand"] == pytest.approx(by_hand, rel=1e-12)
+        acceleration = float(TARGET([row["period"]])[0]) / g
+        reduction = acceleration * weight / (designed.storey_shear[0] / 4.0)
+        assert reduction > 1.0
+        assert row["coefficient"] == pytest.approx(acceleration / reduction ** (2.0 / 3.0), rel=1e-12)
+        share = min(1.0, max(0.0, 1.35 * 0.2 * reduction ** (2.0 / 3.0) / acceleration - 0.15))
+        assert row["by_hand"] == pytest.approx(share, rel=1e-12)
         building = bare.replace(yield_shear=designed.storey_shear / 4.0)
         runs = {
             share: [
@@ -166,24 +160,17 @@ def test_shears_and_rules_of_a_yielding_case_by_hand(small: sm.EffectiveMassMap)
         drifts = {share: np.mean([run.peak_drift.max() for run in some]) for share, some in runs.items()}
         assert row["ratio_at_0"] == pytest.approx(row["real"] / drifts[0.0], rel=1e-9)
         assert row["ratio_at_1"] == pytest.approx(row["real"] / drifts[1.0], rel=1e-9)
-        storeys = np.mean([run.peak_drift for run in runs[1.0]], axis=0)
-        assert row["yields"] == bool((storeys > building.yield_shear / building.stiffness).any())
-        levels = np.arange(1.0, row["storeys"] + 1.0)
-        masses = bare.mass + goods
-        height = (goods @ levels / goods.sum()) / (masses @ levels / masses.sum())
-        assert row["height_ratio"] == pytest.approx(height, rel=1e-12)
 
 
-def test_rules_of_eta_by_hand(small: sm.EffectiveMassMap) -> None:
-    """Every sliding case by a loop: the model's curve at min(1, eta^2) and min(1, eta), over the real drift."""
+def test_rules_are_those_of_every_sliding_case(small: sm.EffectiveMassMap) -> None:
+    """By a loop: the model's curve at the share by hand, and at 0.25, over the real drift."""
     table = small.rules()
-    for name, power in (("min(1, eta^2), earlier", 2), ("min(1, eta), earlier", 1)):
+    for name, share_of in ((RULE, lambda row: row["by_hand"]), ("ASCE 7 storage, 0.25", lambda row: 0.25)):
         ratios = []
         for case, row in enumerate(small.table.iter_rows(named=True)):
             if row["slides"]:
-                share = min(1.0, row["eta"] ** power)
                 curve = small.curves[small.curve_of[case]]
-                ratios.append(float(np.interp(share, np.linspace(0.0, 1.0, 101), curve)) / row["real"])
+                ratios.append(float(np.interp(share_of(row), np.linspace(0.0, 1.0, 101), curve)) / row["real"])
         found = table.row(by_predicate=pl.col("rule") == name, named=True)
         assert found["bias"] == pytest.approx(np.prod(ratios) ** (1.0 / len(ratios)), rel=1e-12)
         assert found["log_scatter"] == pytest.approx(np.std(np.log(ratios)), rel=1e-12)
@@ -193,31 +180,18 @@ def test_rules_of_eta_by_hand(small: sm.EffectiveMassMap) -> None:
         assert found["worst"] == pytest.approx(min(ratios), rel=1e-12)
 
 
-def test_rule_by_period_by_hand(small: sm.EffectiveMassMap) -> None:
-    """The formula written out, T_c from the mean spectrum; the estimates of `effective_mass` are the same numbers."""
-    periods = np.geomspace(0.05, 4.0, 60)
-    shares = RULES["min(1, eta_h^p)"](small.table)
+def test_the_rule_of_an_elastic_case_is_that_of_the_answer(small: sm.EffectiveMassMap) -> None:
+    """R_y = 1, and S_a of the target where it is given."""
+    shares = RULES[RULE](small.table)
     for row, share in zip(small.table.iter_rows(named=True), shares, strict=True):
-        scaled, _ = motions_of(small, row)
-        mean = mean_spectrum(scaled, np.ones(len(scaled)), periods)
-        corner = (mean * periods).max() / mean.max()
-        assert row["corner_period"] == pytest.approx(corner, rel=1e-12)
-        alpha, storeys = row["alpha"], row["storeys"]
-        # Two storeys, bare roof: goods at 1, masses 1 + alpha at 1 and 1 at 2. A loaded roof: goods as the masses.
-        ratio = 1.0 if row["roof"] == "loaded" else 1.0 / ((3.0 + alpha) / (2.0 + alpha))
-        assert row["height_ratio"] == pytest.approx(ratio, rel=1e-12)
-        assert row["yields"] == (row["R"] > 1.0)
-        power = 1.2 * (1.0 + row["period"] / corner) if row["yields"] else 1.0 + row["period"] / (2.0 * corner)
-        assert row["exponent"] == pytest.approx(power, rel=1e-9)
-        assert share == pytest.approx(min(1.0, (row["eta"] / ratio**0.5) ** power), rel=1e-9)
-        bare = sm.Building.uniform(storeys, row["period"], mass=1.0)
-        goods = [alpha] * (storeys - 1) + [alpha if row["roof"] == "loaded" else 0.0]
         if row["R"] == 1.0:
-            answer = sm.effective_mass(
-                sm.Scene(bare, sm.blocks_on_floors(goods, row["mu"])), scaled, fractions=[0.0, 1.0], resamples=1
-            )
-            assert answer.estimate == pytest.approx(share, rel=1e-9)
-            assert answer.by_hand.base_shear_coefficient == pytest.approx(row["base_shear_coefficient_by_hand"])
+            scaled, _ = motions_of(small, row)
+            bare = sm.Building.uniform(row["storeys"], row["period"], mass=1.0)
+            goods = [row["alpha"]] * (row["storeys"] - 1) + [row["alpha"] if row["roof"] == "loaded" else 0.0]
+            scene = sm.Scene(bare, sm.blocks_on_floors(goods, row["mu"]))
+            answer = sm.effective_mass(scene, scaled, fractions=[0.0, 1.0], target=TARGET, resamples=1)
+            assert answer.by_hand.estimate == pytest.approx(share, rel=1e-12)
+            assert answer.by_hand.coefficient == pytest.approx(float(TARGET([row["period"]])[0]) / 9.80665, rel=1e-12)
 
 
 def test_rules_by_period_are_the_rules_of_their_cases(small: sm.EffectiveMassMap) -> None:
@@ -274,13 +248,13 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     arguments = ["map", "--mu", "0.1,0.3", "--R", "2,4", "--alpha", "1", "--factor", "0.5,1"]
     assert main([*arguments, "--out", str(tmp_path)]) == 0
     printed = capsys.readouterr().out
-    assert "min(1, eta_h^p)" in printed
+    assert RULE in printed
     assert "By period of the bare building" in printed
     assert "Effective fraction by eta" in printed
     names = {file.name for file in tmp_path.iterdir()}
     assert {"map.parquet", "rules.csv", "map.json", "collapse.png", "rules.svg", "intensity.png"} <= names
     assert pl.read_parquet(tmp_path / "map.parquet").height == 2 * 2 * 2 * 2
-    assert json.loads((tmp_path / "map.json").read_text())["rules"][0]["rule"] == "min(1, eta_h^p)"
+    assert json.loads((tmp_path / "map.json").read_text())["rules"][0]["rule"] == RULE
 
 
 def test_figures_of_one_intensity(small: sm.EffectiveMassMap) -> None:

@@ -17,7 +17,7 @@ import pytest
 import seismass as sm
 from seismass.assessment.building_file import example_file
 from seismass.cli import main
-from seismass.effective_mass.estimate import RULE, SAFE_RULE
+from seismass.effective_mass.rule import RULE
 from seismass.media.roles import LAMBDA, lettered
 from seismass.show.assessment.page import building_page
 from seismass.show.assessment.tables import assessment_tables
@@ -141,27 +141,24 @@ def frame(**columns: list[float]) -> pl.DataFrame:
 def test_rules_are_counted_by_hand() -> None:
     rules = {
         rule.name: rule
-        for rule in compared_rules(
-            frame(effective=[0.2, 0.5, 0.9, 1.0], estimate=[0.25, 0.36, 0.64, 1.0], conservative=[0.5, 0.6, 0.8, 1.0])
-        )
+        for rule in compared_rules(frame(effective=[0.2, 0.5, 0.9, 1.0], estimate=[0.25, 0.36, 0.64, 1.0]))
     }
-    # Short by more than 0.1: of the code 0.25, 0.65, 0.75; of eta squared 0.14 and 0.26; of eta 0.1 once, which is not.
-    assert [rules[name].short for name in ("code", RULE, SAFE_RULE, "all, 1")] == [3, 2, 0, 0]
+    # Short by more than 0.1: of the code 0.25, 0.65, 0.75; of the rule 0.14 and 0.26.
+    assert [rules[name].short for name in ("code", RULE, "all, 1")] == [3, 2, 0]
     assert rules[RULE].most == pytest.approx(0.26, abs=1e-12)
-    assert rules[SAFE_RULE].most == pytest.approx(0.1, abs=1e-12)
     assert rules["all, 1"].mean == 1.0
-    assert [rule.serves for rule in rules.values()] == [False, False, True, True]
+    assert [rule.serves for rule in rules.values()] == [False, False, True]
 
 
 def test_advice_is_the_least_rule_that_seldom_falls_short(result: StudyResult) -> None:
     fractions = result.fractions.with_columns(effective=pl.lit(0.0))
     said = str(answer(replace(result, fractions=fractions))[-1])
     assert f"Attach <strong>{RULE}</strong>" in said
-    fractions = result.fractions.with_columns(effective=pl.lit(1.0), estimate=pl.lit(0.1), conservative=pl.lit(0.5))
+    fractions = result.fractions.with_columns(effective=pl.lit(1.0), estimate=pl.lit(0.1))
     said = str(answer(replace(result, fractions=fractions))[-1])
     assert "Attach <strong>all, 1</strong>" in said
     count = result.fractions.height
-    assert f"{SAFE_RULE}: {count} of {count}" in said
+    assert f"{RULE}: {count} of {count}" in said
 
 
 def test_slip_of_a_building_is_that_of_its_worst_floor(result: StudyResult) -> None:
@@ -223,7 +220,7 @@ def test_page_of_a_study_of_several_frictions_without_validation(tmp_path: Path)
         (lambda out: (out / "summary.parquet").write_bytes(b"x"), "content of summary.parquet must be a Parquet table"),
         (lambda out: (out / "study.json").write_text("{"), "content of study.json must be JSON"),
         (lambda out: (out / "study.json").write_text("[]"), "content of study.json must be a JSON object; got list"),
-        (lambda out: (out / "study.json").write_text("{}"), "schema_version of study.json must be 4; got None"),
+        (lambda out: (out / "study.json").write_text("{}"), "schema_version of study.json must be 5; got None"),
         (lambda out: (out / "study.json").unlink(), "No such file"),
     ],
 )

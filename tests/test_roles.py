@@ -33,7 +33,7 @@ SHOWN = sorted((PACKAGE / "show").rglob("*.py"))
 HUES = {"BLUE", "VERMILION", "GREEN", "PURPLE", "ORANGE", "SKY", "DEEP_BLUE", "MAGENTA"}
 WITHOUT_MODELS = {
     "show/animation/picture.py": "paper, slabs, pale flashes",
-    "show/effective_mass.py": "classes of the exponent of the rule",
+    "show/effective_mass.py": "classes of R",
     "show/motions.py": "records, their target, pulses",
     "show/plots/batches.py": "fractiles of runs",
     "show/plots/floor_plan.py": "aisles, places of goods, and who has passed an edge",

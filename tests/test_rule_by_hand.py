@@ -1,4 +1,4 @@
-"""The rule by hand against numbers worked out on paper, its limits, and the base shear against runs."""
+"""The rule by hand against numbers worked out on paper, its limits, and the words that state it."""
 
 from __future__ import annotations
 
@@ -7,105 +7,96 @@ import polars as pl
 import pytest
 
 import seismass as sm
-from seismass.effective_mass.estimate import (
-    base_shear_by_hand,
-    best_estimate,
+from seismass.effective_mass.rule import (
+    RULE,
+    by_hand,
     by_period,
     compared,
-    conservative_estimate,
-    exponent,
-    height_ratio,
-    yield_drift,
+    exceptions,
+    floor_coefficient,
+    share_by_hand,
+    yield_reduction,
 )
+from seismass.effective_mass.runs import named_motions
 from seismass.motions.spectra import corner_period
 
-MOTIONS = [record.scaled(1.2) for record in sm.builtin_suite("seven")]
+TARGET = sm.TargetSpectrum.asce7(1.0, 0.6)
 
 
-def test_exponents() -> None:
-    """1.2 (1 + 0.25/0.5) = 1.8; 1 + 0.25/1.0 = 1.25; least at no period, 1.2 x 2.5 and 1 + 0.75 from 1.5 T_c on."""
-    np.testing.assert_allclose(exponent(0.25, 0.5, [True, False]), [1.8, 1.25], rtol=1e-15)
-    np.testing.assert_allclose(exponent(0.0, 0.5, [True, False]), [1.2, 1.0], rtol=1e-15)
-    np.testing.assert_allclose(exponent(4.0, 0.5, [True, False]), [3.0, 1.75], rtol=1e-15)
+def scene_of(mu: float = 0.2, ratio: float = 1.0, **shape: float) -> sm.Scene:
+    """Two storeys of 0.3 s with V_y/W of 0.5, loaded on both floors."""
+    building = sm.Building.uniform(2, 0.3, mass=1e4, yield_shear_over_weight=[0.5, 0.3], **shape)
+    return sm.Scene(building, sm.blocks_on_floors([ratio, ratio], mu=mu))
 
 
-def test_heights() -> None:
-    """Goods of 2 at 4 m and 1 at 7 m: 5 m; with floors of 1 at 4, 7 and 10 m: (15 + 21)/6 = 6 m."""
-    assert height_ratio([2.0, 1.0, 0.0], [1.0, 1.0, 1.0], [4.0, 3.0, 3.0]) == pytest.approx(5.0 / 6.0, rel=1e-15)
-    assert height_ratio([0.5, 0.5], [1.0, 1.0]) == 1.0
-    assert height_ratio([0.0, 0.0], [1.0, 1.0]) == 1.0
+def test_the_rule_on_paper() -> None:
+    """S_a = 1 g. V_y/W_g = 1/8: R_y = 8, C1 = 1/4; above S_a, and without yield: R_y = 1, C1 = S_a.
 
-
-def test_estimates() -> None:
-    """(0.5/sqrt(0.64))^2 = 0.390625; goods that would need more than their weight act in full."""
-    assert best_estimate(0.5, 2.0, 0.64) == pytest.approx(0.390625, rel=1e-14)
-    assert conservative_estimate(0.5, 0.64) == pytest.approx(0.625, rel=1e-14)
-    assert best_estimate(1.3, 2.0) == conservative_estimate(1.3) == 1.0
-    assert best_estimate(0.0, 1.7) == 0.0
-
-
-def test_base_shear_of_elastic_yielding_and_capped_buildings() -> None:
-    """V_e/W = 0.8, T = T_c, r2 = 0.05.
-
-    V_y/W = 0.2: m - 1 = 3 x 1.6 = 4.8, 0.2 x 1.24 = 0.248. 0.02: m - 1 = 62.4, capped at Omega: 0.04. Elastic, and
-    at V_y/W above 1.07 x 0.8: 0.856.
+    mu = 0.1 over C1 = 0.25: 1.35 x 0.4 - 0.15 = 0.39.
     """
-    found = base_shear_by_hand([0.2, 0.02, np.inf, 0.9], 0.8, 0.5, 0.5, 0.05, 2.0)
-    np.testing.assert_allclose(found, [0.248, 0.04, 0.856, 0.856], rtol=1e-14)
+    np.testing.assert_allclose(yield_reduction(1.0, [0.125, 1.3, np.inf]), [8.0, 1.0, 1.0], rtol=1e-15)
+    np.testing.assert_allclose(floor_coefficient(1.0, [0.125, 1.3, np.inf]), [0.25, 1.0, 1.0], rtol=1e-15)
+    np.testing.assert_allclose(share_by_hand([0.1, 0.01, 0.9], 0.25), [0.39, 0.0, 1.0], rtol=1e-14)
+    assert share_by_hand(0.1, 0.25, 0.10) == pytest.approx(0.44, rel=1e-14)
 
 
-def test_base_shear_by_hand_is_near_that_of_runs() -> None:
-    """Within 15 %, four times the scatter over the buildings of a map; elastic and yielding."""
-    for storeys, period, strength in (
-        (1, 0.2, None),
-        (1, 0.3, [0.3]),
-        (2, 0.4, [0.3, 0.2]),
-        (3, 0.6, [0.2, 0.16, 0.1]),
-    ):
-        building = sm.Building.uniform(storeys, period, yield_shear_over_weight=strength)
-        scene = sm.Scene(building, sm.blocks_on_floors([1.0] * storeys, mu=0.2))
-        found = sm.effective_mass(scene, MOTIONS, fractions=[0.0, 1.0], resamples=1)
-        assert found.by_hand.yields == (strength is not None)
-        assert found.by_hand.base_shear_coefficient == pytest.approx(found.base_shear_coefficient, rel=0.15)
-        assert found.by_hand.eta == pytest.approx(0.2 / found.by_hand.base_shear_coefficient, rel=1e-14)
+def test_the_rule_of_a_scene() -> None:
+    """W_g is twice W, V_y/W_g = 0.25, S_a = 1 g on the plateau: R_y = 4, C1 = 4^(-2/3) = 0.3969."""
+    found = by_hand(scene_of(), None, TARGET)
+    assert found.period == pytest.approx(0.3, rel=1e-12)
+    assert found.spectral_acceleration_g == pytest.approx(1.0, rel=1e-12)
+    assert found.weight == pytest.approx(4e4 * 9.80665, rel=1e-14)
+    assert found.yield_shear == pytest.approx(1e4 * 9.80665, rel=1e-12)
+    assert found.yield_reduction == pytest.approx(4.0, rel=1e-12)
+    assert found.coefficient == pytest.approx(4.0 ** (-2.0 / 3.0), rel=1e-12)
+    assert found.estimate == pytest.approx(1.35 * 0.2 * 4.0 ** (2.0 / 3.0) - 0.15, rel=1e-12)
+    assert found.exceptions == ()
+    assert found.words == (
+        f"{RULE} = 0.53; mu = (mu_s + mu_k)/2 = 0.2, C1 = S_a/R_y^(2/3) = 0.397, S_a = 1.000 g at 0.300 s (target "
+        "spectrum), R_y = S_a W_g/V_y = 4.00, W_g = 392.2660 kN, V_y = 98.0665 kN"
+    )
+
+
+def test_the_spectrum_is_that_of_the_motions_where_no_target_is_given() -> None:
+    motions = sm.builtin_suite("seven")
+    found = by_hand(scene_of(), named_motions(list(motions), "test"), None)
+    spectra = [sm.response_spectrum(record, [0.3])[0][0] for record in motions]
+    assert found.spectral_acceleration_g == pytest.approx(np.mean(spectra) / 9.80665, rel=1e-9)
+    assert "(mean spectrum of the motions)" in found.words
+
+
+@pytest.mark.parametrize(
+    ("shape", "ratio", "said"),
+    [
+        ({"overstrength": 1.49}, 1.0, ("Omega below 1.5",)),
+        ({"second_slope": 0.0}, 1.0, ("no second slope",)),
+        ({"second_slope": 0.11}, 1.0, ("r2 above 0.1",)),
+        ({}, 2.1, ("goods above 2 times their floor",)),
+        ({"overstrength": 1.5, "second_slope": 0.1}, 2.0, ()),
+    ],
+)
+def test_where_less_is_taken_off(shape: dict[str, float], ratio: float, said: tuple[str, ...]) -> None:
+    """At the limits themselves 0.15 stands; beyond them 0.10, so that the share is larger by 0.05."""
+    found = by_hand(scene_of(0.1, ratio, **shape), None, TARGET)
+    assert found.exceptions == said
+    assert found.offset == (0.10 if said else 0.15)
+    assert found.estimate == pytest.approx(1.35 * 0.1 / found.coefficient - found.offset, rel=1e-12)
+    elastic = sm.Building.uniform(2, 0.3, **shape)
+    assert exceptions(elastic, ratio) == (said if ratio > 2.0 else ())
 
 
 def test_rule_of_unequal_goods_and_storeys(unequal_scene: sm.Scene, unequal_motions: tuple[sm.Record, ...]) -> None:
-    """What the rule takes, worked out here: levels of 4.3, 8.0 and 11.1 m, and the spring of storey 1 alone."""
-    building = unequal_scene.building
-    assert building is not None
-    mass, goods, levels = np.array([44.1, 35.7, 22.4]), np.array([30.4, 13.7, 7.8]), np.array([4.3, 8.0, 11.1])
-    found = sm.effective_mass(unequal_scene, unequal_motions, fractions=[0.0, 1.0], resamples=1)
-    rule = found.by_hand
-    heights = (goods @ levels / goods.sum()) / ((mass + goods) @ levels / (mass + goods).sum())
-    assert rule.height_ratio == pytest.approx(heights, rel=1e-12)
-    assert rule.period == building.periods[0]
-    assert rule.yields
-    ratio = min(rule.period / rule.corner_period, 1.5)
-    assert rule.exponent == pytest.approx(1.2 * (1.0 + ratio), rel=1e-14)
-    # C1 by hand, of the period and the elastic base shear with all goods attached.
-    motions = [motion.motion for motion in unequal_motions]
-
-    def spectrum(periods: np.ndarray) -> np.ndarray:
-        return np.mean([sm.response_spectrum(motion, periods)[0] for motion in motions], axis=0)
-
-    elastic = sm.design.response_spectrum_analysis(1e3 * (mass + goods), [29.3e6, 23.1e6, 16.1e6], spectrum)
-    weight = 9.80665e3 * (mass + goods).sum()
-    strength, demand = 283e3 / weight, elastic.storey_shear[0] / weight
-    ductility = (demand / strength - 1.0) * (1.0 + 0.6 * rule.corner_period / elastic.modes.periods[0])
-    expected = min(1.07 * demand, strength * min(1.87, 1.0 + 0.067 * ductility))
-    assert rule.base_shear_coefficient == pytest.approx(expected, rel=1e-9)
-    mu_k = (18.9 * 0.214 + 11.5 * 0.154 + 13.7 * 0.184 + 7.8 * 0.24) / 51.9
-    assert rule.eta == pytest.approx(mu_k / expected, rel=1e-9)
-    assert rule.estimate == pytest.approx(min(1.0, (rule.eta / heights**0.5) ** rule.exponent), rel=1e-12)
-    assert found.conservative == pytest.approx(min(1.0, found.eta / heights**0.5), rel=1e-12)
-
-
-def test_drift_at_yield_is_over_the_height_of_the_storey(unequal_scene: sm.Scene) -> None:
-    assert unequal_scene.building is not None
-    drifts = np.array([283e3 / 29.3e6, 227e3 / 23.1e6, 139e3 / 16.1e6])
-    np.testing.assert_allclose(yield_drift(unequal_scene.building), drifts / [4.3, 3.7, 3.1], rtol=1e-14)
-    np.testing.assert_allclose(yield_drift(unequal_scene.building.replace(heights=None, gravity_load=None)), drifts)
+    """What the rule takes, worked out here: V_y of storey 1, all masses, friction averaged over the goods."""
+    mass, goods = np.array([44.1, 35.7, 22.4]), np.array([30.4, 13.7, 7.8])
+    rule = sm.effective_mass(unequal_scene, unequal_motions, fractions=[0.0, 1.0], target=TARGET, resamples=1).by_hand
+    acceleration, weight = TARGET([rule.period])[0] / 9.80665, 9.80665e3 * (mass + goods).sum()
+    reduction = acceleration * weight / 283e3
+    assert rule.yield_reduction == pytest.approx(reduction, rel=1e-12)
+    # Means of static and kinetic friction: (0.298 + 0.214)/2, (0.253 + 0.154)/2, (0.349 + 0.184)/2, (0.291 + 0.24)/2.
+    mu = (18.9 * 0.256 + 11.5 * 0.2035 + 13.7 * 0.2665 + 7.8 * 0.2655) / 51.9
+    assert rule.friction == pytest.approx(mu, rel=1e-12)
+    share = 1.35 * mu * reduction ** (2.0 / 3.0) / acceleration - 0.15
+    assert rule.estimate == pytest.approx(min(1.0, max(0.0, share)), rel=1e-12)
 
 
 def test_corner_period_follows_time_and_not_amplitude() -> None:

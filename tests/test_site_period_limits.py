@@ -15,7 +15,6 @@ import seismass as sm
 from seismass.assessment.building_file import example_file
 from seismass.cli import main
 from seismass.model.codes import FROM_MEMORY, SECOND_HAND, VERIFIED
-from seismass.motions.spectra import corner_period
 from seismass.runs.scene_file import example_scene
 
 G = 9.80665
@@ -189,11 +188,8 @@ def test_an_assessment_under_eurocode_8_says_what_it_took(cold_store: sm.Assessm
     assert "unverified; not checked against the code" in said
     assert "Limits: drift ratio 0.015 (Eurocode 8, EN 1998-1, 4.4.3.2(1), ductile-partitions" in said
     assert not cold_store.answer.doubts
-    # The rule's corner period is that of the scaled motions: not T_C = 0.6 s of ground C, nor T_S of a shape of ASCE 7.
-    assert cold_store.scaling is not None
-    suite, factors = sm.builtin_suite("forty"), cold_store.scaling.factors
-    corner = corner_period(lambda at: factors @ sm.response_spectrum(suite, at) / len(suite))
-    assert cold_store.effective["real"].by_hand.corner_period == pytest.approx(corner, rel=1e-9)
+    # The rule takes S_a of the site spectrum at the period without goods, in g: 1.15 x 0.3 x 2.5 on the plateau.
+    assert cold_store.effective["real"].by_hand.spectral_acceleration_g == pytest.approx(1.15 * 0.3 * 2.5, rel=1e-3)
     document = json.loads(cold_store.to_json())
     assert document["target"]["shape"] == "eurocode8"
     assert document["input"]["period_rule"]["clause"] == "4.3.3.2.2(3)"
@@ -205,7 +201,7 @@ def test_an_assessment_under_eurocode_8_says_what_it_took(cold_store: sm.Assessm
 
 
 def test_what_the_period_means_for_the_share(cold_store: sm.Assessment) -> None:
-    """A building that has 0.48 s without goods is softer than one that has it with them: eta and share are larger."""
+    """The rule for the period with another mass: 0.48 s without goods, or with all of them."""
     (sentence,) = [line for line in cold_store.assumptions if line.startswith("The rule by hand gives a share of")]
     own, bare, full = (float(piece) for piece in sentence.replace(",", "").split() if piece.startswith("0."))
     assert own == pytest.approx(cold_store.effective["real"].by_hand.estimate, abs=0.005)

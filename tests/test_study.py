@@ -236,7 +236,7 @@ def as_tables(rows: pl.DataFrame) -> tuple[pl.DataFrame, pl.DataFrame]:
         *(pl.lit(1.5).alias(name) for name in (*statistics, *scatter)),
         *(pl.lit(0).alias(f"collapses_{model}") for model in ("real", "code", "attached")),
     )
-    numbers = dict.fromkeys(("eta", "estimate", "conservative", "effective"), pl.lit(0.5))
+    numbers = dict.fromkeys(("eta", "estimate", "effective"), pl.lit(0.5))
     return summary, summary.select("building", **numbers)
 
 
@@ -369,7 +369,7 @@ def test_files_are_written_whole_and_agree(small: StudyResult, tmp_path: Path) -
         assert pl.read_parquet(out / f"{name}.parquet").equals(table)
         assert pl.read_csv(out / f"{name}.csv").height == table.height
     document = json.loads((out / "study.json").read_text())
-    assert document["schema_version"] == 4
+    assert document["schema_version"] == 5
     assert document["package_version"] == sm.__version__
     assert document["parameters"]["second_slope"] == 0.05
     assert document["instructions"] == sm.runs.instruction_set()

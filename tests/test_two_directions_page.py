@@ -10,7 +10,7 @@ import pytest
 import seismass as sm
 from pages import two_directions as page
 from pages.parts import ROOT, Page
-from seismass.effective_mass.estimate import REDUCED_FRICTION, SLIP_IN_EACH, SLIP_LENGTH
+from seismass.effective_mass.rule import REDUCED_FRICTION, SLIP_IN_EACH, SLIP_LENGTH
 
 CASES: list[dict[str, Any]] = page.kept()["cases"]
 FAR_FIELD = page.sliding(CASES, "far_field")

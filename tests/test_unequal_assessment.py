@@ -10,6 +10,7 @@ import pytest
 
 import seismass as sm
 from seismass.assessment.advice import _envelope
+from seismass.assessment.answer import deciding
 from seismass.assessment.checks import largest_excess
 from seismass.assessment.doubts import _load_doubts
 from seismass.assessment.models import motion_of_runs
@@ -125,8 +126,10 @@ def test_shares_are_told_of_the_goods_present_and_of_the_design_load(unequal: sm
     floors = np.array([5.3 * 530.0, 4.7 * 470.0, 3.7 * 410.0])
     np.testing.assert_allclose(masses["weight_1_kn"], floors + unequal.advised * present * loads, rtol=1e-12)
     real = unequal.effective["real"]
-    mu_k = np.array([0.59 * 0.88 * 0.214 + 0.41 * 0.55 * 0.154, 0.71 * 0.184, 0.43 * 0.24]) @ loads / (present @ loads)
-    assert f"eta = mu_k/C1 = {mu_k / real.base_shear_coefficient:.3f}" in text
+    # Means of static and kinetic friction, by the masses present.
+    of_floors = [0.59 * 0.88 * 0.256 + 0.41 * 0.55 * 0.2035, 0.71 * 0.2665, 0.43 * 0.2655]
+    assert real.by_hand.friction == pytest.approx(np.array(of_floors) @ loads / (present @ loads), rel=1e-12)
+    assert f"mu = (mu_s + mu_k)/2 = {unequal.effective[deciding(unequal.effective)].by_hand.friction:.3g}" in text
 
 
 def test_sentences_name_the_storey_and_the_friction_of_the_largest_ratio(unequal: sm.Assessment) -> None:

@@ -90,12 +90,10 @@ def of_fractions(page: Page, table: pl.DataFrame) -> None:
     between = yielding.filter(pl.col("eta").is_between(0.6, 0.9))
     page.words("well below 0.4, and here it is {} to {}.", *ends(yielding["base_shear_coefficient"]))
     page.words("In yielding buildings it lies between {} and {}, compared", *ends(yielding["effective"]))
-    page.words("closed form min(1, eta_h^p) gives {} to {}. In", *ends(yielding["estimate"]))
-    said = (
-        "In the {} buildings with eta between 0.6 and 0.9 the fraction is {} on average, min(1, eta_h^p) gives {} and "
-    )
-    means = (f"{between[name].mean():.2f}" for name in ("effective", "estimate", "conservative"))
-    page.words(f"{said}min(1, eta_h) {{}}: for", between.height, *means)
+    page.words("rule by hand, 1.35 mu/C1 - 0.15, gives {} to {}. In", *ends(yielding["estimate"]))
+    means = (f"{between[name].mean():.2f}" for name in ("effective", "estimate"))
+    said = "In the {} buildings with eta between 0.6 and 0.9 the fraction is {} on average, and the rule gives {}. !["
+    page.words(said, between.height, *means)
     page.words("attached ones, and eta is {} to {}.", *ends(table.filter(R=1.0)["eta"]))
 
 

@@ -95,34 +95,10 @@ impl Case {
         goods.iter().zip(&self.mu_k).map(|(mass, mu)| mass * mu).sum::<f64>() / goods.iter().sum::<f64>()
     }
 
-    /// First period of the building without goods (s).
-    pub(crate) fn period(&self) -> f64 {
-        self.period
-    }
-
-    /// Mean height of the goods by mass over that of building and goods, for storeys of one height; 1 without goods.
-    pub(crate) fn height_ratio(&self) -> f64 {
-        let (mut goods, mut goods_moment, mut all, mut all_moment) = (0.0, 0.0, 0.0, 0.0);
-        for (floor, mass) in self.goods().into_iter().enumerate() {
-            let level = (floor + 1) as f64;
-            goods += mass;
-            goods_moment += level * mass;
-            all += FLOOR_MASS + mass;
-            all_moment += level * (FLOOR_MASS + mass);
-        }
-        if goods == 0.0 { 1.0 } else { (goods_moment / goods) / (all_moment / all) }
-    }
-
     /// Stiffness of every storey (N/m).
     fn stiffness(&self) -> Result<f64> {
         let (storeys, period) = (self.storeys(), self.period);
         UniformBuilding { storeys, period, mass: FLOOR_MASS, ..Default::default() }.stiffness()
-    }
-
-    /// Drift of each storey at its first yield (m); infinite: elastic.
-    pub(crate) fn yield_drift(&self) -> Result<Vec<f64>> {
-        let stiffness = self.stiffness()?;
-        Ok(self.yield_shear_over_weight.iter().map(|over_weight| over_weight * self.weight() / stiffness).collect())
     }
 
     /// Whether no goods have friction.
@@ -197,11 +173,6 @@ mod tests {
         assert_eq!(real.storeys()[1].yield_shear, 0.2 * 2.0 * STANDARD_GRAVITY);
         assert_eq!(case.full_weight(), 3.0 * STANDARD_GRAVITY);
         assert_eq!(case.friction(), 0.2);
-        // Goods at level 1; masses 2 at level 1 and 1 at level 2 have a mean level of 4/3.
-        assert!((case.height_ratio() - 0.75).abs() < 1e-15);
-        let stiffness = real.storeys()[0].stiffness;
-        let drifts = case.yield_drift().unwrap();
-        assert!((drifts[1] - 0.2 * 2.0 * STANDARD_GRAVITY / stiffness).abs() < 1e-15);
     }
 
     #[test]

@@ -86,15 +86,10 @@ impl Search {
         Ok(Self { case, motions, real, full, models: Vec::with_capacity(INTERVALS + 1) })
     }
 
-    /// What the rule by hand takes: C1, the mean peak base shear of the fully attached model over the full weight;
-    /// eta = mu_k/C1; the first period of the building (s); the mean height of the goods over that of all; 1 where a
-    /// storey of that model yields, its mean peak drift being above that of its yield force, else 0.
-    pub(crate) fn rule(&self) -> Result<[f64; 5]> {
+    /// The mean peak base shear of the fully attached model over the full weight, and mu_k over it.
+    pub(crate) fn base_shear(&self) -> [f64; 2] {
         let coefficient = mean(&self.full.base_shear) / self.case.full_weight();
-        let eta = self.case.friction() / coefficient;
-        let limits = self.case.yield_drift()?;
-        let yields = self.full.by_storey().iter().zip(limits).any(|(drift, limit)| *drift > limit);
-        Ok([coefficient, eta, self.case.period(), self.case.height_ratio(), f64::from(u8::from(yields))])
+        [coefficient, self.case.friction() / coefficient]
     }
 
     /// Solves the models of the next `count` shares; returns how many are left.
@@ -114,7 +109,7 @@ impl Search {
     }
 
     /// What was found, once all shares are solved: kind, value, ends of the interval, mean largest drift of the real
-    /// building and of the model at the value, what the rule takes; all roots; shares; mean largest drift of the model at them; ends of
+    /// building and of the model at the value, mean peak base shear and mu_k over it; all roots; shares; mean largest drift of the model at them; ends of
     /// the interval of real over model there; mean drifts by storey of the real building, of the model at the value, at
     /// 0 and at 1; of each motion whether goods slide, the real drift, and its first and last root (NaN: none).
     pub(crate) fn answer(&self, resamples: &Resamples) -> Result<Vec<f64>> {
@@ -146,7 +141,7 @@ impl Search {
         };
         let (interval, band) = self.scatter(kind, &shares, resamples);
         let mut head = vec![f64::from(kind as u8), value, interval[0], interval[1], real, mean(&at_value.largest)];
-        head.extend(self.rule()?);
+        head.extend(self.base_shear());
         let slides: Vec<f64> = self.real.slides.iter().map(|&slides| f64::from(u8::from(slides))).collect();
         let (first, last) = self.own_roots(&shares);
         let [bare, full] = [0, INTERVALS].map(|place| self.models[place].by_storey());

@@ -145,13 +145,14 @@ pub extern "C" fn seismass_design() -> u32 {
     })
 }
 
-/// Begins a search for the effective fraction of the case of the input; gives what the rule by hand takes.
+/// Begins a search for the effective fraction of the case of the input; gives the mean peak base
+/// shear with all goods attached over the weight, and friction over it.
 #[unsafe(no_mangle)]
 pub extern "C" fn seismass_effective_begin() -> u32 {
     tried(|session| {
         session.search = None;
         let search = Search::new(Case::new(&session.input)?, session.suite.clone())?;
-        session.output = search.rule()?.to_vec();
+        session.output = search.base_shear().to_vec();
         session.search = Some(search);
         Ok(())
     })

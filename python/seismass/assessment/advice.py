@@ -21,7 +21,7 @@ from seismass.design import THETA_THRESHOLD
 from seismass.design.rules import rule_of, weakest
 from seismass.design.scaling import GEOMETRIC_MEAN, ScalingResult
 from seismass.effective_mass import EffectiveMass
-from seismass.effective_mass.estimate import RULE_UNKNOWN, one_direction_of_slip
+from seismass.effective_mass.rule import RULE_UNKNOWN, one_direction_of_slip
 from seismass.media.text_table import numbers_text
 from seismass.model.codes import AS_STATED, CODE_NAMES, NOT_CHECKED, STORED, VERIFIED
 from seismass.model.friction import BOUND_FACTORS, BOUNDS_SOURCE, friction_pair

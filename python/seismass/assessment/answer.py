@@ -438,7 +438,8 @@ def fractions_by_friction(
     scenes = [building.scene(target, mu_factor=factor) for factor in frictions.values()]
     drawn = (bootstrap["confidence"], bootstrap["resamples"], bootstrap["seed"])
     values = ("mean", SAME_DAMPING, shares, *drawn, threads, progress)
-    options = checked_options(*values, drift_cap=building.drift_cap)
+    level = None if target is None else building.motion_target(target)  # of the rule by hand
+    options = checked_options(*values, drift_cap=building.drift_cap, target=level)
     named = named_motions(motions, OWNER, scenes[0])
     solved = solved_frictions(scenes, named, options)
     return {name: one.answer() for name, one in zip(frictions, solved, strict=True)}

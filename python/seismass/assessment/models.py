@@ -16,8 +16,8 @@ from seismass.base.errors import InvalidOption, SimulationError
 from seismass.base.values import FloatArray, as_number
 from seismass.design.scaling import ScalingResult, scale_by_code
 from seismass.design.scaling.asce7 import period_of_mass
-from seismass.effective_mass.estimate import rule_by_hand
 from seismass.effective_mass.models import base_of_model, frame_mass
+from seismass.effective_mass.rule import by_hand
 from seismass.effective_mass.runs import named_motions, solve
 from seismass.effective_mass.search import OWNER
 from seismass.media.roles import MODELS
@@ -172,11 +172,9 @@ WORDS: Final = {
 """What acts as mass in a period."""
 
 
-def period_sentences(
-    building: OwnBuilding, target: TargetSpectrum | None, motions: list[Any], yields: bool | None
-) -> tuple[str, ...]:
+def period_sentences(building: OwnBuilding, target: TargetSpectrum | None, motions: list[Any]) -> tuple[str, ...]:
     """Return which mass acts in the stated period, its source, and the share by hand for other masses; None where
-    stiffnesses were stated. `yields`: whether the building yields with all goods attached.
+    stiffnesses were stated.
     """
     if building.stated_period is None:
         return ()
@@ -198,8 +196,8 @@ def period_sentences(
             "Formulas of codes give short periods, for forces on the safe side: drifts are then on the unsafe side, "
             "and the share is that of a stiff building; state a calculated period (period_s) where there is one."
         )
-    if yields is not None:
-        shares = {mass: _by_hand(_with_period_of(building, mass), target, motions, yields) for mass in PERIOD_MASSES}
+    if (building.goods_mass > 0.0).any():
+        shares = {mass: _by_hand(_with_period_of(building, mass), target, motions) for mass in PERIOD_MASSES}
         others = ", ".join(
             f"{share:.2f} were it that with {WORDS[mass]}"
             for mass, share in shares.items()
@@ -224,9 +222,10 @@ def _with_period_of(building: OwnBuilding, mass: str) -> OwnBuilding:
     return replace(building, stiffness=factor * building.stiffness, period_mass=mass)
 
 
-def _by_hand(building: OwnBuilding, target: TargetSpectrum | None, motions: list[Any], yields: bool) -> float:
+def _by_hand(building: OwnBuilding, target: TargetSpectrum | None, motions: list[Any]) -> float:
     scene = building.scene(target)
-    return rule_by_hand(scene, named_motions(motions, OWNER, scene), yields).estimate
+    level = None if target is None else building.motion_target(target)
+    return by_hand(scene, named_motions(motions, OWNER, scene), level).estimate
 
 
 class Shown(NamedTuple):

@@ -25,7 +25,7 @@ from seismass.motions.spectra import TargetSpectrum
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SCHEMA_VERSION: Final = 8
+SCHEMA_VERSION: Final = 9
 """Version of the tables and of the JSON of an assessment."""
 
 

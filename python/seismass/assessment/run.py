@@ -212,8 +212,7 @@ def assess(
         "pairs": in_plane,
         "synthetic": sum(_is_synthetic(motion) for motion in suite),
     }
-    yields = effective[SLIDING].by_hand.yields if effective else None
-    period = period_sentences(stated, spectrum, scaled, yields)
+    period = period_sentences(stated, spectrum, scaled)
     about_motions = {"record": names, "factor": factors}
     left_out = left_out_table(stated, runs, effective, {**about_motions, **ground_peaks(scaled)})
     doubts = (*doubts_of(stated, sliding_scene, scaled, spectrum, storeys), *motion_doubts(left_out, effective))

@@ -19,12 +19,12 @@ from seismass.model.scene import Scene
 from seismass.motions.spectra import TargetSpectrum
 from seismass.runs.simulate import simulate
 
-NOT_APPLIED: Final = "The rule by period is not applied"
+NOT_APPLIED: Final = "The rule by hand is not applied"
 """How the advice on the rule begins."""
 
 
 def beyond_rule(building: OwnBuilding) -> tuple[str, ...]:
-    """Return what a building has that the rule by period does not know."""
+    """Return what a building has that the rule by hand does not know."""
     parts = {
         "racks": any(kind.rack is not None for kind in building.present),
         "walls": building.walls is not None,
@@ -35,15 +35,15 @@ def beyond_rule(building: OwnBuilding) -> tuple[str, ...]:
 
 
 def rule_advice(building: OwnBuilding, effective: EffectiveMass | None) -> tuple[str, ...]:
-    """Return that the rule by period is not applied, beside what the runs give at the stated friction; or nothing."""
+    """Return that the rule by hand is not applied, beside what the runs give at the stated friction; or nothing."""
     unknown = beyond_rule(building)
     if not unknown or effective is None or math.isnan(effective.value):
         return ()
-    value, low, high = effective.value, effective.estimate, effective.conservative
-    words = "more than it says" if value > high + 0.005 else "less than it says" if value < low - 0.005 else "within it"
+    value, share = effective.value, effective.by_hand.estimate
+    words = "more than it says" if value > share + 0.005 else "at most what it says"
     return (
-        f"{NOT_APPLIED}, since it does not know {' and '.join(unknown)}: it would give {low:.2f} at best and "
-        f"{high:.2f} to be safe of the goods present, and the runs with them give {value:.2f}, {words}.",
+        f"{NOT_APPLIED}, since it does not know {' and '.join(unknown)}: it would give {share:.2f} "
+        f"of the goods present, and the runs with them give {value:.2f}, {words}.",
     )
 
 

@@ -2,10 +2,10 @@
 
 from .answer import effective_mass, effective_mass_of_design
 from .design_map import EffectiveMassMap, EffectiveMassParameters, effective_mass_map
-from .estimate import ByHand
 from .live_load import LiveLoadUncertainty, live_load_uncertainty
 from .models import attached_scene
 from .result import EffectiveMass
+from .rule import ByHand
 
 __all__ = [
     "ByHand",

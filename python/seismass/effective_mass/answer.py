@@ -43,6 +43,7 @@ from seismass.model.building import Building
 from seismass.model.rack import Rack
 from seismass.model.scene import Scene
 from seismass.motions.motion import MotionLike
+from seismass.motions.spectra import TargetSpectrum
 from seismass.runs.batch import MotionsLike
 
 Designed: TypeAlias = Building | tuple[Building, Building]
@@ -158,6 +159,7 @@ def effective_mass(
     drift: DriftMeasure = LARGER,
     damping: ModelDamping = SAME_DAMPING,
     fractions: ArrayLike | None = None,
+    target: TargetSpectrum | None = None,
     confidence: float = 0.90,
     resamples: int = 2000,
     seed: int = 0,
@@ -189,6 +191,8 @@ def effective_mass(
     fractions : array_like, optional
         Shares at which models are solved before roots are refined, from 0 to 1; by default 0, 0.01, ..., 1, of
         vectors 0, 0.05, ..., 1.
+    target : TargetSpectrum, optional
+        Spectrum from which the rule by hand takes S_a; by default the mean spectrum of the motions.
     confidence : float, default 0.90
         Probability of the bootstrap interval.
     resamples : int, default 2000
@@ -218,13 +222,13 @@ def effective_mass(
     With racks the live load is all goods, those on racks too, fixed or not; the frames of the racks are attached to
     their floors in every model. Where there are racks or stops and the model drifts less even with all goods attached,
     models go on to share 2, and the first that reaches the real drift counts (`kind` "beyond"): a rack whose period is
-    near that of the building passes on more than the inertia of its goods. The rule by period in `estimate` is of goods
-    on the floors of shear buildings, and a remark says so.
+    near that of the building passes on more than the inertia of its goods. The rule by hand is of goods on the floors
+    of shear buildings, and a remark says so.
 
     In two directions the real building has friction on the circle, and models have the same share attached in both.
     Nothing couples the directions of a model, so that each is solved by itself; for the vector, as a run in two
-    directions. The rule takes all components of the motions, the building in x, or in y where `drift` is that, and 0.8
-    times mu_k (docs/two_directions.md).
+    directions. The rule by hand takes the building in x, or in y where `drift` is that, and 0.8 times mu
+    (docs/two_directions.md).
 
     Examples
     --------
@@ -237,8 +241,8 @@ def effective_mass(
     """
     checked = check_any_load(scene)
     named = named_motions(motions, OWNER, checked)
-    parameters = (statistic, damping, fractions, confidence, resamples, seed, threads, progress, drift, drift_cap)
-    options = checked_options(*parameters)
+    parameters = (statistic, damping, fractions, confidence, resamples, seed, threads, progress)
+    options = checked_options(*parameters, drift, drift_cap, target)
     return solved_frictions([checked], named, options)[0].answer()
 
 
@@ -253,6 +257,7 @@ def effective_mass_of_design(
     drift_cap: float = DRIFT_CAP,
     damping: ModelDamping = SAME_DAMPING,
     fractions: ArrayLike | None = None,
+    target: TargetSpectrum | None = None,
     confidence: float = 0.90,
     resamples: int = 2000,
     seed: int = 0,
@@ -274,7 +279,7 @@ def effective_mass_of_design(
         Racks with goods, the same for every design; shares above 1 are not sought.
     base : SlidingBase, optional
         Base that slides under every design.
-    motions, statistic, drift_cap, damping, fractions, confidence, resamples, seed, threads, progress
+    motions, statistic, drift_cap, damping, fractions, target, confidence, resamples, seed, threads, progress
         As for `effective_mass`.
 
     Returns
@@ -300,6 +305,6 @@ def effective_mass_of_design(
     True
     """
     named = named_motions(motions, OWNER)
-    parameters = (statistic, damping, fractions, confidence, resamples, seed, threads, progress, LARGER, drift_cap)
-    options = checked_options(*parameters)
+    parameters = (statistic, damping, fractions, confidence, resamples, seed, threads, progress)
+    options = checked_options(*parameters, LARGER, drift_cap, target)
     return solved_designs(design, blocks, named, options, racks, base=base).answer()

@@ -14,20 +14,11 @@ from numpy.typing import NDArray
 
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import view
 from seismass.design import Combination, response_spectrum_analysis, vibration_modes
 from seismass.design.scaling import ScalingResult, scale_asce7_10
-from seismass.effective_mass.estimate import (
-    RULES,
-    Rule,
-    base_shear_by_hand,
-    by_period,
-    compared,
-    exponent,
-    height_ratio,
-    yield_drift,
-)
 from seismass.effective_mass.models import (
     DEFAULT_FRACTIONS,
     SAME_DAMPING,
@@ -43,6 +34,17 @@ from seismass.effective_mass.models import (
     over_records,
     resampled,
 )
+from seismass.effective_mass.rule import (
+    OFFSET,
+    RULES,
+    SMALL_OFFSET,
+    Rule,
+    by_period,
+    compared,
+    exceptions,
+    floor_coefficient,
+    share_by_hand,
+)
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
 from seismass.media.result import Result
 from seismass.model.block import blocks_on_floors
@@ -52,7 +54,7 @@ from seismass.model.scene import Scene
 from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
 from seismass.motions.motion import motion_names, scaled_motions
 from seismass.motions.records import Suite
-from seismass.motions.spectra import TargetSpectrum, corner_period, mean_spectrum
+from seismass.motions.spectra import TargetSpectrum, mean_spectrum
 from seismass.motions.spectra.target import target_remarks
 from seismass.runs.simulate import instruction_set
 
@@ -197,7 +199,7 @@ def _number(value: Any, name: str, *, above: float | None = None, least: float |
     return number
 
 
-SCHEMA_VERSION: Final = 3
+SCHEMA_VERSION: Final = 4
 """Version of the tables and of the metadata of a map; see docs/effective_mass.md."""
 
 MOST_DOUBTS: Final = 3
@@ -213,8 +215,8 @@ class EffectiveMassMap(Result):
     ----------
     table : polars.DataFrame
         One row per case: building (from 1), storeys, period, roof, R, alpha, intensity, mu; eta,
-        base_shear_coefficient, base_shear_coefficient_by_hand; height_ratio, corner_period (s), yields, exponent, as
-        in `ByHand`; `slides` (under any motion); value, kind, low, high (bootstrap interval); real (mean largest drift,
+        base_shear_coefficient (of the runs); coefficient (C1 of the rule, with S_a of the target) and by_hand, its
+        share; `slides` (under any motion); value, kind, low, high (bootstrap interval); real (mean largest drift,
         m); ratio_at_0, ratio_at_0_25, ratio_at_1 (real over model); worst_storey_ratio, worst_storey_ratio_at_1 and
         worst_storey_envelope_ratio, the largest over the storeys of real over model at the value, at 1, and over the
         larger of the models at the value and at 0.
@@ -306,8 +308,8 @@ class EffectiveMassMap(Result):
         Parameters
         ----------
         rules : mapping of str to callable, optional
-            Each takes `table` and returns the share of the live load, shape (cases,). By default the rule by period,
-            its conservative form, the same with C1 by hand, those of eta alone, and the fractions of codes.
+            Each takes `table` and returns the share of the live load, shape (cases,). By default the rule by hand and
+            the fractions of codes.
 
         Returns
         -------
@@ -361,16 +363,13 @@ class EffectiveMassMap(Result):
 
 @dataclass(frozen=True, slots=True)
 class _Loaded:
-    """One building with one load and one strength: its scenes differ in friction alone. `elastic` is V_e over the full
-    weight at intensity 1, `attached_period` the first period, both with all goods attached; `corner` is T_c.
+    """One building with one load and one strength: its scenes differ in friction alone. `acceleration` is S_a of the
+    target (g) at intensity 1 and the period without goods.
     """
 
     labels: dict[str, Any]
     scenes: list[Scene]
-    height_ratio: float
-    elastic: float
-    attached_period: float
-    corner: float
+    acceleration: float
     scaling: ScalingResult
 
 
@@ -487,11 +486,10 @@ def _designs(
         return mean_spectrum(suite, scaling.factors, periods, parameters.damping, threads=threads)
 
     how: dict[str, Any] = {"combination": parameters.combination, "damping": parameters.damping}
-    analysis, full = (
-        response_spectrum_analysis(bare.mass + share * ratios, bare.stiffness, spectrum, **how)
-        for share in (parameters.design_fraction, 1.0)
-    )
-    columns, corner = {"building": number, "storeys": storeys, "period": period, "roof": roof}, corner_period(spectrum)
+    mass = bare.mass + parameters.design_fraction * ratios
+    analysis = response_spectrum_analysis(mass, bare.stiffness, spectrum, **how)
+    columns = {"building": number, "storeys": storeys, "period": period, "roof": roof}
+    acceleration = float(np.asarray(target([period]))[0]) / STANDARD_GRAVITY
     for reduction in parameters.response_modification:
         elastic = reduction == 1.0 and not parameters.yield_at_r1
         strength = np.full(storeys, np.inf) if elastic else analysis.storey_shear / reduction
@@ -499,10 +497,7 @@ def _designs(
         yield _Loaded(
             {**columns, "R": reduction, "alpha": alpha},
             scenes,
-            height_ratio(ratios, bare.mass),
-            full.base_shear / full_weight(scenes[0]),
-            attached_period,
-            corner,
+            acceleration,
             scaling,
         )
 
@@ -525,15 +520,9 @@ def _cases(
     low, high = _intervals(model, sliding, slides, motions, options)
     weight, building = full_weight(load.scenes[0]), building_of(load.scenes[0])
     coefficient = float(model.base_shear[-1].mean()) / weight
-    by_hand = base_shear_by_hand(
-        building.yield_shear[0] / weight,
-        load.elastic * more["intensity"],
-        load.attached_period,
-        load.corner,
-        options.second_slope,
-        options.overstrength,
-    )
-    yields = bool((model.capped[-1].mean(axis=0) > yield_drift(building)).any())
+    of_rule = float(floor_coefficient(load.acceleration * more["intensity"], building.yield_shear[0] / weight))
+    offset = SMALL_OFFSET if exceptions(building, load.labels["alpha"]) else OFFSET
+    by_hand = share_by_hand(mus, of_rule, offset)
     storeys_model, storeys_sliding = (
         over_records(np.moveaxis(peaks.capped, 1, -1), "mean") for peaks in (model, sliding)
     )
@@ -550,11 +539,8 @@ def _cases(
                 "mu": mu,
                 "eta": mu / coefficient,
                 "base_shear_coefficient": coefficient,
-                "base_shear_coefficient_by_hand": float(by_hand),
-                "height_ratio": load.height_ratio,
-                "corner_period": load.corner,
-                "yields": yields,
-                "exponent": float(exponent(load.labels["period"], load.corner, yields)),
+                "coefficient": of_rule,
+                "by_hand": float(by_hand[case]),
                 "slides": bool(slides[case]),
                 "value": float(values[case]),
                 "kind": kind,

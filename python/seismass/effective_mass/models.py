@@ -391,16 +391,18 @@ def full_weight(scene: Scene) -> float:
     return STANDARD_GRAVITY * float(mass)
 
 
-def friction(scene: Scene) -> float:
-    """Return the mass-weighted mean kinetic friction coefficient of the goods that may slide above the ground; infinite
-    where all goods are fixed.
+def friction(scene: Scene, *, with_static: bool = False) -> float:
+    """Return the mass-weighted mean kinetic friction of the goods that may slide above the ground, or the mean of
+    static and kinetic friction; infinite where all goods are fixed.
     """
     on_floor = np.array(scene.goods_floor, dtype=np.int64) > 0
     of_racks = (mass for rack in scene.racks for mass in rack.sliding_masses(scene.building))
     mass = np.array([*scene.block_mass, *of_racks])[on_floor]
     if not len(mass):
         return float("inf")
-    return float(mass @ np.array([block.mu_k for block in scene.goods])[on_floor] / mass.sum())
+    static = [block.mu_s if with_static else block.mu_k for block in scene.goods]
+    both = 0.5 * (np.array(static) + np.array([block.mu_k for block in scene.goods]))
+    return float(mass @ both[on_floor] / mass.sum())
 
 
 def check_any_load(scene: Any) -> Scene:

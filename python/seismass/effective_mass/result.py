@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
@@ -12,8 +13,8 @@ import polars as pl
 from seismass.base.statistics import CAPPED_MEAN
 from seismass.base.values import FloatArray, content_hash, same_content
 from seismass.base.views import view
-from seismass.effective_mass.estimate import REDUCED_FRICTION, RULE, SAFE_RULE, ByHand
 from seismass.effective_mass.models import Kind, Statistic, interpolated_roots, is_below, kind_of, over_records
+from seismass.effective_mass.rule import ByHand
 from seismass.effective_mass.runs import NamedMotions, Peaks
 from seismass.media.result import Result, finite_values
 
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-SCHEMA_VERSION: Final = 3
+SCHEMA_VERSION: Final = 4
 """Version of the tables and of the JSON of an effective mass."""
 
 SUITE_SCATTER: Final = 0.05
@@ -84,14 +85,11 @@ class EffectiveMass(Result):
     eta : float
         mu_k over `base_shear_coefficient`, mu_k averaged over the goods by mass.
     base_shear_coefficient : float
-        C1: mean over the motions of the peak base shear of the fully attached model in the runs, over the weight of
+        Mean over the motions of the peak base shear of the fully attached model in the runs, over the weight of
         building and goods.
-    estimate, conservative : float
-        The rule by period and its conservative form with this eta, see `seismass.effective_mass.estimate`:
-        min(1, eta_h^p) and min(1, eta_h) with eta_h = eta/sqrt(h_g/h_m); in two directions 0.8 eta in place of eta.
     by_hand : ByHand
-        What the rule takes, T, T_c, p, h_g/h_m and whether the building yields, and eta and the estimate with C1 by
-        hand, without any run.
+        The rule 1.35 mu/C1 - 0.15 without any run, with all that it takes; in two directions 0.8 mu in place of
+        mu.
     curve : polars.DataFrame
         One row per share and storey (0: the largest over the storeys of each run): fraction, storey, model_drift,
         real_drift, ratio (real over model), ratio_low and ratio_high (its bootstrap interval, for storey 0).
@@ -125,8 +123,6 @@ class EffectiveMass(Result):
     excess: float
     eta: float
     base_shear_coefficient: float
-    estimate: float
-    conservative: float
     by_hand: ByHand
     curve: pl.DataFrame = field(repr=False)
     storeys: pl.DataFrame = field(repr=False)
@@ -140,7 +136,7 @@ class EffectiveMass(Result):
 
     @property
     def text(self) -> str:
-        """The answer in a few lines, its scatter and the estimates beside it."""
+        """The answer in a few lines, its scatter and the rule by hand beside it."""
         suites = self.suite_interval
         scatter = (
             "no interval"
@@ -175,19 +171,12 @@ class EffectiveMass(Result):
 
     @property
     def rule_lines(self) -> tuple[str, ...]:
-        """The estimates in three lines: with the mean peak base shear of the runs, what the exponent is of, by hand."""
-        rule = self.by_hand
-        behaviour = "yields" if rule.yields else "stays elastic"
-        in_plane = () if "drift" not in self.metadata else (f"{'':20}two directions: {REDUCED_FRICTION:g} eta in it",)
+        """The friction beside the mean peak base shear of the runs, and the rule by hand."""
+        wrapped = textwrap.wrap(self.by_hand.words, 96)
         return (
-            f"estimates           eta = mu_k/C1 = {self.eta:.3f}, C1 = {self.base_shear_coefficient:.4f} (mean peak "
-            f"base shear of the runs): {RULE} = {self.estimate:.3f}, conservative {SAFE_RULE} = "
-            f"{self.conservative:.3f}",
-            f"                    p = {rule.exponent:.2f}: {behaviour}, T = {rule.period:.3g} s, T_c = "
-            f"{rule.corner_period:.3g} s; h_g/h_m = {rule.height_ratio:.2f}",
-            f"by hand             eta = {rule.eta:.3f}, C1 = {rule.base_shear_coefficient:.4f} without a run: {RULE} = "
-            f"{rule.estimate:.3f}",
-            *in_plane,
+            f"eta                 {self.eta:.3f}, mu_k over {self.base_shear_coefficient:.4f}, the mean peak base "
+            "shear of the runs with all goods attached over the weight",
+            *(f"{'' if number else 'by hand':20}{line}" for number, line in enumerate(wrapped)),
         )
 
     @view
@@ -198,7 +187,7 @@ class EffectiveMass(Result):
         """Return everything but the curve as plain values; null for non-finite values."""
         names = ["value", "kind", "roots", "interval", "confidence", "statistic", "real", "model", "unit", "excess"]
         names += ["suite_interval"]
-        names += ["eta", "base_shear_coefficient", "estimate", "conservative", "collapses", "remarks"]
+        names += ["eta", "base_shear_coefficient", "collapses", "remarks"]
         document = {"schema_version": SCHEMA_VERSION, **{name: getattr(self, name) for name in names}}
         document |= {"by_hand": asdict(self.by_hand)}
         document |= {"storeys": self.storeys.to_dicts(), "records": self.records.to_dicts(), "metadata": self.metadata}

@@ -13,13 +13,6 @@ from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import DRIFT_CAP, few_collapses
 from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
-from seismass.effective_mass.estimate import (
-    best_estimate,
-    by_hand,
-    conservative_estimate,
-    friction_factor,
-    remarks_of_structure,
-)
 from seismass.effective_mass.models import (
     DEFAULT_FRACTIONS,
     FRACTIONS_OF_VECTORS,
@@ -58,10 +51,12 @@ from seismass.effective_mass.result import (
     remarks_of,
     storey_drifts,
 )
+from seismass.effective_mass.rule import by_hand, remarks_of_structure
 from seismass.effective_mass.runs import LARGER, DriftMeasure, NamedMotions, Peaks, Progress, check_drift, solve
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.model.springs import SHAPE_FIELDS
+from seismass.motions.spectra import TargetSpectrum
 from seismass.runs.simulate import instruction_set
 
 OWNER: Final = "effective mass"
@@ -82,6 +77,7 @@ class Options:
     seed: int
     threads: int | None
     progress: Progress | None
+    target: TargetSpectrum | None = None
 
 
 def checked_options(
@@ -95,6 +91,7 @@ def checked_options(
     progress: Any,
     drift: Any = LARGER,
     drift_cap: Any = DRIFT_CAP,
+    target: Any = None,
 ) -> Options:
     """Return the arguments of `effective_mass`; one that is not what it must be is refused."""
     probability = as_number(confidence, "confidence", OWNER, InvalidOption)
@@ -102,6 +99,8 @@ def checked_options(
         raise refusal(InvalidOption, "confidence", OWNER, "above 0 and below 1", f"{probability:g}")
     if progress is not None and not callable(progress):
         raise refusal(InvalidOption, "progress", OWNER, "a callable of two numbers", brief(progress))
+    if target is not None and not isinstance(target, TargetSpectrum):
+        raise refusal(InvalidOption, "target", OWNER, "a TargetSpectrum", brief(target))
     return Options(
         statistic=check_statistic(statistic, OWNER),
         drift=check_drift(drift, OWNER),
@@ -113,6 +112,7 @@ def checked_options(
         seed=as_count(seed, "seed", OWNER, InvalidOption),
         threads=None if threads is None else as_count(threads, "threads", OWNER, InvalidOption, least=1),
         progress=progress,
+        target=target,
     )
 
 
@@ -147,8 +147,6 @@ class Search:
         scene = self.scene_at(place)
         full = self._fully_attached(scene, sliding, model)
         coefficient = float(full.base_shear.mean()) / full_weight(scene)
-        eta, shared = friction(scene) / coefficient, friction_factor(scene)
-        rule = by_hand(scene, self.motions, full, options.drift)
         sliding_drift, model_drift = (
             float(over_records(peaks.largest[0], options.statistic)) for peaks in (sliding_at_value, model_at_value)
         )
@@ -176,11 +174,9 @@ class Search:
             model=model_drift,
             unit="m" if building_of(scene).heights is None else "ratio",
             excess=excess,
-            eta=eta,
+            eta=friction(scene) / coefficient,
             base_shear_coefficient=coefficient,
-            estimate=float(best_estimate(shared * eta, rule.exponent, rule.height_ratio)),
-            conservative=float(conservative_estimate(shared * eta, rule.height_ratio)),
-            by_hand=rule,
+            by_hand=by_hand(scene, self.motions, options.target, options.drift),
             curve=curve_table(*self._with_larger(model), sliding, band, options.statistic),
             storeys=storeys,
             records=record_table(self.motions, shares, sliding, model, without),

@@ -16,7 +16,7 @@ from seismass.assessment.models import SLIDING
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, counted
 from seismass.base.views import Card
-from seismass.effective_mass.estimate import RULE, SAFE_RULE
+from seismass.effective_mass.rule import RULE
 from seismass.media.result import COLOUR, SECOND, Result, card, curve, history, line, pre, rows, stroke, svg, text
 from seismass.media.text_table import column_texts
 from seismass.model.scene import floor_name, goods_names, spring_names
@@ -396,22 +396,19 @@ def effective_mass_html(result: EffectiveMass) -> str:
             f'<rect x="{low:.1f}" y="{middle - 7.0:.1f}" width="{max(high - low, 1.0):.1f}" height="14" '
             f'fill="{COLOUR}" fill-opacity="0.35"/>'
         )
-    for share in (result.estimate, result.conservative):
-        x = at(share)
-        parts.append(
-            f'<path d="M{x:.1f} {middle + 9.0:.1f}l-5 9h10z" fill="none" stroke="{SECOND}" stroke-width="1.5"/>'
-        )
+    x = at(result.by_hand.estimate)
+    parts.append(f'<path d="M{x:.1f} {middle + 9.0:.1f}l-5 9h10z" fill="none" stroke="{SECOND}" stroke-width="1.5"/>')
     if np.isfinite(result.value):
         x = at(result.value)
         parts.append(f'<circle cx="{x:.1f}" cy="{middle:.1f}" r="6" fill="{COLOUR}"/>')
         anchor = "start" if result.value < 0.1 else "end" if result.value > 0.9 else "middle"
         parts.append(text(x, middle - 16.0, f"{result.value:.2f}", anchor=anchor, size=14.0))
-    label = f"effective fraction {result.value_text} on a line from 0 to 1, with its interval and both estimates"
+    label = f"effective fraction {result.value_text} on a line from 0 to 1, with its interval and the rule by hand"
     return card(
         f"Effective fraction {result.value_text}",
         f"of the live load, under {result.records.height} motions",
         svg(580.0, 84.0, label, *parts),
-        line(f"filled: value and interval; triangles: estimates {RULE} and {SAFE_RULE}"),
+        line(f"filled: value and interval; triangle: {RULE}, by hand"),
         "".join(line(row) for row in result.text.splitlines()[:6]),
         notes=result.remarks,
     )

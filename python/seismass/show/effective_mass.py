@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator, Mapping
 from typing import Final
 
@@ -14,16 +15,9 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
 
 from seismass.effective_mass.design_map import EffectiveMassMap
-from seismass.effective_mass.estimate import (
-    CLOSED_FORMS,
-    RULE,
-    RULE_IN_WORDS,
-    SAFE_RULE,
-    best_estimate,
-    conservative_estimate,
-)
 from seismass.effective_mass.live_load import LiveLoadUncertainty
 from seismass.effective_mass.result import EffectiveMass
+from seismass.effective_mass.rule import RULE, RULE_IN_WORDS, share_by_hand
 from seismass.media.result import named_figure
 from seismass.media.roles import (
     ADVISED,
@@ -95,11 +89,9 @@ def curve_figure(result: EffectiveMass, codes: Mapping[str, float] | None = None
             axes.fill_between(share, low, high, color=SLIDE.colour, alpha=0.18, linewidth=0.0, label=label)
         label = f"{OVER_MODEL}, {result.statistic} of the largest drift"
         axes.plot(share, ratio, color=SLIDE.colour, linewidth=2.0, label=label)
-        for name, (value, style) in {
-            RULE: (result.estimate, (0, (1, 1))),
-            SAFE_RULE: (result.conservative, (0, (5, 2, 1, 2))),
-        }.items():
-            axes.axvline(value, color=GREY, linewidth=1.3, linestyle=style, label=f"{lettered(name)} = {value:.2f}")
+        rule = result.by_hand
+        label = f"{lettered(rule.formula)} = {rule.estimate:.2f}"
+        axes.axvline(rule.estimate, color=GREY, linewidth=1.3, linestyle=(0, (1, 1)), label=label)
         if np.isfinite(result.value):
             _mark_answer(axes, result)
         axes.axhline(1.0, color=INK, linewidth=0.8)
@@ -276,14 +268,14 @@ def uncertainty_figure(result: LiveLoadUncertainty, name: str | None = None) -> 
     return figure
 
 
-LONGEST_ETA: Final = 2.2
-"""Largest eta that the figure shows; beyond it the fraction is 1."""
+LARGEST_SHOWN: Final = 1.6
+"""Largest mu/C1 that the figure shows; beyond it the fraction is 1."""
 _GROUPS: Final = (
-    ("p up to 1.8", 0.0, 1.8, SKY, "^"),
-    ("p up to 2.6", 1.8, 2.6, SLIDE.colour, "s"),
-    ("p above 2.6", 2.6, np.inf, GREY, "o"),
+    ("elastic", 0.0, 1.0, SKY, "^"),
+    ("R up to 3", 1.0, 3.0, SLIDE.colour, "s"),
+    ("R above 3", 3.0, np.inf, GREY, "o"),
 )
-"""Label, largest exponent of the rule in the group before and in this one, colour, marker."""
+"""Label, largest R in the group before and in this one, colour, marker."""
 _RATIOS: Final = (0.4, 0.5, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5)
 _INTENSITY_LOOKS: Final = ("o", "s", "D", "^", "v", "P", "X", "<", ">", "*", "h")
 
@@ -296,24 +288,18 @@ def map_figure(result: EffectiveMassMap, name: str | None = None) -> Figure:
 
 
 def collapse_figure(result: EffectiveMassMap) -> Figure:
-    """Effective fraction against eta_h, every case in which goods slide, in classes of the exponent, and the codes. A
-    curve per class is the best estimate with the median exponent of its cases.
-    """
-    sliding = result.table.filter(pl.col("slides")).with_columns(eta_h=pl.col("eta") / pl.col("height_ratio").sqrt())
-    eta = np.linspace(0.0, LONGEST_ETA, 400)
+    """Effective fraction against mu/C1, every case in which goods slide, by R, with the rule and the codes."""
+    sliding = result.table.filter(pl.col("slides"))
     with mpl.rc_context(STYLE):
         # Names of codes reach beyond the axes by more than the layout leaves them.
         figure = Figure(figsize=(7.2, 5.2), layout=ConstrainedLayoutEngine(rect=(0.0, 0.0, 0.98, 1.0)))
         axes = figure.add_subplot()
         for label, above, most, colour, marker in _GROUPS:
-            here = sliding.filter((pl.col("exponent") > above) & (pl.col("exponent") <= most))
+            here = sliding.filter((pl.col("R") > above) & (pl.col("R") <= most))
             if not here.height:
                 continue
-            power = float(np.median(here["exponent"].to_numpy()))
-            axes.plot(eta, best_estimate(eta, power), color="white", linewidth=4.0, zorder=3)
-            axes.plot(eta, best_estimate(eta, power), color=colour, linewidth=2.2, zorder=4)
             axes.plot(
-                here["eta_h"].to_numpy(),
+                (here["mu"] / here["coefficient"]).to_numpy(),
                 here["value"].to_numpy(),
                 linestyle="",
                 marker=marker,
@@ -321,10 +307,12 @@ def collapse_figure(result: EffectiveMassMap) -> Figure:
                 markeredgewidth=0.0,
                 color=colour,
                 alpha=0.55,
-                label=f"{label}; curve: p = {power:.1f}",
+                label=label,
             )
-        safe = conservative_estimate(eta)
-        axes.plot(eta, safe, color=INK, linewidth=2.0, linestyle=(0, (5, 2)), zorder=4, label="conservative, p = 1")
+        ends = np.linspace(0.0, LARGEST_SHOWN, 400)
+        rule = share_by_hand(ends, 1.0)
+        axes.plot(ends, rule, color="white", linewidth=4.0, zorder=3)
+        axes.plot(ends, rule, color=INK, linewidth=2.2, zorder=4, label=lettered(RULE))
         for name, share in {"none: ASCE 7 ordinary": 0.0, **STORAGE_CODES, "all": 1.0}.items():
             axes.plot([0.985, 1.0], [share, share], transform=axes.get_yaxis_transform(), color=INK, linewidth=1.6)
             axes.annotate(
@@ -334,11 +322,9 @@ def collapse_figure(result: EffectiveMassMap) -> Figure:
                 va="center",
                 fontsize=7.5,
             )
-        axes.set_xlim(0.0, LONGEST_ETA)
+        axes.set_xlim(0.0, LARGEST_SHOWN)
         axes.set_ylim(-0.03, 1.05)
-        axes.set_xlabel(
-            r"$\eta_h$ = $\mu_k$ / ($C_1$ ($h_g$/$h_m$)$^{1/2}$)   ($C_1$: mean peak base shear / full weight)"
-        )
+        axes.set_xlabel(r"$\mu$ / $C_1$,   $C_1$ = $S_a$ / $R_y^{2/3}$,   $R_y$ = $S_a W_g$ / $V_y$ $\geq$ 1")
         axes.set_ylabel(EFFECTIVE)
         axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
         legend = figure.legend(loc="outside upper center", ncols=2, frameon=False)
@@ -480,7 +466,6 @@ def map_text(result: EffectiveMassMap) -> str:
 
 def rules_text(rules: pl.DataFrame) -> list[str]:
     """Return the table of rules as lines."""
-    where, exponents = RULE_IN_WORDS.split("; ")
     lines = [
         "Largest drift of the model with the share of a rule, over that with sliding goods",
         text_line(("rule", "mean", "log scatter", "5 to 95 %", "worst", "unsafe"), _RULES, indent=0),
@@ -492,13 +477,12 @@ def rules_text(rules: pl.DataFrame) -> list[str]:
     return [
         *lines,
         "mean: geometric; unsafe: share of cases in which sliding goods drift more than 1.05 x the model",
-        f"{where};",
-        exponents,
+        *textwrap.wrap(RULE_IN_WORDS, 108),
     ]
 
 
 def by_period_text(rules: pl.DataFrame) -> list[str]:
-    """Return how the rules that depend on friction do in each class of period, as lines: mean, worst, unsafe."""
+    """Return how the rule by hand and all of the goods do in each class of period, as lines: mean, worst, unsafe."""
     classes = rules.select("period_from", "period_to").unique(maintain_order=True).rows()
     widths = (-30, *(18 for _ in classes))
     names = ["from 0" if not low else f"from {low:g}" for low, _ in classes]
@@ -507,7 +491,7 @@ def by_period_text(rules: pl.DataFrame) -> list[str]:
         text_line(("rule", *names), widths, indent=0),
         text_line(("cases", *(str(rules.filter(period_from=low)["cases"][0]) for low, _ in classes)), widths, indent=0),
     ]
-    for rule in CLOSED_FORMS:
+    for rule in (RULE, "ASCE 7 storage, 0.25", "all, 1"):
         cells = []
         for low, _ in classes:
             row = rules.filter(rule=rule, period_from=low).row(0, named=True)
@@ -519,7 +503,7 @@ def by_period_text(rules: pl.DataFrame) -> list[str]:
 def bins_text(bins: pl.DataFrame) -> list[str]:
     """Return the scatter of the fraction in bins of eta as lines."""
     head = text_line(("eta", "cases", "16 %", "median", "84 %"), _BINS, indent=0)
-    lines = ["Effective fraction by eta = mu_k/C1", head]
+    lines = ["Effective fraction by eta, mu_k over the mean peak base shear of the runs over the weight", head]
     for row in bins.iter_rows(named=True):
         end = "and more" if row["eta_to"] is None else f"to {row['eta_to']:g}"
         numbers = (f"{row[name]:.2f}" for name in ("p16", "median", "p84"))

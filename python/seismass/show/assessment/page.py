@@ -13,8 +13,8 @@ from markupsafe import Markup
 from seismass.assessment.models import ADVISED, BARE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
 from seismass.base.files import written_whole
 from seismass.base.statistics import CAPPED_MEAN
-from seismass.effective_mass.estimate import BY_HAND, RULE, RULE_IN_WORDS, SAFE_RULE
 from seismass.effective_mass.result import KIND_TEXTS
+from seismass.effective_mass.rule import RULE_IN_WORDS
 from seismass.media.page import (
     Section,
     bullets_html,
@@ -26,7 +26,7 @@ from seismass.media.page import (
     text_html,
 )
 from seismass.media.result import as_written, edited_files
-from seismass.media.roles import EFFECTIVE, ETA, LAMBDA, MU, OMEGA, OVER_MODEL, lettered, sentence_html
+from seismass.media.roles import EFFECTIVE, LAMBDA, MU, OMEGA, OVER_MODEL, lettered, sentence_html
 from seismass.media.text_table import number_text
 from seismass.show.assessment.page_input import Pictures, in_motion_html, input_html, motions_html, names_of
 from seismass.show.assessment.sheet import NOT_COVERED, sheet_html, signed_percent
@@ -164,9 +164,6 @@ def _fractions(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
             "value": "no value" if math.isnan(one.value) else f"{one.value:.2f}",
             "interval": _interval(one) + ("" if one.statistic == "mean" else f", by the {one.statistic}"),
             "kind": KIND_TEXTS[one.kind],
-            "eta": one.eta,
-            "estimate": one.estimate,
-            "conservative": one.conservative,
             "by_hand": one.by_hand.estimate,
         }
         for model, one in result.effective.items()
@@ -183,24 +180,16 @@ def _fractions(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
         ),
         table_html(
             pl.DataFrame(rows),
-            f"Effective fraction of the goods present by friction; C1 = {share.base_shear_coefficient:.4f} is the mean "
-            f"peak base shear of the runs with all goods attached over the weight of all, {ETA} = {MU}_k/C1; without "
-            f"a run C1 = {rule.base_shear_coefficient:.4f} and {ETA} = {rule.eta:.3f}. {lettered(RULE_IN_WORDS)}: here "
-            f"p = {rule.exponent:.2f}, T = {rule.period:.3g} s, T_c = {rule.corner_period:.3g} s, h_g/h_m = "
-            f"{rule.height_ratio:.2f}.",
+            f"Effective fraction of the goods present by friction, and the rule by hand, without a run: "
+            f"{lettered(rule.words)}. {lettered(RULE_IN_WORDS)}. In the runs the mean peak base shear with all goods "
+            f"attached is {share.base_shear_coefficient:.4f} of the weight.",
             headers={
                 "value": EFFECTIVE,
                 "kind": "what that is",
                 "interval": f"{100.0 * share.confidence:g} % interval",
-                "eta": ETA,
-                "estimate": lettered(RULE),
-                "conservative": f"{lettered(SAFE_RULE)}, conservative",
-                "by_hand": lettered(BY_HAND),
+                "by_hand": f"by hand, {lettered(rule.formula)}",
             },
-            formats={
-                "kind": long_html,
-                **dict.fromkeys(("eta", "estimate", "conservative", "by_hand"), ".2f"),
-            },
+            formats={"kind": long_html, "by_hand": ".2f"},
         ),
     ]
 

@@ -46,8 +46,6 @@ class Fraction:
     model: float
     eta: float
     base_shear_coefficient: float
-    estimate: float
-    conservative: float
     by_hand: ByHand
     curve: pl.DataFrame = field(repr=False)
 
@@ -197,13 +195,13 @@ def _fraction(values: dict[str, Any], curve: pl.DataFrame) -> Fraction:
     def number(value: float | None) -> float:
         return math.nan if value is None else float(value)
 
-    names = ("value", "real", "model", "eta", "base_shear_coefficient", "estimate", "conservative", "confidence")
+    names = ("value", "real", "model", "eta", "base_shear_coefficient", "confidence")
     ends = values["suite_interval"]
     return Fraction(
         **{name: number(values[name]) for name in names},
         kind=values["kind"],
         statistic=values["statistic"],
-        by_hand=ByHand(**values["by_hand"]),
+        by_hand=ByHand(**values["by_hand"] | {"exceptions": tuple(values["by_hand"]["exceptions"])}),
         interval=None if ends is None else (number(ends[0]), number(ends[1])),
         curve=curve,
     )

@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING, Any, Final
 import polars as pl
 
 from seismass.assessment.advice import slip_ends
-from seismass.assessment.answer import PAIR, analysis_table
+from seismass.assessment.answer import PAIR, analysis_table, deciding
+from seismass.assessment.checks import friction_words
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
 from seismass.assessment.result import Assessment
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import QUANTILES
 from seismass.base.values import as_path
-from seismass.effective_mass import ByHand
-from seismass.effective_mass.estimate import RULE, RULE_UNKNOWN, SAFE_RULE
+from seismass.effective_mass.rule import RULE_UNKNOWN
 from seismass.media.result import PAGE, check_out, write_folder
 from seismass.media.text_table import number_text, text_table
 from seismass.model.codes import CODE_NAMES, FROM_MEMORY, MARK, NOT_CHECKED, SECOND_HAND
@@ -87,13 +87,8 @@ def _answer(result: Assessment) -> list[str]:
         share = result.effective[SLIDING]
         unknown = [remark for remark in share.remarks if remark.startswith(RULE_UNKNOWN)]
         if unknown:
-            return [*lines, *_paragraph("rule", f"not applied: {'; '.join(unknown)}")]
-        lines += _paragraph(
-            "rule",
-            f"eta = mu_k/C1 = {share.eta:.3f}, C1 = {share.base_shear_coefficient:.4f}, mean peak base shear of the "
-            f"runs: {RULE} = {share.estimate:.2f} at best, {SAFE_RULE} = {share.conservative:.2f} to be safe",
-        )
-        lines += _rule(share.by_hand)
+            return [*lines, *_paragraph("by hand", f"not applied: {'; '.join(unknown)}")]
+        lines += _paragraph("by hand", _by_hand(result))
     return lines
 
 
@@ -109,14 +104,12 @@ def _code(result: Assessment) -> str:
     )
 
 
-def _rule(rule: ByHand) -> list[str]:
-    behaviour = "yields" if rule.yields else "elastic"
-    return [
-        f"by hand   eta = {rule.eta:.3f}, C1 = {rule.base_shear_coefficient:.4f} without a run: {RULE} = "
-        f"{rule.estimate:.2f}",
-        f"          p = {rule.exponent:.2f} ({behaviour}, T = {rule.period:.3g} s, T_c = {rule.corner_period:.3g} s), "
-        f"h_g/h_m = {rule.height_ratio:.2f}",
-    ]
+def _by_hand(result: Assessment) -> str:
+    """The rule at the friction that decides, and at the others."""
+    chosen, words = deciding(result.effective), friction_words(result.building)
+    others = (f"{words[name]} {one.by_hand.estimate:.2f}" for name, one in result.effective.items() if name != chosen)
+    rest = ", ".join(others)
+    return f"{words[chosen]}: {result.effective[chosen].by_hand.words}" + f"; with {rest}" * bool(rest)
 
 
 def _label(result: Assessment, model: str) -> str:

@@ -18,7 +18,7 @@ from seismass import _kernel
 from seismass.base.errors import MissingPackage
 from seismass.design import response_spectrum_analysis
 from seismass.design.scaling import scale_asce7_10
-from seismass.effective_mass import effective_mass
+from seismass.effective_mass import effective_mass, rule
 from seismass.effective_mass.models import bootstrap_counts
 from seismass.media.page import page_html, templates
 from seismass.media.roles import CODE, SLIDE, YIELDS
@@ -28,7 +28,7 @@ from seismass.model.codes import MARK, NOT_CHECKED, code_fraction
 from seismass.model.scene import Scene
 from seismass.motions.motion import scaled_motions
 from seismass.motions.records.builtin import builtin_suite
-from seismass.motions.spectra import TargetSpectrum, corner_period, mean_spectrum
+from seismass.motions.spectra import TargetSpectrum, mean_spectrum
 from seismass.show.animation.animation import FACTORS
 from seismass.show.animation.html import SPEEDS, element_html
 
@@ -38,7 +38,7 @@ CASES: Final = 4928
 
 @dataclass(frozen=True)
 class Bin:
-    """Quantiles (16, 50 and 84 %) of the effective fraction of the buildings with eta = mu_k/C1 in a range, whose ends
+    """Quantiles (16, 50 and 84 %) of the effective fraction of the buildings with eta in a range, whose ends
     are None where it is open.
     """
 
@@ -264,7 +264,15 @@ def _page_data() -> dict[str, Any]:
         "resamples": counts.astype(int).tolist(),
         "bins": [one.content for one in BINS],
         "enlargements": list(FACTORS),
-        "corner": corner_period(lambda periods: mean_spectrum(suite, factors, periods)),
+        "rule": {
+            "slope": rule.SLOPE,
+            "offset": rule.OFFSET,
+            "smallOffset": rule.SMALL_OFFSET,
+            "power": rule.POWER,
+            "leastOverstrength": rule.LEAST_OVERSTRENGTH,
+            "largestSecondSlope": rule.LARGEST_SECOND_SLOPE,
+            "largestLoad": rule.LARGEST_LOAD,
+        },
     }
 
 

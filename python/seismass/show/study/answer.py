@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 
 from seismass.base.statistics import CAPPED_MEAN
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.effective_mass.estimate import RULE, SAFE_RULE
+from seismass.effective_mass.rule import RULE
 from seismass.media.roles import BLUE, EFFECTIVE, GREY, LAMBDA, MU, OMEGA, VERMILION
 from seismass.media.style import PERIOD_TICKS, plain
 from seismass.media.svg import CAPTION_CHARACTERS
@@ -127,7 +127,7 @@ SELDOM: Final = 0.05
 """Share of the buildings in which it may fall short by more."""
 GROWS: Final = 1.05
 """Real drift over that of the attached model from which on sliding is said to add to it."""
-RULES: Final = {RULE: "estimate", SAFE_RULE: "conservative", "all, 1": None}
+RULES: Final = {RULE: "estimate", "all, 1": None}
 """Rules for the share to attach, by the mass that they attach, and their columns of the table of fractions."""
 
 
@@ -274,8 +274,8 @@ def _fraction_against_eta(fractions: pl.DataFrame) -> Markup:
         if not finite.height:
             return head + "No fully attached model has a result."
         return head + Markup(
-            "eta = mu<sub>k</sub>/C<sub>1</sub> is {eta}, for which {rule} estimates that {estimate} of the live load "
-            "acts as mass. The effective fractions themselves were not computed."
+            "eta, the friction over the mean peak base shear coefficient with all goods attached, is {eta}; by hand, "
+            "{rule}, {estimate} of the live load acts as mass. The effective fractions themselves were not computed."
         ).format(eta=span(finite["eta"]), estimate=span(finite["estimate"]), rule=RULE)
     parts = []
     for name, rows in (
@@ -290,15 +290,12 @@ def _fraction_against_eta(fractions: pl.DataFrame) -> Markup:
     partial = known.filter(pl.col("eta") < 1.0)
     misses = ""
     if partial.height:
-        closed = {RULE: "estimate", SAFE_RULE: "conservative"}
-        words = " and ".join(
-            f"{name} by {_number((partial[column] - partial['effective']).mean()):+.2f}".replace("-", "\N{MINUS SIGN}")
-            for name, column in closed.items()
-        )
-        misses = f" In the {partial.height} buildings with eta below 1 it is missed on average: {words}."
+        missed = _number((partial["estimate"] - partial["effective"]).mean())
+        words = f"{missed:+.2f}".replace("-", "\N{MINUS SIGN}")
+        misses = f" In the {partial.height} buildings with eta below 1 {RULE} misses it by {words} on average."
     return head + Markup(
         "The share of the live load that acts as mass is {parts}; eta is the friction coefficient over the base shear "
-        "coefficient C<sub>1</sub> of the building with all goods attached.{misses}"
+        "coefficient of the building with all goods attached.{misses}"
     ).format(parts=", and ".join(parts), misses=misses)
 
 
@@ -317,10 +314,10 @@ def _what_to_use(fractions: pl.DataFrame, rows: pl.DataFrame) -> Markup:
     head = Markup("<strong>What to use.</strong> ")
     if serving is None:
         text = (
-            "Attach {rule} of the live load as mass, the conservative estimate; run the study with "
+            "Attach {rule} of the live load as mass; run the study with "
             "<code>--effective</code> to see how far it holds for these motions."
         )
-        return head + Markup(text).format(rule=SAFE_RULE) + second
+        return head + Markup(text).format(rule=RULE) + second
     others = "; ".join(
         f"{rule.name}: {rule.short} of {rule.buildings}" for rule in compared_rules(fractions) if rule != serving
     )

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from seismass.effective_mass.estimate import best_estimate, conservative_estimate
+from seismass.effective_mass.rule import RULE, share_by_hand
 from seismass.media.roles import (
     ALPHA,
     ATTACHED,
@@ -25,7 +25,6 @@ from seismass.media.roles import (
     CODE,
     DEEP_BLUE,
     EFFECTIVE,
-    ETA,
     GREY,
     INK,
     LAMBDA,
@@ -33,6 +32,7 @@ from seismass.media.roles import (
     PAPER,
     SKY,
     SLIDE,
+    lettered,
 )
 from seismass.media.style import STYLE, lay_out, plain
 from seismass.show.study.answer import (
@@ -505,17 +505,17 @@ def page_figures(result: StudyTables) -> dict[str, Figure]:
 
 
 def effective_figure(result: StudyFrames) -> Figure:
-    """Effective fraction of each building against eta, with its interval, both estimates and the shares of the code."""
-    table = result.fractions.drop_nulls("effective")
+    """Effective fraction of each building against mu/C1, with its interval, the rule and the shares of the code."""
+    table = result.fractions.drop_nulls("effective").with_columns(over=pl.col("mu") / pl.col("coefficient"))
     figure = Figure(figsize=(6.4, 4.6), layout="constrained")
     axes = figure.add_subplot()
     for position, (factor, label) in enumerate(labels_of(table["R"]).items()):
-        here = table.filter(R=factor).unique(["eta", "effective"], maintain_order=True)
-        eta, value = here["eta"].to_numpy() / np.sqrt(here["height_ratio"].to_numpy()), here["effective"].to_numpy()
+        here = table.filter(R=factor).unique(["over", "effective"], maintain_order=True)
+        over, value = here["over"].to_numpy(), here["effective"].to_numpy()
         colour = BLOCK_COLOURS[position % len(BLOCK_COLOURS)]
-        axes.vlines(eta, here["low"].to_numpy(), here["high"].to_numpy(), color=colour, linewidth=0.7, alpha=0.5)
+        axes.vlines(over, here["low"].to_numpy(), here["high"].to_numpy(), color=colour, linewidth=0.7, alpha=0.5)
         axes.plot(
-            eta,
+            over,
             value,
             color=colour,
             linestyle="",
@@ -524,16 +524,9 @@ def effective_figure(result: StudyFrames) -> Figure:
             markerfacecolor="white" if position % 2 else colour,
             label=f"R = {label}",
         )
-    end = 1.05 * max(1.2, float(table["eta"].filter(table["eta"].is_finite()).max() or 0.0))  # type: ignore[arg-type]
-    eta = np.linspace(0.0, end, 400)
-    if table.height:
-        powers = table["exponent"].to_numpy()
-        least, most = powers.min(), powers.max()
-        label = f"best estimate, p = {least:.1f} to {most:.1f}"
-        ends = best_estimate(eta, most), best_estimate(eta, least)
-        axes.fill_between(eta, *ends, color=INK, alpha=0.15, linewidth=0.0, label=label)
-    rule = conservative_estimate(eta)
-    axes.plot(eta, rule, color=INK, linewidth=1.4, linestyle=(0, (5, 2)), label="p = 1, conservative")
+    end = 1.05 * max(1.2, float(table["over"].filter(table["over"].is_finite()).max() or 0.0))  # type: ignore[arg-type]
+    over = np.linspace(0.0, end, 400)
+    axes.plot(over, share_by_hand(over, 1.0), color=INK, linewidth=1.4, label=lettered(RULE))
     shares = result.summary.select("occupancy", "lambda_analysis").unique(maintain_order=True).rows()
     for occupancy, share in shares:
         axes.axhline(share, color=GREY, linewidth=1.0, linestyle=(0, (1, 2)))
@@ -541,9 +534,7 @@ def effective_figure(result: StudyFrames) -> Figure:
         axes.annotate(text, (end, share), xytext=(-3, 3), textcoords="offset points", ha="right", fontsize=7.5)
     axes.set_xlim(0.0, end)
     axes.set_ylim(-0.03, 1.06)
-    axes.set_xlabel(
-        f"{ETA}$_h$ = friction over base shear coefficient of the model with all attached over (h$_g$/h$_m$)$^{{1/2}}$"
-    )
+    axes.set_xlabel(f"{MU}/C1, C1 = S$_a$/R$_y^{{2/3}}$, R$_y$ = S$_a$ W$_g$/V$_y$, at least 1")
     axes.set_ylabel(EFFECTIVE)
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     figure.legend(loc="outside upper center", ncols=3, frameon=False)

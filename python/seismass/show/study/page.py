@@ -19,7 +19,7 @@ from seismass.media.page import (
     table_html,
     text_html,
 )
-from seismass.media.roles import ALPHA, ATTACHED, CODE, ETA, MU, SLIDE, lettered, sentence_html
+from seismass.media.roles import ALPHA, ATTACHED, CODE, MU, SLIDE, lettered, sentence_html
 from seismass.media.svg import short_svg
 from seismass.show.animation.html import element_html
 from seismass.show.study.answer import (
@@ -376,9 +376,9 @@ def _fraction(result: StudyTables, page: Pictures) -> list[Markup]:
         parts.append(
             page.figure(
                 "effective",
-                "Effective fraction of each building with its 90 % interval over the motions, the two estimates in "
-                "closed form, and the fractions of the code.",
-                f"Effective fractions against {ETA}, {span(fractions['effective'])}, beside both estimates.",
+                "Effective fraction of each building with its 90 % interval over the motions, the rule by hand, and "
+                "the fractions of the code.",
+                f"Effective fractions against {MU}/C1, {span(fractions['effective'])}, beside the rule by hand.",
             )
         )
         rules = compared_rules(fractions)

@@ -14,9 +14,9 @@ from seismass.base.errors import InvalidOption
 from seismass.base.files import read_file, read_table
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import brief, refusal
-from seismass.effective_mass.estimate import RULE, RULE_IN_WORDS, SAFE_RULE
+from seismass.effective_mass.rule import RULE, RULE_IN_WORDS
 from seismass.media.page import table_html
-from seismass.media.roles import ATTACHED, CODE, EFFECTIVE, ETA, SLIDE, lettered
+from seismass.media.roles import ATTACHED, CODE, EFFECTIVE, ETA, MU, SLIDE, lettered
 from seismass.show.animation import animate
 from seismass.show.animation.html import element_content
 from seismass.show.study.answer import percent
@@ -213,14 +213,12 @@ def storeys_table(result: StudyTables) -> Markup:
 
 
 def fractions_table(fractions: pl.DataFrame) -> Markup:
-    """Return C1, eta, the estimates and the effective fraction of every building."""
+    """Return base shear, eta, the rule by hand and the effective fraction of every building."""
     names = {
-        "base_shear_coefficient": "C1",
+        "base_shear_coefficient": "V/W",
         "eta": ETA,
-        "height_ratio": "h_g/h_m",
-        "exponent": "p",
+        "coefficient": "C1",
         "estimate": lettered(RULE),
-        "conservative": lettered(SAFE_RULE),
         "effective": EFFECTIVE,
         "low": "5 %",
         "high": "95 %",
@@ -229,8 +227,8 @@ def fractions_table(fractions: pl.DataFrame) -> Markup:
     known = [name for name in names if fractions[name].null_count() < fractions.height]
     return table_html(
         fractions.select(*shown_keys(fractions), *known),
-        "Every building: mean peak base shear coefficient C1 with all attached, {ETA} = {MU}/C1, the estimates with "
-        f"{lettered(RULE_IN_WORDS)}"
+        f"Every building: mean peak base shear V of the runs with all attached over the weight W of all, {ETA} = {MU} "
+        f"W/V, and the rule by hand, {lettered(RULE_IN_WORDS)}"
         + (", and the effective fraction with its interval." if "effective" in known else "."),
         headers={name: names[name] for name in known},
         formats={name: ".3f" if name.startswith("base") else ".2f" for name in known if name != "kind"},

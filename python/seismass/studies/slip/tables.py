@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from seismass.base.statistics import QUANTILES, interval_of, quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, counted
-from seismass.effective_mass.estimate import one_direction_of_slip
+from seismass.effective_mass.rule import one_direction_of_slip
 from seismass.effective_mass.runs import NamedMotions
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene

@@ -77,12 +77,10 @@ SUMMARY_COLUMNS: Final[dict[str, tuple[str, str]]] = {
 
 FRACTION_COLUMNS: Final[dict[str, tuple[str, str]]] = {
     **KEY_COLUMNS,
-    "base_shear_coefficient": ("1", "C1: mean peak base shear of the attached model over the weight of all"),
-    "eta": ("1", "friction coefficient over C1"),
-    "height_ratio": ("1", "h_g/h_m: mean height of the goods by mass over that of building and goods"),
-    "exponent": ("1", "p of the rule: 1.2 (1 + x) where the building yields, else 1 + x/2, x = T/T_c, at most 1.5"),
-    "estimate": ("1", "min(1, eta_h^p), eta_h = eta/sqrt(h_g/h_m): best estimate of the effective fraction"),
-    "conservative": ("1", "min(1, eta_h): its conservative estimate"),
+    "base_shear_coefficient": ("1", "mean peak base shear of the attached model over the weight of all"),
+    "eta": ("1", "friction coefficient over `base_shear_coefficient`"),
+    "coefficient": ("1", "C1 of the rule by hand: S_a/R_y^(2/3) with S_a of the target, R_y = S_a W_g/V_y"),
+    "estimate": ("1", "1.35 mu/C1 - 0.15, from 0 to 1: the effective fraction by hand"),
     "effective": ("1", "effective fraction; null without `--effective`, and where many runs collapsed"),
     "kind": ("", "stuck, root, multiple, zero, one or collapsed, as `seismass.effective_mass` has it"),
     "low": ("1", "lower end of the bootstrap interval of the effective fraction over the motions"),

@@ -25,7 +25,7 @@ from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
 from seismass.motions.motion import Motion, scaled_motions
 from seismass.motions.records import Record, Suite
-from seismass.motions.spectra import TargetSpectrum, corner_period, mean_spectrum, response_spectrum
+from seismass.motions.spectra import TargetSpectrum, mean_spectrum, response_spectrum
 from seismass.motions.spectra.target import target_remarks
 from seismass.runs.batch import solve_many
 from seismass.runs.simulate import instruction_set
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-SCHEMA_VERSION: Final = 4
+SCHEMA_VERSION: Final = 5
 """Version of the tables and of the metadata that a study gives back; see docs/study_schema.md."""
 
 SPECTRUM_RANGE: Final = (0.05, 3.0)
@@ -219,7 +219,7 @@ def run_study(
     return StudyResult(
         responses=responses,
         summary=summary_table(buildings, responses, names, settings),
-        fractions=fractions_table(buildings, table, run_of, fractions, corner_period(design_spectrum)),
+        fractions=fractions_table(buildings, table, run_of, fractions, target),
         designs=designs_table(buildings, settings),
         spectrum=spectrum,
         scaling=scaling,

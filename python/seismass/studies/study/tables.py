@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any, Final, Literal, NamedTuple, TypeAlias
 
@@ -15,10 +15,10 @@ from seismass.base.stored_results import NOTHING_STORED, StoredResults
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.effective_mass import effective_mass
-from seismass.effective_mass.estimate import best_estimate, conservative_estimate, exponent, height_ratio
-from seismass.effective_mass.models import building_of, goods_mass
+from seismass.effective_mass.rule import by_hand
 from seismass.model.scene import Scene
 from seismass.motions.records import Record
+from seismass.motions.spectra import TargetSpectrum
 from seismass.studies.study.columns import DESIGN_COLUMNS, FRACTION_COLUMNS, RESPONSE_COLUMNS, SUMMARY_COLUMNS
 from seismass.studies.study.parameters import KEYS, MODELS, Model, StudyBuilding, StudyParameters
 
@@ -246,10 +246,10 @@ def fractions_table(
     table: pl.DataFrame,
     run_of: NDArray[np.int64],
     effective: dict[Scene, Fraction] | None,
-    corner: float,
+    target: TargetSpectrum,
 ) -> pl.DataFrame:
-    """One row per building: C1, eta, both estimates, and lambda_eff where computed. C1 is the mean peak base shear of
-    the fully attached model over the full weight; null where a run of it failed.
+    """One row per building: mean peak base shear of the fully attached model over the full weight (null where a run
+    of it failed), friction over it, C1 and share of the rule by hand, and the effective fraction where computed.
     """
     runs = run_of.reshape(len(buildings), len(MODELS), -1)[:, MODELS.index("attached")]
     completed = (table["status"] != "failed").to_numpy()[runs].all(axis=1)
@@ -259,15 +259,13 @@ def fractions_table(
     mu = np.array([building.labels["mu"] for building in buildings])
     with np.errstate(divide="ignore"):
         eta: FloatArray = mu / coefficient
-    ratios, powers = (np.array(values) for values in zip(*_of_rule(buildings, table, runs, corner), strict=True))
+    rules = [by_hand(building.scenes["real"], None, target) for building in buildings]
     columns: dict[str, Any] = {
         **key_columns(buildings),
         "base_shear_coefficient": coefficient,
         "eta": eta,
-        "height_ratio": ratios,
-        "exponent": powers,
-        "estimate": best_estimate(eta, powers, ratios),
-        "conservative": conservative_estimate(eta, ratios),
+        "coefficient": [rule.coefficient for rule in rules],
+        "estimate": [rule.estimate for rule in rules],
     }
     fractions = [None if effective is None else effective[building.scenes["real"]] for building in buildings]
     columns |= {
@@ -278,19 +276,6 @@ def fractions_table(
         "excess": [None if one is None or one.kind != "one" else one.excess for one in fractions],
     }
     return typed(columns, list(FRACTION_COLUMNS))
-
-
-def _of_rule(
-    buildings: list[StudyBuilding], table: pl.DataFrame, runs: NDArray[np.int64], corner: float
-) -> Iterator[tuple[float, float]]:
-    """Yield h_g/h_m and the exponent of each building; it yields where its mean peak drift is above that of V_y."""
-    drifts = table["peak_drift"]
-    for building, numbers in zip(buildings, runs, strict=True):
-        bare = building_of(building.scenes["real"])
-        mean = np.mean([drifts[int(run)].to_numpy() for run in numbers], axis=0)
-        yields = bool((mean > bare.yield_shear / bare.stiffness).any())
-        ratio = height_ratio(goods_mass(building.scenes["real"]), bare.mass, bare.heights)
-        yield ratio, float(exponent(float(bare.periods[0]), corner, yields))
 
 
 def _attached_mass(scene: Scene) -> float:
@@ -355,7 +340,7 @@ def findings(summary: pl.DataFrame, fractions: pl.DataFrame, code: str = "code")
     (%), how it grows with alpha and R, first storeys by R and alpha. Storeys without a mean are left out.
     """
     entries = []
-    keys = ["building", "eta", "estimate", "conservative", "effective"]
+    keys = ["building", "eta", "estimate", "effective"]
     joined = summary.join(fractions.select(keys), on="building", how="left", maintain_order="left").with_columns(
         mass_percent=100.0 * (pl.col("ratio_mass") - 1.0), sliding_percent=100.0 * (pl.col("ratio_sliding") - 1.0)
     )

@@ -274,6 +274,9 @@
       inKernel = wanted;
     }
     const scene = sceneOf(state, strengthsOf(state, kernel.design(state, state.counted)));
+    // An oscillator has the base shear S_a of the suite.
+    const acceleration = state.intensity * kernel.design({ storeys: 1, period: state.period, massRatio: [0] }, 0)[0];
+    const rule = ruleBy(scene, acceleration, given.rule);
     const every = Math.max(1, Math.round(record.samples.length / 8000));
     const blocks = scene.massRatio.flatMap((ratio, i) => (ratio > 0 ? [{ floor: i + 1, ratio, muS: scene.muS[i], muK: scene.muK[i] }] : []));
     const run = (share) => {
@@ -289,7 +292,7 @@
       code: { run: code, share: state.counted, words: "model of the code" },
       full: { run: full, share: 1, words: "all goods attached" },
     }[chosen];
-    return { state: structuredClone(state), scene, record, scale, every, real, code, full, beside };
+    return { state: structuredClone(state), scene, record, scale, every, real, code, full, beside, rule };
   }
 
   const seconds = (record, every) => every * record.dt;
@@ -357,7 +360,7 @@
   function drawFraction() {
     const palette = colours();
     drawCurve(one(".curve"), palette, found, state);
-    drawRule(one(".rule"), palette, found, given.bins, given.corner, state);
+    drawRule(one(".rule"), palette, found, given.bins, solved.rule, state);
   }
   function sayFraction() {
     const place = one(".fraction");
@@ -370,9 +373,9 @@
     else if (found.error) place.textContent = `It could not be solved: ${found.error}`;
     else if (!done) {
       const part = found.left === undefined ? "" : ` ${Math.round(100 * (1 - found.left / SHARES))} % done.`;
-      place.textContent = `eta = ${fixed(found.eta, 3)} (C1 = ${fixed(found.coefficient, 4)}). Being solved over the built-in suite\u2026${part}`;
+      place.textContent = `By hand: ${solved.rule.words}. Being solved over the built-in suite\u2026${part}`;
     } else {
-      place.textContent = fractionWords(found, given.corner).long;
+      place.textContent = fractionWords(found, solved.rule).long;
       list.append(...fractionRemarks(found).map((words) => Object.assign(document.createElement("li"), { textContent: words })));
     }
     fractionTables(root, done ? found : null, given.suite);
@@ -394,7 +397,7 @@
   }
   // Said once the reader pauses, so that a screen reader is not flooded.
   function say() {
-    const fraction = found !== null && found.shares ? ` ${fractionWords(found, given.corner).short}` : "";
+    const fraction = found !== null && found.shares ? ` ${fractionWords(found, solved.rule).short}` : "";
     const words = runWords(solved, nameOf(state.record)) + fraction;
     if (one(".answer").textContent !== words) one(".answer").textContent = words;
   }

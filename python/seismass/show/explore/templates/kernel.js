@@ -34,8 +34,8 @@ function openKernel(instance) {
       }),
     );
   }
-  // What the rule by hand takes.
-  const ruleOf = ([coefficient, eta, period, heightRatio, yields]) => ({ coefficient, eta, period, heightRatio, yields: yields === 1 });
+  // Mean peak base shear of the fully attached model over the full weight, and friction over it.
+  const shearOf = ([coefficient, eta]) => ({ coefficient, eta });
   const listed = (scene) => [
     scene.storeys, scene.period, scene.damping, scene.overstrength, scene.secondSlope, scene.thirdSlope,
     ...scene.strength, ...scene.massRatio, ...scene.muS, ...scene.muK,
@@ -76,7 +76,7 @@ function openKernel(instance) {
     beginEffective(scene) {
       give(listed(scene));
       checked(calls.seismass_effective_begin());
-      return ruleOf(output());
+      return shearOf(output());
     },
     // Solves some shares; returns how many are left.
     solveEffective(shares) {
@@ -86,9 +86,9 @@ function openKernel(instance) {
     answerEffective() {
       checked(calls.seismass_effective_answer());
       const { answer, ...lists } = named(ANSWER);
-      const [kind, value, low, high, real, model, ...rule] = answer;
+      const [kind, value, low, high, real, model, ...shear] = answer;
       const KINDS = ["stuck", "root", "multiple", "zero", "one"];
-      return { kind: KINDS[kind], value, low, high, realMean: real, modelMean: model, ...ruleOf(rule), ...lists };
+      return { kind: KINDS[kind], value, low, high, realMean: real, modelMean: model, ...shearOf(shear), ...lists };
     },
   };
 }

@@ -45,23 +45,31 @@ function runWords({ state, real, code, full }, name) {
   return parts.join(" ");
 }
 
-// The rule of `seismass.effective_mass.estimate`; the corner is T_c of the suite (s).
-function ruleBy(found, corner) {
-  const ratio = Math.min(found.period / corner, 1.5);
-  const power = found.yields ? 1.2 * (1 + ratio) : 1 + ratio / 2;
-  const height = Math.sqrt(found.heightRatio);
-  const share = (eta, exponent) => Math.min(1, (eta / height) ** exponent);
-  return { power, best: (eta) => share(eta, power), safe: (eta) => share(eta, 1) };
+// The rule of `seismass.effective_mass.rule`, with the constants that the page carries; S_a of the suite in g.
+function ruleBy(scene, acceleration, constants) {
+  const { storeys, massRatio, muS, muK, strength, overstrength, secondSlope } = scene;
+  const goods = massRatio.reduce((sum, ratio) => sum + ratio, 0);
+  const friction = massRatio.reduce((sum, ratio, i) => sum + (ratio * (muS[i] + muK[i])) / 2, 0) / goods;
+  const yieldCoefficient = strength[0] / (1 + goods / storeys);
+  const reduction = Math.max(1, acceleration / yieldCoefficient);
+  const coefficient = acceleration / reduction ** constants.power;
+  const ordinary = overstrength >= constants.leastOverstrength && secondSlope > 0 && secondSlope <= constants.largestSecondSlope;
+  const less = !(ordinary || !Number.isFinite(yieldCoefficient)) || Math.max(...massRatio) > constants.largestLoad;
+  const offset = less ? constants.smallOffset : constants.offset;
+  const share = (mu) => Math.min(1, Math.max(0, (constants.slope * mu) / coefficient - offset));
+  const words =
+    `${constants.slope} mu/C1 - ${fixed(offset, 2)} = ${fixed(share(friction), 3)}; C1 = S_a/R_y^(2/3) = ${fixed(coefficient, 3)}, ` +
+    `S_a = ${fixed(acceleration, 3)} g, R_y = ${fixed(reduction, 2)}`;
+  const kinetic = massRatio.reduce((sum, ratio, i) => sum + ratio * muK[i], 0) / goods;
+  return { coefficient, share, estimate: share(friction), overKinetic: friction / kinetic, words };
 }
 
-function fractionWords(found, corner) {
-  const { power, best, safe } = ruleBy(found, corner);
-  const rule = `eta = ${fixed(found.eta, 3)} (C1 = ${fixed(found.coefficient, 4)}): min(1, eta_h^p) = ${fixed(best(found.eta), 3)} at best, min(1, eta_h) = ${fixed(safe(found.eta), 3)} to be safe; p = ${fixed(power, 2)} (${found.yields ? "yields" : "stays elastic"}), h_g/h_m = ${fixed(found.heightRatio, 2)}`;
+function fractionWords(found, rule) {
   return {
     short: `Over the built-in motions: effective fraction of the goods ${fixed(found.value, 2)}, 90 % interval ${fixed(found.low, 2)} to ${fixed(found.high, 2)}.`,
     long:
       `Effective fraction ${fixed(found.value, 3)} (90 % interval over the built-in motions ${fixed(found.low, 2)} to ${fixed(found.high, 2)}); ` +
-      `${KIND_WORDS[found.kind].replace(/^./, (letter) => letter.toUpperCase())}. By the rule, ${rule}.`,
+      `${KIND_WORDS[found.kind].replace(/^./, (letter) => letter.toUpperCase())}. By hand: ${rule.words}.`,
   };
 }
 
@@ -267,33 +275,31 @@ function drawCurve(canvas, colours, found, state) {
   canvas.setAttribute("aria-label", `Drift with sliding goods over that of the model is ${at(0)} with nothing attached, ${at(state.counted)} with the share of the code and ${at(1)} with all; it is 1 at the effective fraction ${fixed(found.value, 3)}.`);
 }
 
-function drawRule(canvas, colours, found, bins, corner, state) {
+function drawRule(canvas, colours, found, bins, rule, state) {
   const chart = chartOf(canvas, colours);
   if (chart.width === 0) return;
   const keyEnd = chart.key([
     { words: "the rule for this case", colour: colours.ink },
-    { words: "p = 1, to be safe", colour: colours.ink, dash: [4, 3] },
     { words: "other buildings, median, 16 to 84 %", colour: colours.soft, fill: 0.35 },
     { words: "this case", colour: colours.yield },
     { words: "code", colour: colours.code, dash: [4, 3] },
   ], 46, 14, chart.width);
   const most = 2;
   const box = { left: 46, top: keyEnd + 6, right: chart.width - 16, bottom: chart.height - 40 };
-  const panel = chart.panel(box, [0, most], [0, 1.04], { xTitle: "eta = mu_k / C1", yTitle: "effective fraction", yTicks: [0, 0.25, 0.5, 0.75, 1].map((one) => [one, String(one)]) });
+  const panel = chart.panel(box, [0, most], [0, 1.04], { xTitle: "eta = mu_k / base shear coefficient", yTitle: "effective fraction", yTicks: [0, 0.25, 0.5, 0.75, 1].map((one) => [one, String(one)]) });
   for (const { from, to, low, median, high } of bins) {
     if (from >= most) continue;
     const end = Math.min(to === null ? most : to, most);
     panel.area([[from, low], [end, low]], [[from, Math.max(high, low + 0.006)], [end, Math.max(high, low + 0.006)]], colours.soft, 0.28);
     panel.line([[from, median], [end, median]], { colour: colours.soft, width: 2 });
   }
-  const curve = (rule) => Array.from({ length: 101 }, (_, i) => (i / 100) * most).map((eta) => [eta, Math.min(1, rule(eta))]);
-  const rule = found === null || found.error ? null : ruleBy(found, corner);
-  if (rule !== null) {
-    panel.line(curve(rule.safe), { colour: colours.ink, width: 1.3, dash: [4, 3] });
-    panel.line(curve(rule.best), { colour: colours.ink, width: 1.6 });
+  const known = found !== null && !found.error;
+  if (known) {
+    const curve = Array.from({ length: 101 }, (_, i) => (i / 100) * most).map((eta) => [eta, rule.share(eta * found.coefficient * rule.overKinetic)]);
+    panel.line(curve, { colour: colours.ink, width: 1.6 });
   }
   panel.line([[0, state.counted], [most, state.counted]], { colour: colours.code, width: 1.3, dash: [4, 3] });
-  if (rule === null) {
+  if (!known) {
     canvas.setAttribute("aria-label", "Effective fraction against eta: there are no goods, or they are being solved.");
     return;
   }
@@ -306,5 +312,5 @@ function drawRule(canvas, colours, found, bins, corner, state) {
   }
   if (found.eta > most) chart.text(`eta = ${general(found.eta, 3)} \u2192`, box.right - 4, panel.y(0.9), { size: 11, align: "right", colour: colours.yield });
   const where = found.shares ? `effective fraction ${fixed(found.value, 2)}, interval ${fixed(found.low, 2)} to ${fixed(found.high, 2)}` : "effective fraction not solved yet";
-  canvas.setAttribute("aria-label", `This case has eta ${fixed(found.eta, 2)}: ${where}; the rule gives ${fixed(rule.best(found.eta), 2)}, to be safe ${fixed(rule.safe(found.eta), 2)}, the code's share ${fixed(state.counted, 2)}.`);
+  canvas.setAttribute("aria-label", `This case has eta ${fixed(found.eta, 2)}: ${where}; the rule by hand gives ${fixed(rule.estimate, 2)}, the code's share ${fixed(state.counted, 2)}.`);
 }
