@@ -129,6 +129,8 @@ class ByHand:
         R_y = S_a W_g/V_y, at least 1.
     coefficient : float
         C1 = S_a/R_y^(2/3).
+    staying : float
+        Part of the goods that is fixed to its floor (`Scene.fixed_goods`) and counts whole; the line is of the rest.
     exceptions : tuple of str
         Why 0.10 is taken off in place of 0.15; empty where 0.15 is.
     estimate : float
@@ -144,6 +146,7 @@ class ByHand:
     yield_shear: float | None
     yield_reduction: float
     coefficient: float
+    staying: float
     exceptions: tuple[str, ...]
     estimate: float
 
@@ -156,11 +159,14 @@ class ByHand:
     def formula(self) -> str:
         """The rule of this building in letters."""
         factor = "" if self.friction_factor == 1.0 else f"{self.friction_factor:g} "
-        return f"{SLOPE:g} {factor}mu/C1 - {self.offset:.2f}"
+        line = f"{SLOPE:g} {factor}mu/C1 - {self.offset:.2f}"
+        return line if self.staying == 0.0 else f"{self.staying:.2f} + {1.0 - self.staying:.2f} ({line})"
 
     @property
     def words(self) -> str:
         """The rule in letters and numbers, in one sentence."""
+        if not np.isfinite(self.friction):
+            return "1, as all goods are fixed"
         source = "target spectrum" if self.of_target else "mean spectrum of the motions"
         if self.yield_shear is None:
             strength = "R_y = 1, as no strength limits the base shear"
@@ -205,10 +211,12 @@ def by_hand(
         yield_shear=strength if np.isfinite(strength) else None,
         yield_reduction=float(yield_reduction(acceleration, strength / weight)),
         coefficient=coefficient,
+        staying=0.0 if scene.fixed_goods is None else float(scene.fixed_goods.sum() / goods.sum()),
         exceptions=reasons,
         estimate=0.0,
     )
-    return replace(found, estimate=float(share_by_hand(factor * mu, coefficient, found.offset)))
+    line = float(share_by_hand(factor * mu, coefficient, found.offset))
+    return replace(found, estimate=found.staying + (1.0 - found.staying) * line)
 
 
 Rule: TypeAlias = Callable[[pl.DataFrame], FloatArray]

@@ -196,12 +196,13 @@ def _fraction(values: dict[str, Any], curve: pl.DataFrame) -> Fraction:
         return math.nan if value is None else float(value)
 
     names = ("value", "real", "model", "eta", "base_shear_coefficient", "confidence")
-    ends = values["suite_interval"]
+    ends, rule = values["suite_interval"], values["by_hand"]
+    rule = rule | {"friction": number(rule["friction"]), "exceptions": tuple(rule["exceptions"])}
     return Fraction(
         **{name: number(values[name]) for name in names},
         kind=values["kind"],
         statistic=values["statistic"],
-        by_hand=ByHand(**values["by_hand"] | {"exceptions": tuple(values["by_hand"]["exceptions"])}),
+        by_hand=ByHand(**rule),
         interval=None if ends is None else (number(ends[0]), number(ends[1])),
         curve=curve,
     )
