@@ -20,6 +20,7 @@ import seismass as sm
 from seismass.cli import main
 from seismass.design import response_spectrum_analysis
 from seismass.effective_mass.models import bootstrap_counts
+from seismass.effective_mass.rule import by_hand
 from seismass.media.page import page_html
 from seismass.motions.spectra import mean_spectrum
 from seismass.show.explore import explorer_html
@@ -334,3 +335,35 @@ def test_command_says_how_to_get_the_kernel(
     assert main(["explore", "--out", str(out)]) == 2
     assert "make explorer" in capsys.readouterr().err
     assert not out.exists()
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="no Node on the path")
+@pytest.mark.parametrize(
+    ("strength", "shape"),
+    [
+        ([0.3, 0.2, 0.1], {}),
+        ([np.inf] * 3, {}),
+        ([0.3, 0.2, 0.1], {"overstrength": 1.2}),
+        ([0.3, 0.2, 0.1], {"second_slope": 0.2}),
+    ],
+)
+def test_the_rule_of_the_page_is_that_of_the_package(strength: list[float], shape: dict[str, float]) -> None:
+    """Its constants are given to the page; without the kernel, S_a of the target stands for that of the suite."""
+    target = sm.TargetSpectrum.asce7()
+    bare = sm.Building.uniform(3, 0.5, yield_shear_over_weight=strength, **shape)
+    blocks = [sm.Block(floor, mass_ratio=ratio, mu_s=0.25, mu_k=0.2) for floor, ratio in ((1, 1.0), (2, 0.5))]
+    expected = by_hand(sm.Scene(bare, blocks), None, target)
+    scene = {"storeys": 3, "massRatio": [1.0, 0.5, 0.0], "muS": [0.25] * 3, "muK": [0.2] * 3}
+    scene |= {"overstrength": float(bare.overstrength[0]), "secondSlope": float(bare.second_slope[0])}
+    given = [scene, expected.spectral_acceleration_g, compiled._page_data()["rule"]]
+    views = (TEMPLATES / "views.js").read_text(encoding="utf-8")
+    rule = views[views.index("function ruleBy(") : views.index("function fractionWords(")]
+    first = "Infinity" if np.isinf(strength[0]) else f"{strength[0]}"
+    code = f"const fixed = (value, digits) => value.toFixed(digits);\n{rule}\nconst given = {json.dumps(given)};\n"
+    code += f"given[0].strength = [{first}];\nconst found = ruleBy(...given);\n"
+    code += "console.log(JSON.stringify([found.coefficient, found.estimate, found.words]));"
+    done = subprocess.run(["node", "-e", code], capture_output=True, text=True, check=True)
+    coefficient, estimate, words = json.loads(done.stdout)
+    assert coefficient == pytest.approx(expected.coefficient, rel=1e-12)
+    assert estimate == pytest.approx(expected.estimate, rel=1e-12)
+    assert words.startswith(f"{expected.formula} = {expected.estimate:.3f}; C1")
