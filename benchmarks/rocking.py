@@ -268,8 +268,15 @@ def main() -> None:
     parser.add_argument("--falls", action="store_true", help="count falls instead")
     args = parser.parse_args()
     records = [scaled(record) for record in suite(args.motions)]
-    look = {"tbl_formatting": "MARKDOWN", "tbl_hide_dataframe_shape": True, "tbl_hide_column_data_types": True}
-    with pl.Config(**look, tbl_rows=-1, tbl_cols=-1, float_precision=2, tbl_width_chars=200):
+    with pl.Config(
+        tbl_formatting="MARKDOWN",
+        tbl_hide_dataframe_shape=True,
+        tbl_hide_column_data_types=True,
+        tbl_rows=-1,
+        tbl_cols=-1,
+        float_precision=2,
+        tbl_width_chars=200,
+    ):
         if args.falls:
             print(falls(records, args.step))
             return

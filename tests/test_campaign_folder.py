@@ -15,7 +15,8 @@ import polars as pl
 import pytest
 
 import seismass as sm
-from seismass.base.stored_results import write_checked
+from seismass.base.files import write_file
+from seismass.base.stored_results import checked_content
 from seismass.studies.campaign.manifest import part_path
 
 MOTIONS = [sm.Motion([2.0, -2.0, 2.0, 0.0], dt=0.1), sm.Motion([0.0, 3.0, -4.0, 1.0, 2.0], dt=0.1)]
@@ -126,7 +127,13 @@ def test_a_part_that_is_not_as_it_was_written_is_not_reused(
     tmp_path: Path, harm: Callable[[Path], object], said: str
 ) -> None:
     folder = campaign().run(tmp_path / "a")
+    assert folder.scan().collect().height == folder.manifest["runs"]
     harm(part_path(folder.path, 3))
+    for reader in (folder, sm.campaign.CampaignFolder(folder.path)):
+        with pytest.raises(sm.errors.InvalidOption, match=rf"got part-0000003.parquet, which {said}"):
+            reader.scan()
+    if harm is zeroed:
+        assert folder.scan(force=True).filter(pl.col("peak_base_shear") == 0.0).collect().height > 0
     with pytest.raises(
         sm.errors.InvalidOption, match=rf"parts .* must be whole .*; got part-0000003.parquet, which {said}"
     ):
@@ -136,6 +143,19 @@ def test_a_part_that_is_not_as_it_was_written_is_not_reused(
     assert dict(folder.verify().select("part", "problem").iter_rows())[3].startswith(said)
     assert 3 not in folder.present() or part_path(folder.path, 3).is_file()
     campaign().run(tmp_path / "a", shard=(1, 2 * folder.parts))  # has not this part
+
+
+def test_one_bit_of_any_part_is_seen_by_a_scan(tmp_path: Path) -> None:
+    folder, chooser = campaign().run(tmp_path / "a"), random.Random(7)
+    for _ in range(60):
+        path = part_path(folder.path, chooser.randint(1, folder.parts))
+        whole = path.read_bytes()
+        bit = chooser.randrange(8 * len(whole))
+        path.write_bytes(whole[: bit // 8] + bytes([whole[bit // 8] ^ 1 << bit % 8]) + whole[bit // 8 + 1 :])
+        with pytest.raises(sm.errors.InvalidOption, match=f"got {path.name}, which"):
+            sm.campaign.CampaignFolder(folder.path).scan()
+        path.write_bytes(whole)
+    assert sm.campaign.CampaignFolder(folder.path).scan().collect().height == folder.manifest["runs"]
 
 
 def test_parts_without_a_manifest_are_refused(tmp_path: Path) -> None:
@@ -170,7 +190,7 @@ def test_edited_inputs_of_a_folder_are_refused(tmp_path: Path, name: str) -> Non
     path.mkdir()
     all_refuse("is a folder and no file")
     path.rmdir()
-    write_checked(others, path, {})  # by one who knows how the digest is made
+    write_file(path, checked_content(others, {}))  # by one who knows how the digest is made
     with pytest.raises(sm.errors.InvalidOption, match="must be of the values of this campaign"):
         campaign().run(folder.path)
     with pytest.raises(sm.errors.InvalidOption, match="one of other inputs"):

@@ -16,7 +16,7 @@ import polars as pl
 import pytest
 
 import seismass as sm
-from seismass.base.files import PREFIX, remove_left_behind, temporary_name
+from seismass.base.files import PREFIX, Directory, remove_left_behind, temporary_name
 from seismass.base.stored_results import result_store
 from seismass.cli import main
 
@@ -91,7 +91,7 @@ def test_a_link_in_place_of_the_hidden_folder_is_refused_and_empties_nothing(tmp
         sm.write_many(tmp_path / "rows.parquet", SCENE, MOTION)
     assert content(tmp_path / "victim") == before
     hidden(tmp_path, "study").symlink_to(tmp_path / "victim")
-    assert main(["study", "--out", str(tmp_path), "--no-figures"]) == 2
+    assert main(["study", "--out", str(tmp_path / "study"), "--no-figures"]) == 2
     assert content(tmp_path / "victim") == before
 
 
@@ -130,14 +130,14 @@ def test_a_folder_that_takes_the_name_meanwhile_is_not_touched(tmp_path: Path) -
     with result_store(tmp_path, "rows", "a") as kept:
         kept.file("0", lambda: TABLE)
         assert kept.folder is not None
-        kept.folder.rename(tmp_path / "moved")
-        kept.folder.symlink_to(tmp_path / "victim")
+        kept.folder.path.rename(tmp_path / "moved")
+        kept.folder.path.symlink_to(tmp_path / "victim")
     assert content(tmp_path / "victim") == before
-    kept.folder.unlink()
+    kept.folder.path.unlink()
     with result_store(tmp_path, "rows", "a"):
-        kept.folder.rename(tmp_path / "moved too")
-        shutil.copytree(tmp_path / "victim", kept.folder)
-    assert content(kept.folder) == before
+        kept.folder.path.rename(tmp_path / "moved too")
+        shutil.copytree(tmp_path / "victim", kept.folder.path)
+    assert content(kept.folder.path) == before
 
 
 def test_a_copy_of_a_hidden_folder_counts_for_nothing(tmp_path: Path) -> None:
@@ -154,7 +154,7 @@ def test_a_copy_of_a_hidden_folder_counts_for_nothing(tmp_path: Path) -> None:
 def test_a_new_hidden_folder_is_closed_to_others(tmp_path: Path) -> None:
     with result_store(tmp_path, "rows", "a") as kept:
         assert kept.folder is not None
-        assert stat.S_IMODE(kept.folder.stat().st_mode) == 0o700
+        assert stat.S_IMODE(kept.folder.path.stat().st_mode) == 0o700
 
 
 def test_what_was_left_behind_is_removed_without_its_links(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -171,11 +171,13 @@ def test_what_was_left_behind_is_removed_without_its_links(tmp_path: Path, monke
     link.symlink_to(tmp_path / "victim")
     folder.mkdir()
     (folder / "link").symlink_to(tmp_path / "victim")
+    place = Directory(tmp_path)
     with monkeypatch.context() as patch:
         patch.setattr(os, "geteuid", lambda: tmp_path.stat().st_uid + 1)
-        remove_left_behind(tmp_path)
+        remove_left_behind(place)
         assert folder.exists()
-    remove_left_behind(tmp_path)
+    remove_left_behind(place)
+    place.close()
     assert [path.name for path in tmp_path.iterdir()] == ["victim"]
     assert content(tmp_path / "victim") == before
 

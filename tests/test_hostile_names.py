@@ -13,7 +13,7 @@ import pytest
 
 import seismass as sm
 from seismass.assessment.building_file import example_file
-from seismass.base.files import write_table
+from seismass.base.files import table_content, write_file
 from seismass.cli import main
 
 NAMES = {
@@ -90,11 +90,11 @@ def test_an_error_cannot_act_on_the_terminal(tmp_path: Path, capsys: pytest.Capt
 def test_a_csv_has_no_formulas(tmp_path: Path, begin: str) -> None:
     formula = f"{begin}cmd|'/C calc'!A0"
     table = pl.DataFrame({"record": [formula, "-2.5", "a=b", None], "drift": [-1.0, 2.0, 3.0, None]})
-    write_table(table, "csv", tmp_path / "a.csv")
+    write_file(tmp_path / "a.csv", table_content(table, "csv"))
     rows = pl.read_csv(tmp_path / "a.csv", schema={"record": pl.String, "drift": pl.Float64})
     assert rows["record"].to_list() == [f"'{formula}", "-2.5", "a=b", None]
     assert rows["drift"].to_list() == [-1.0, 2.0, 3.0, None]
-    write_table(table, "parquet", tmp_path / "a.parquet")
+    write_file(tmp_path / "a.parquet", table_content(table, "parquet"))
     assert pl.read_parquet(tmp_path / "a.parquet").equals(table)
 
 

@@ -13,10 +13,9 @@ import pytest
 
 import seismass as sm
 from seismass.base.files import read_file
-from seismass.base.input_table import MOST_KEY_PARTS
+from seismass.base.folders import read_folder
+from seismass.base.limits import MOST_KEY_PARTS
 from seismass.cli import main
-from seismass.show.assessment.tables import read_assessment_tables
-from seismass.show.study.tables import read_study_tables
 
 SCENE = """
 [[blocks]]
@@ -45,8 +44,8 @@ READERS: dict[str, Callable[[Path], Any]] = {
     "target.csv": sm.TargetSpectrum.from_csv,
     "hazard.csv": sm.risk.HazardCurve.from_csv,
     "manifest.json": lambda path: sm.campaign.CampaignFolder(path.parent),
-    "study.json": lambda path: read_study_tables(path.parent),
-    "assessment.json": lambda path: read_assessment_tables(path.parent),
+    "study.json": lambda path: read_folder(path.parent, ["study.json"]),
+    "assessment.json": lambda path: read_folder(path.parent, ["assessment.json"]),
 }
 
 

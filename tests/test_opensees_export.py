@@ -60,8 +60,15 @@ def test_springs_in_parallel_are_the_trilinear_spring(second: float, third: floa
 def test_folder_has_what_the_program_needs(tmp_path: Path) -> None:
     motions = sm.builtin_suite("seven")[:2]
     files = write_opensees(tmp_path / "models", {"slides": scene(heights=3.0, gravity_load=[1e6, 1e6])}, motions)
-    assert [file.name for file in files] == ["model.py", "README.md", "motion-01.txt", "motion-02.txt", "model.json"]
-    content = json.loads(files[-1].read_text())
+    assert [file.name for file in files] == [
+        "model.py",
+        "README.md",
+        "motion-01.txt",
+        "motion-02.txt",
+        "model.json",
+        "files.json",
+    ]
+    content = json.loads(files[4].read_text())
     model = content["models"]["slides"]
     assert model["mass"] == [2.0e5, 2.0e5]
     assert [block["mass"] for block in model["blocks"]] == [2.0e5, 1.0e5]

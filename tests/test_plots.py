@@ -18,7 +18,8 @@ from matplotlib.text import Text
 import seismass as sm
 from pages.parts import Page
 from pages.plots import FIGURES
-from seismass.media.svg import save_figure
+from seismass.base.files import write_file
+from seismass.media.svg import figure_content
 from seismass.runs.response import EVENT_KINDS, ResponsePlots
 from seismass.show.plots.histories import MARKS
 from seismass.show.study.figures import study_figures
@@ -373,8 +374,8 @@ def test_figures_of_a_study_are_drawn_once_for_each_file(tmp_path: Path, monkeyp
     assert len(figures) == 8
     calls.clear()
     for name, figure in figures.items():
-        save_figure(figure, "png", tmp_path / f"{name}.png")
-        save_figure(figure, "svg", tmp_path / f"{name}.svg")
+        for kind in ("png", "svg"):
+            write_file(tmp_path / f"{name}.{kind}", figure_content(figure, kind))
     assert calls == ["draw"] * 16
     places = [[axes.get_position().bounds for axes in figures[f"drift_R{factor}"].axes] for factor in (1, 2, 4, 6)]
     assert places[0] == places[1] == places[2] == places[3]

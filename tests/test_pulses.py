@@ -16,7 +16,8 @@ from scipy.signal import butter, sosfiltfilt
 
 import seismass as sm
 from seismass.base.errors import InvalidMotion, InvalidOption, MissingPackage
-from seismass.media.svg import save_figure
+from seismass.base.files import write_file
+from seismass.media.svg import figure_content
 from seismass.motions.pulses import (
     baker2007,
     baker2007_orientations,
@@ -374,9 +375,9 @@ def test_figures_show_what_they_say(tmp_path: Path) -> None:
             ("residual", result.residual),
         )
     ]
-    save_figure(figure, "png", tmp_path / "pulse.png")
+    write_file(tmp_path / "pulse.png", figure_content(figure, "png"))
     scan = baker2007_orientations(first, second, orientations=9)
-    save_figure(scan.plot(), "svg", tmp_path / "scan.svg")
+    write_file(tmp_path / "scan.svg", figure_content(scan.plot(), "svg"))
     assert (tmp_path / "pulse.png").stat().st_size > 10_000
     assert (tmp_path / "scan.svg").stat().st_size > 10_000
     assert scan.plot().get_supxlabel().endswith(f"pulse-like in {scan.pulses} of 9 orientations")

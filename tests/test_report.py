@@ -16,6 +16,7 @@ import pytest
 
 import seismass as sm
 from seismass.assessment.building_file import example_file
+from seismass.base.folders import read_folder
 from seismass.cli import main
 from seismass.effective_mass.rule import RULE
 from seismass.media.roles import LAMBDA, lettered
@@ -23,7 +24,7 @@ from seismass.show.assessment.page import building_page
 from seismass.show.assessment.tables import assessment_tables
 from seismass.show.study.answer import answer, assumptions, compared_rules, one_line, percent
 from seismass.show.study.figures import slip_demand
-from seismass.show.study.tables import StudyTables, read_study_tables, study_tables
+from seismass.show.study.tables import READ, StudyTables, read_study_tables, study_tables
 from seismass.show.study.write import write_study, write_study_page
 from seismass.studies.study import StudyParameters, StudyResult, run_study
 from seismass.studies.study.run import study_example
@@ -191,7 +192,7 @@ def test_example_is_the_building_of_the_table_under_its_motion(result: StudyResu
 
 
 def test_tables_of_a_folder_are_those_of_the_study(folder: Path, tables: StudyTables) -> None:
-    read = read_study_tables(folder)
+    read = read_study_tables(read_folder(folder, READ))
     assert read.metadata == json.loads(json.dumps(tables.metadata))
     assert read.animation == tables.animation
     for name, table in tables.tables.items():

@@ -13,6 +13,7 @@ from polars.testing import assert_frame_equal
 
 import seismass as sm
 from seismass.base.digest import inputs_digest
+from seismass.base.files import Directory
 from seismass.base.stored_results import StoredResults, result_store
 from seismass.studies.study import StudyParameters, run_study
 
@@ -67,9 +68,9 @@ def test_a_process_that_works_on_the_same_has_a_folder_of_its_own(tmp_path: Path
         part = kept.file("1", lambda: TABLE)
         with result_store(tmp_path, "rows", "a") as other:
             assert other.folder is not None
-            assert other.folder != kept.folder
-            assert list(other.folder.iterdir()) == []
-        assert not other.folder.exists()
+            assert other.folder.path != kept.folder.path
+            assert list(other.folder.path.iterdir()) == []
+        assert not other.folder.path.exists()
         assert part.exists()
 
 
@@ -94,7 +95,7 @@ def test_a_result_is_made_once(tmp_path: Path) -> None:
         made.append(1)
         return TABLE
 
-    for kept in (StoredResults(tmp_path, "a"), StoredResults(tmp_path, "a")):
+    for kept in (StoredResults(Directory(tmp_path), "a"), StoredResults(Directory(tmp_path), "a")):
         assert_frame_equal(kept.of("one", make), TABLE, check_exact=True)
     assert made == [1]
     StoredResults().of("one", make)
@@ -102,7 +103,7 @@ def test_a_result_is_made_once(tmp_path: Path) -> None:
 
 
 def test_a_part_with_one_changed_bit_is_made_again(tmp_path: Path) -> None:
-    kept = StoredResults(tmp_path, "a")
+    kept = StoredResults(Directory(tmp_path), "a")
     path = kept.file("1", lambda: TABLE)
     whole = path.read_bytes()
     for bit in random.Random(5).sample(range(8 * len(whole)), 100):
@@ -114,8 +115,8 @@ def test_a_part_with_one_changed_bit_is_made_again(tmp_path: Path) -> None:
 
 
 def test_a_part_of_another_place_or_of_other_inputs_is_made_again(tmp_path: Path) -> None:
-    kept = StoredResults(tmp_path, "a")
-    for other, name in ((kept, "2"), (StoredResults(tmp_path, "b"), "1")):
+    kept = StoredResults(Directory(tmp_path), "a")
+    for other, name in ((kept, "2"), (StoredResults(Directory(tmp_path), "b"), "1")):
         (tmp_path / "part-1.parquet").unlink(missing_ok=True)
         other.file(name, lambda: TABLE).rename(tmp_path / "part-1.parquet")
         assert not is_kept(kept)
@@ -142,10 +143,12 @@ def test_a_study_takes_what_an_interrupted_one_has_left(tmp_path: Path, monkeypa
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run_study(suite, target, parameters, effective=True, progress=interrupt, store=StoredResults(tmp_path))
+        run_study(
+            suite, target, parameters, effective=True, progress=interrupt, store=StoredResults(Directory(tmp_path))
+        )
     left = {path.name for path in tmp_path.iterdir()}
     assert left == {f"part-{name}.parquet" for name in ("runs", "effective-1", "effective-2", "effective-3")}
     monkeypatch.setattr("seismass.studies.study.run.solve_many", None)
-    again = run_study(suite, target, parameters, effective=True, store=StoredResults(tmp_path))
+    again = run_study(suite, target, parameters, effective=True, store=StoredResults(Directory(tmp_path)))
     assert_frame_equal(again.responses, whole.responses, check_exact=True)
     assert_frame_equal(again.fractions, whole.fractions, check_exact=True)

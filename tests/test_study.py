@@ -14,6 +14,7 @@ import pytest
 
 import seismass as sm
 from seismass import cli
+from seismass.base.folders import list_sha256
 from seismass.motions.spectra import mean_spectrum
 from seismass.show.study import write
 from seismass.show.study.answer import findings_text, suite_caption
@@ -393,7 +394,8 @@ def test_figures_of_an_earlier_study_do_not_stay(
     # What is listed is removed where it has the bytes and the name of a figure; what is not listed is the user's.
     listed = dict.fromkeys([*earlier, "notes.txt", "../outside_heat.png"], hashlib.sha256(b"earlier").hexdigest())
     listed["heat_mu9.png"] = hashlib.sha256(b"changed since").hexdigest()
-    (tmp_path / "files.json").write_text(json.dumps({"sha256": listed}))
+    document = {"sha256": listed, "sha256_of_list": list_sha256(listed)}
+    (tmp_path / "files.json").write_text(json.dumps(document))
     earlier.add("files.json")
     others.remove("../outside_heat.png")
 
@@ -401,7 +403,7 @@ def test_figures_of_an_earlier_study_do_not_stay(
         raise OSError("disk full")
 
     with monkeypatch.context() as patch:
-        patch.setattr("seismass.media.svg.save_figure", failing)
+        patch.setattr("seismass.media.svg.figure_content", failing)
         with pytest.raises(OSError, match="disk full"):
             write.write_study(study_tables(small), tmp_path, png=True)
     assert {file.name for file in tmp_path.iterdir()} == earlier | others
@@ -496,10 +498,10 @@ def test_nothing_is_left_when_writing_stops(
     def failing(*_: object) -> None:
         raise error
 
-    monkeypatch.setattr("seismass.media.svg.save_figure", failing)
+    monkeypatch.setattr("seismass.media.svg.figure_content", failing)
     with pytest.raises(type(error)):
         write.write_study(study_tables(small), tmp_path / "out", png=True)
-    assert list((tmp_path / "out").iterdir()) == []
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_no_file_is_changed_where_one_cannot_be(small: StudyResult, tmp_path: Path) -> None:

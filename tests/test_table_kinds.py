@@ -14,7 +14,7 @@ import seismass as sm
 from seismass.assessment import read_building, read_storey_table
 from seismass.assessment.new_file import bare_floors, live_share
 from seismass.assessment.table_file import readings
-from seismass.assessment.workbook import MOST_UNPACKED
+from seismass.base.limits import MOST_TABLE
 from seismass.cli import main
 
 ASK = "base level of .* must be stated by --base-level"
@@ -223,7 +223,7 @@ BOOK = {
             "rows of a sheet of t.xlsx must be at most 10000",
         ),
         (SHEET.format('<c r="XFD1"><v>1</v></c>').encode(), "columns of t.xlsx must be at most 200; got 16384"),
-        (b" " * (MOST_UNPACKED + 1), "at most 16 MB unpacked"),
+        (b" " * (MOST_TABLE + 1), "at most 16 MB unpacked"),
         (b'<!DOCTYPE w [<!ENTITY a "b">]><worksheet>&a;</worksheet>', "a document type"),
         (b'<!DOCTYPE w SYSTEM "file:///etc/passwd"><worksheet/>', "a document type"),
         (SHEET.format('<c t="s"><v>7</v></c>').encode(), "must be a workbook"),

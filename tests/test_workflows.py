@@ -23,6 +23,13 @@ def test_workflows_are_valid() -> None:
     assert len(WORKFLOWS) == 3
 
 
+def test_every_action_is_pinned_by_its_digest() -> None:
+    """A tag can be moved to other code; the version that a digest has stands behind it."""
+    uses = [line.strip() for file in WORKFLOWS for line in file.read_text("utf-8").splitlines() if "uses:" in line]
+    assert len(uses) > 10
+    assert [line for line in uses if not re.search(r"uses: [\w.-]+/[\w./-]+@[0-9a-f]{40} # v\d", line)] == []
+
+
 def test_actionlint_finds_nothing() -> None:
     """Where it is on the path: its binary is not in a package of its own project that pip could install."""
     program = shutil.which("actionlint")

@@ -5,7 +5,9 @@ from __future__ import annotations
 import contextlib
 import io
 import os
+import signal
 import sys
+import threading
 from collections.abc import Sequence
 
 from seismass.base.errors import SeismassError, SimulationError
@@ -22,11 +24,21 @@ def _make_output_safe() -> None:
             stream.reconfigure(errors="backslashreplace")
 
 
+def _end_as_by_ctrl_c() -> None:
+    """Take SIGTERM and SIGHUP as Ctrl-C, so that what is half written is removed. What is ignored stays so (nohup)."""
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)
+        in_main = threading.current_thread() is threading.main_thread()
+        if in_main and number and signal.getsignal(number) == signal.SIG_DFL:
+            signal.signal(number, signal.default_int_handler)
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return the exit code: 0 done, 1 a run failed, 2 bad input, 130 interrupted. Nothing else
     catches errors: a command returns a code of its own where it has one, or raises.
     """
     _make_output_safe()
+    _end_as_by_ctrl_c()
     words = sys.argv[1:] if arguments is None else list(arguments)
     try:
         args = parse(words)

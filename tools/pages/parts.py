@@ -17,7 +17,8 @@ from typing import Any, Final
 
 from matplotlib.figure import Figure
 
-from seismass.media.svg import save_figure
+from seismass.base.files import write_file
+from seismass.media.svg import figure_content
 
 ROOT: Final = Path(__file__).parents[2]
 FIGURES: Final = ROOT / "docs" / "figures"
@@ -188,4 +189,4 @@ class Page:
         """Write the page and its figures."""
         self.file.write_text(self.text, encoding="utf-8")
         for name, draw in self._figures.items():
-            save_figure(draw(), "png", FIGURES / f"{name}.png")
+            write_file(FIGURES / f"{name}.png", figure_content(draw(), "png"))

@@ -13,6 +13,7 @@ import sys
 from typing import Final
 
 from pages.parts import ROOT, Page
+from seismass.base.limits import LIMITS
 
 FILES: Final = 5000
 """Mutated files of each program."""
@@ -23,8 +24,12 @@ TESTS: Final = (
      "test_stored_results.py", "the same bytes, or solved again; nothing foreign is read"),
     ("folders that bring pickles, links, other parts, edited axes", "test_hostile_folders.py",
      "nothing is run, nothing of others deleted; refused in one line"),
+    ("folders and files: writers killed in turn by -9, SIGTERM and SIGHUP, two at once, errors in the middle; links "
+     "in place of what is written, and races for its name, in a plain and a sticky folder", "test_writing.py",
+     "one run or the other, whole; nothing outside is written"),
+    ("figures beside a matplotlibrc, style sheets, settings of a program", "test_figure_defaults.py", "the same bytes"),
     ("a campaign's folder, its bits flipped, parts exchanged, cut or missing", "test_campaign_folder.py",
-     "each change is told by `--verify`"),
+     "each change is told by `--verify` and by `scan`"),
     ("a folder of a building or a study: bits flipped, files missing or added", "test_edited_folders.py",
      "refused by `report` with the name of the file; with `--force` said on the page"),
     ("files that are devices, pipes, endless, or ask for hours", "test_inputs_without_end.py", "refused at once"),
@@ -41,6 +46,23 @@ def fill(page: Page) -> None:
     """Run everything and put in the table, where it is asked for."""
     if page.wants("tried"):
         page.marked("tried", tried())
+    page.marked("limits", limits())
+    if page.wants("asked"):
+        page.marked("asked", asked())
+
+
+def limits() -> str:
+    """Return the table of limits, which stands in the package."""
+    rows = [f"| {' | '.join(row)} |" for row in LIMITS]
+    return "\n".join(["| what is read | limit of | at most |", "| --- | --- | ---: |", *rows])
+
+
+def asked() -> str:
+    """Read files that ask for memory and return what became of each."""
+    done = run("tools/hostile_files.py")
+    if done.returncode:
+        sys.exit(f"hostile_files.py:\n{done.stdout[-3000:]}")
+    return done.stdout.strip()
 
 
 def run(*command: str) -> subprocess.CompletedProcess[str]:

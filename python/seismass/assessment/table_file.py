@@ -12,9 +12,10 @@ from pathlib import Path
 from typing import Final, Literal, TypeAlias
 
 from seismass.assessment.table_words import TABLES, TEXTS, Names, column_name, plain
-from seismass.assessment.workbook import MOST_COLUMNS, MOST_ROWS, Cell, Rows, sheets_of
+from seismass.assessment.workbook import Cell, Rows, sheets_of
 from seismass.base.errors import InvalidBuildingFile
 from seismass.base.files import read_file
+from seismass.base.limits import LONGEST_CELL, MOST_COLUMNS, MOST_ROWS, MOST_TABLE
 from seismass.base.units import FOOT, INCH, KIP, POUND, STANDARD_GRAVITY
 from seismass.base.values import brief, printable, refusal, short
 
@@ -177,7 +178,7 @@ class Sheet:
             return cell
         if not cell.strip():
             return float("nan")
-        result = readings(cell[:_LONGEST])
+        result = readings(cell[:LONGEST_CELL])
         if len(set(result.values())) == 2:
             if self.mark is None:
                 point, comma = result["."], result[","]
@@ -239,9 +240,6 @@ def read_sheets(
 
 
 _SEPARATORS: Final = "\t;,|"
-_MOST_BYTES: Final = 2**24
-_LONGEST: Final = 1000
-"""Letters of a cell, or of a line of KEY=value, that are looked at."""
 _TITLE: Final = re.compile(r"\s*TABLE:\s*(.*)", re.IGNORECASE)
 _PAIR: Final = re.compile(r'([^\s="]+)=("[^"]*"|\S+)')
 _TOKEN: Final = re.compile(r'"[^"]*"|\S+')
@@ -251,7 +249,7 @@ _UNITS: Final = re.compile(r'(?:curr\s*)?units\b\W*([a-z]+)[-,\s"]+([a-z]+)\b', 
 def _layouts(path: Path) -> Iterator[tuple[list[tuple[str, Rows]], str]]:
     """Tables of a file with their titles, by every way in which it may be laid out, with the separator."""
     try:
-        content = read_file(path, _MOST_BYTES)
+        content = read_file(path, MOST_TABLE)
     except OSError as error:
         raise InvalidBuildingFile(
             f"table must be a file that can be read; got {path} ({error.strerror or error})"
@@ -312,7 +310,7 @@ def _keyed(text: str) -> list[tuple[str, Rows]]:
     tables: list[tuple[str, list[dict[str, str]]]] = []
     for line in re.sub(r" _\n", " ", text).split("\n")[: 10 * MOST_ROWS]:
         title = _TITLE.match(line) or re.match(r"\s*\$\s*(.*)", line)
-        pairs = _PAIR.findall(line[:_LONGEST]) if "=" in line else []
+        pairs = _PAIR.findall(line[:LONGEST_CELL]) if "=" in line else []
         if title:
             tables.append((title[1].strip(' "'), []))
         elif tables and pairs:
@@ -375,7 +373,7 @@ def _blocks(title: str, rows: Rows) -> Iterator[tuple[str, Rows]]:
 
 
 def _text(cell: Cell) -> str:
-    return cell.strip()[:_LONGEST] if isinstance(cell, str) else ""
+    return cell.strip()[:LONGEST_CELL] if isinstance(cell, str) else ""
 
 
 _HEAD: Final = re.compile(r"^(?P<name>[^([,]*)(?:[(\[,]\s*(?P<unit>[^)\]]*)[)\]]?)?\s*$")
@@ -499,7 +497,7 @@ def _mark(sheets: list[Sheet], decimal: str | None) -> Mark | None:
     for sheet in sheets:
         for kind in set(sheet.columns) - set(TEXTS):
             cells = [sheet.cell(row, kind) for row in range(len(sheet.body))]
-            result = [readings(cell[:_LONGEST]) for cell in cells if isinstance(cell, str)]
+            result = [readings(cell[:LONGEST_CELL]) for cell in cells if isinstance(cell, str)]
             marks |= {mark for each in result if len(each) == 1 for mark in each}
     return marks.pop() if len(marks) == 1 else None
 

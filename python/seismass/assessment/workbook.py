@@ -11,17 +11,13 @@ from typing import Final, TypeAlias
 from xml.etree import ElementTree
 
 from seismass.base.errors import InvalidBuildingFile
+from seismass.base.limits import MOST_COLUMNS, MOST_ROWS, MOST_TABLE
 from seismass.base.values import refusal, short
 
 Cell: TypeAlias = str | float
 """A cell as text, or as the number that a workbook has."""
 Rows: TypeAlias = list[list[Cell]]
 
-MOST_UNPACKED: Final = 2**24
-"""Largest size of the parts of a workbook that are read (bytes after unpacking)."""
-MOST_ROWS: Final = 10_000
-MOST_COLUMNS: Final = 200
-"""Largest number of rows that are not empty, and largest number of columns."""
 _BROKEN: Final = (zipfile.BadZipFile, zlib.error, ElementTree.ParseError, KeyError, IndexError, ValueError, EOFError)
 
 
@@ -34,7 +30,7 @@ class _Plain(ElementTree.TreeBuilder):
 
 def sheets_of(content: bytes, name: str) -> dict[str, Rows]:
     """Return the rows of every visible sheet that are not empty, by the sheet's name."""
-    left = MOST_UNPACKED
+    left = MOST_TABLE
 
     def part(archive: zipfile.ZipFile, place: str) -> ElementTree.Element:
         nonlocal left
@@ -42,7 +38,7 @@ def sheets_of(content: bytes, name: str) -> dict[str, Rows]:
             text = file.read(left + 1)
         left -= len(text)
         if left < 0:
-            need = f"at most {MOST_UNPACKED // 2**20} MB unpacked"
+            need = f"at most {MOST_TABLE // 2**20} MB unpacked"
             raise refusal(InvalidBuildingFile, "size", name, need, "more")
         return ElementTree.fromstring(text, ElementTree.XMLParser(target=_Plain()))
 

@@ -12,13 +12,9 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple, NoReturn
 
 from seismass.base.errors import InvalidScene, SeismassError
-from seismass.base.files import MOST_BYTES, read_file
+from seismass.base.files import read_file
+from seismass.base.limits import MOST_BYTES, MOST_KEY_PARTS, MOST_LETTERS, MOST_TOML
 from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, refusal, short
-
-MOST_TOML: Final = 2**22
-"""Largest TOML file that is read (bytes): some seconds. JSON, which is read a hundred times as fast, may have more."""
-MOST_KEY_PARTS: Final = 50
-"""Most parts of a dotted key of TOML, whose reader takes the square of their number."""
 
 _WORD: Final = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')"""
 _LONG_KEY: Final = re.compile(
@@ -169,8 +165,8 @@ class Table:
     def text(self, key: str) -> str:
         """Return a text; empty where the key is absent."""
         value = self.values.get(key, "")
-        if not isinstance(value, str) or "\0" in value:
-            self.refuse(key, "text", brief(value))
+        if not isinstance(value, str) or "\0" in value or len(value) > MOST_LETTERS:
+            self.refuse(key, f"text of at most {MOST_LETTERS} letters", brief(value))
         return value
 
     def per_storey(self, key: str) -> FloatArray | None:

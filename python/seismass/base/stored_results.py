@@ -7,7 +7,7 @@ import os
 import re
 import stat
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO, Final
@@ -17,17 +17,20 @@ import polars as pl
 from seismass.base.errors import InvalidOption
 from seismass.base.files import (
     PREFIX,
+    Content,
+    Directory,
     is_left_behind,
     is_temporary,
     open_regular,
     polars_writing,
     read_file,
-    read_table,
     reported_as,
+    table_of,
     temporary_folder,
     temporary_name,
-    written_whole,
+    write_file,
 )
+from seismass.base.limits import MOST_FOOTER
 from seismass.base.values import refusal
 
 _KEY: Final = "seismass.sha256"
@@ -37,30 +40,31 @@ _ZEROS: Final = b"0" * _DIGITS
 _TAIL: Final = 8
 """Bytes after the footer: its length, and PAR1."""
 _CHUNK: Final = 2**20
-MOST_FOOTER: Final = 2**26
-"""Largest footer that is read (bytes); one of a part has some kilobytes."""
 
 
-def write_checked(frame: pl.DataFrame, path: Path, metadata: dict[str, str]) -> None:
-    """Write a frame to a Parquet file that carries a digest of itself, and further metadata."""
-    with polars_writing(path), path.open("wb") as file:
-        frame.write_parquet(file, compression="zstd", metadata={**metadata, _KEY: (_MARK + _ZEROS).decode()})
-    with path.open("r+b") as file:
+def checked_content(frame: pl.DataFrame, metadata: dict[str, str]) -> Content:
+    """Return what writes a frame to a Parquet file that carries a digest of itself, and further metadata."""
+
+    def write(file: BinaryIO) -> None:
+        with polars_writing():
+            frame.write_parquet(file, compression="zstd", metadata={**metadata, _KEY: (_MARK + _ZEROS).decode()})
         digest, place, _ = _digest(file)
         file.seek(place)
         file.write(digest.encode())
 
+    return write
 
-def damage(path: Path) -> str | None:
-    """Return what is wrong with a file of `write_checked`; None where every byte is as written. A link, a folder and a
-    device are never read.
+
+def damage(path: Path, folder: Directory | None = None) -> str | None:
+    """Return what is wrong with a file of `checked_content`; None where every byte is as written. A link, a folder and
+    a device are never read.
     """
     try:
-        mode = path.lstat().st_mode
+        mode = path.lstat().st_mode if folder is None else folder.status(path.name).st_mode
         for kind, name in ((stat.S_ISLNK, "a link"), (stat.S_ISDIR, "a folder")):
             if kind(mode):
                 return f"is {name} and no file"
-        with open_regular(path, follow=False) as file:
+        with open_regular(path.name if folder else path, follow=False, folder=folder) as file:
             digest, _, stated = _digest(file)
     except OSError as error:
         return f"cannot be read: {error.strerror or error}"
@@ -71,7 +75,8 @@ def damage(path: Path) -> str | None:
 
 def read_checked(path: Path) -> pl.DataFrame:
     """Return the table of a file that `damage` finds nothing wrong with."""
-    return read_table(path, follow=False)
+    with open_regular(path, follow=False) as file:
+        return table_of(file)
 
 
 def metadata_of(path: Path) -> dict[str, str]:
@@ -121,7 +126,7 @@ class StoredResults:
     the inputs, `folder` is hidden (None: nothing is kept), `place` is the one that errors name.
     """
 
-    folder: Path | None = None
+    folder: Directory | None = None
     sha256: str = ""
     place: Path | None = None
 
@@ -129,35 +134,46 @@ class StoredResults:
         """Return the table of this name as it was kept, or make and keep it."""
         if self.folder is None:
             return make()
-        path = self._path(name)
-        if self._is_kept(name):
-            return read_checked(path)
-        made = make()
-        self._keep(name, made)
-        return made
+        table = self._stored(name)
+        if table is None:
+            table = make()
+            self._keep(name, table)
+        return table
 
     def file(self, name: str, make: Callable[[], pl.DataFrame]) -> Path:
         """Return the path of the kept table of this name, which is made where it is missing or damaged."""
-        if not self._is_kept(name):
-            self._keep(name, make())
-        return self._path(name)
-
-    def _path(self, name: str) -> Path:
         assert self.folder is not None
-        return self.folder / f"part-{name}.parquet"
+        if self._stored(name) is None:
+            self._keep(name, make())
+        return self.folder.path / _part(name)
 
-    def _is_kept(self, name: str) -> bool:
-        path = self._path(name)
-        metadata = self._metadata(name)
-        return damage(path) is None and metadata.items() <= metadata_of(path).items()
+    def _stored(self, name: str) -> pl.DataFrame | None:
+        """The table of a part with the digest of its bytes and of these inputs; None where there is none."""
+        assert self.folder is not None
+        with suppress(OSError, ValueError, pl.exceptions.PolarsError), self._open(name) as file:
+            digest, _, stated = _digest(file)
+            file.seek(0)
+            metadata = pl.read_parquet_metadata(file)
+            file.seek(0)
+            if digest == stated and self._metadata(name).items() <= metadata.items():
+                return table_of(file)
+        return None
+
+    def _open(self, name: str) -> BinaryIO:
+        return open_regular(_part(name), follow=False, folder=self.folder)
 
     def _keep(self, name: str, table: pl.DataFrame) -> None:
-        path = self._path(name)
-        with reported_as(self.place or path), written_whole(path, durable=True) as temporary:
-            write_checked(table, temporary, self._metadata(name))
+        assert self.folder is not None
+        with reported_as(self.place or self.folder.path):
+            content = checked_content(table, self._metadata(name))
+            write_file(_part(name), content, durable=True, folder=self.folder)
 
     def _metadata(self, name: str) -> dict[str, str]:
         return {"inputs": self.sha256, "part": name}
+
+
+def _part(name: str) -> str:
+    return f"part-{name}.parquet"
 
 
 NOTHING_STORED: Final = StoredResults()
@@ -169,101 +185,82 @@ def result_store(place: Path, name: str, sha256: str) -> Iterator[StoredResults]
     """Give a folder for parts of a result, removed at the end of the work: a temporary one while another process may
     work on the same. Parts of other digests are removed, but never files of another origin.
     """
-    folder = place / f"{PREFIX}kept-{hashlib.sha256(os.fsencode(name)).hexdigest()[:16]}"
-    with reported_as(place), suppress(FileExistsError):
-        folder.mkdir(mode=0o700)
-    identity = _checked(folder)
-    if not _claimed(folder):
-        with temporary_folder(place) as private:
-            yield StoredResults(private, sha256, place)
-        return
-    # A copy of a folder, as of an archive, has another number than the one that was made here.
-    inputs = f"{sha256} {identity}"
-    try:
-        if _read(folder / _INPUTS) != inputs:
-            _remove_ours(folder, identity, but=(_OWNER,))
-            with written_whole(folder / _INPUTS) as temporary:
-                temporary.write_text(inputs, encoding="ascii")
-        yield StoredResults(folder, sha256, place)
-    except BaseException:
-        if {path.name for path in folder.iterdir()} <= {_INPUTS, _OWNER}:
-            _remove_ours(folder, identity)
+    hidden = f"{PREFIX}kept-{hashlib.sha256(os.fsencode(name)).hexdigest()[:16]}"
+    with ExitStack() as stack:
+        with reported_as(place):
+            outer = stack.enter_context(Directory(place))
+            with suppress(FileExistsError):
+                os.mkdir(outer.named(hidden), 0o700, dir_fd=outer.inside)
+        folder = stack.enter_context(_checked(outer, hidden))
+        if not _claimed(folder):
+            yield StoredResults(stack.enter_context(temporary_folder(place)), sha256, place)
+            return
+        # A copy of a folder, as of an archive, has another number than the one that was made here.
+        inputs = f"{sha256} {folder.status().st_ino}"
+        try:
+            if _read(folder, _INPUTS) != inputs:
+                _remove_ours(folder, but=_OWNER)
+                write_file(_INPUTS, inputs, folder=folder)
+            yield StoredResults(folder, sha256, place)
+        except BaseException:
+            if set(folder.names()) <= {_INPUTS, _OWNER}:
+                _remove_ours(folder)
+            else:
+                folder.unlink(_OWNER)
+            raise
         else:
-            _remove_ours(folder, identity, only=(_OWNER,))
-        raise
-    _remove_ours(folder, identity)
+            _remove_ours(folder)
+        finally:
+            with suppress(OSError):
+                os.rmdir(outer.named(hidden), dir_fd=outer.inside)
 
 
-def _checked(folder: Path) -> int:
-    """Return the number of a folder in its file system; refuse links, files, and folders that others may write to."""
-    status = folder.lstat()
-    is_link = stat.S_ISLNK(status.st_mode)
-    # Windows has no such users and modes.
-    users = hasattr(os, "geteuid")
-    if is_link or not stat.S_ISDIR(status.st_mode):
-        got = "a link" if is_link else "a file"
-    elif users and status.st_uid != os.geteuid():
-        got = f"one of user {status.st_uid}"
-    elif users and status.st_mode & 0o022:
-        got = f"one that others may write to (mode {stat.S_IMODE(status.st_mode):o})"
+def _checked(outer: Directory, name: str) -> Directory:
+    """Open a folder; refuse links, files, and folders that others may write to."""
+    try:
+        folder = Directory(outer.path / name, outer)
+    except OSError:
+        mode = outer.status(name).st_mode
+        if stat.S_ISDIR(mode):
+            raise
+        got = "a link" if stat.S_ISLNK(mode) else "a file"
     else:
-        return status.st_ino
+        status = folder.status()
+        # Windows has no such users and modes.
+        is_own = not hasattr(os, "geteuid") or status.st_uid == os.geteuid()
+        if is_own and not (hasattr(os, "geteuid") and status.st_mode & 0o022):
+            return folder
+        folder.close()
+        open_one = f"one that others may write to (mode {stat.S_IMODE(status.st_mode):o})"
+        got = open_one if is_own else f"one of user {status.st_uid}"
     requirement = "a folder that this user made and others cannot write to (remove it, or write elsewhere)"
-    raise refusal(InvalidOption, f"hidden folder {folder}", "kept parts", requirement, got)
+    raise refusal(InvalidOption, f"hidden folder {outer.path / name}", "kept parts", requirement, got)
 
 
-def _read(path: Path) -> str:
+def _read(folder: Directory, name: str) -> str:
     """Text of a small file of the folder; empty where there is none that can be read."""
     try:
-        return read_file(path, _MOST_BYTES, follow=False).decode("ascii", "replace")
+        return read_file(name, _MOST_BYTES, follow=False, folder=folder).decode("ascii", "replace")
     except OSError:
         return ""
 
 
-def _claimed(folder: Path) -> bool:
+def _claimed(folder: Directory) -> bool:
     """Take a folder for this process, unless another one has it."""
-    owner = folder / _OWNER
-    if os.path.lexists(owner):
-        if not is_left_behind(_read(owner)):
+    if _OWNER in folder.names():
+        if not is_left_behind(_read(folder, _OWNER)):
             return False
-        owner.unlink(missing_ok=True)
+        folder.unlink(_OWNER)
     try:
-        with owner.open("x", encoding="ascii") as file:
-            file.write(temporary_name())
+        with folder.new_file(_OWNER) as file:
+            file.write(temporary_name().encode())
     except FileExistsError:
         return False
     return True
 
 
-def _remove_ours(
-    folder: Path, identity: int, *, but: tuple[str, ...] = (), only: tuple[str, ...] | None = None
-) -> None:
-    """Remove files of this module from the folder that was checked, and the folder where it is empty then."""
-    if os.unlink not in os.supports_dir_fd or os.scandir not in os.supports_fd:  # Windows
-        for path in folder.iterdir():
-            if _is_ours(path.name, but, only):
-                with suppress(OSError):
-                    path.unlink()
-    else:
-        # By its descriptor: another folder that takes the name meanwhile is not touched.
-        with suppress(OSError):
-            descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
-            try:
-                if os.fstat(descriptor).st_ino == identity:
-                    with os.scandir(descriptor) as entries:
-                        names = [entry.name for entry in entries if _is_ours(entry.name, but, only)]
-                    for name in names:
-                        with suppress(OSError):
-                            os.unlink(name, dir_fd=descriptor)
-            finally:
-                os.close(descriptor)
-    if not but and only is None:
-        with suppress(OSError):
-            folder.rmdir()
-
-
-def _is_ours(name: str, but: tuple[str, ...], only: tuple[str, ...] | None) -> bool:
-    if only is not None:
-        return name in only
-    known = name in (_INPUTS, _OWNER) or _PART.fullmatch(name) is not None or is_temporary(name)
-    return known and name not in but
+def _remove_ours(folder: Directory, *, but: str = "") -> None:
+    """Remove the files of this module from a folder."""
+    for name in folder.names():
+        if name != but and (name in (_INPUTS, _OWNER) or _PART.fullmatch(name) or is_temporary(name)):
+            folder.unlink(name)

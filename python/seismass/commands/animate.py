@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from seismass.base.errors import InvalidOption
+from seismass.base.files import check_files
 from seismass.commands.frame import Command, show
 from seismass.commands.options import (
     add_code_options,
     add_code_share_option,
     add_out_option,
     add_records_options,
-    check_files,
     positive_option,
     read_site,
     refuse_options,

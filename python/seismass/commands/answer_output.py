@@ -72,9 +72,8 @@ def print_answer(
 
 def write_figure(figure: Figure, path: Path) -> None:
     """Write one figure, PNG or SVG by the suffix of its file."""
-    from seismass.base.files import written_whole
-    from seismass.media.svg import save_figure
+    from seismass.base.files import write_file
+    from seismass.media.svg import figure_content
 
     kind: Literal["png", "svg"] = "svg" if path.suffix.lower() == ".svg" else "png"
-    with written_whole(path) as temporary:
-        save_figure(figure, kind, temporary)
+    write_file(path, figure_content(figure, kind))

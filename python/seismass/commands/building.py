@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seismass.commands.answer_output import print_answer, write_answer
+from seismass.commands.answer_output import print_answer
 from seismass.commands.frame import Command, progress, show
 from seismass.commands.options import (
     add_answer_options,
@@ -16,7 +16,6 @@ from seismass.commands.options import (
     add_period_option,
     add_records_options,
     add_target_options,
-    check_files,
     numbers_option,
     read_code,
     read_motions,
@@ -80,8 +79,9 @@ def run(args: argparse.Namespace) -> int:
     from seismass.assessment.mass_source import mass_source_lines
     from seismass.assessment.run import write_models
     from seismass.base.errors import InvalidOption
-    from seismass.base.files import written_whole
-    from seismass.media.result import check_out
+    from seismass.base.files import check_files, write_file
+    from seismass.base.folders import check_out
+    from seismass.show.assessment.text import write_with
 
     args.out = args.out or Path(args.file.stem)
     if args.mass_source is None:
@@ -113,33 +113,26 @@ def run(args: argparse.Namespace) -> int:
     if args.mass_source is not None:
         suffix = args.mass_source.suffix.lower()
         lines = mass_source_lines(result.answer, building, suffix, args.live_pattern or "Live")
-        with written_whole(args.mass_source) as place:
-            place.write_text(lines, encoding="utf-8")
-    files = write_answer(args, result)
-    if files and not args.no_figures:
-        files += _live_page(args.out, result)
+        write_file(args.mass_source, lines)
+    files = write_with(result, args.out, {} if args.no_figures else _live_page(result), figures=not args.no_figures)
     print_answer(args, result, suite, files, answer=r"ANSWER| {10}[12]  ")
     return 0
 
 
-def _live_page(out: Path, result: Assessment) -> list[Path]:
-    """Write the live page, to which the page links, where it can show the building and the package has its kernel."""
+def _live_page(result: Assessment) -> dict[str, str]:
+    """The live page, to which the page links, where it can show the building and the package has its kernel."""
     from seismass.base.errors import MissingPackage
-    from seismass.base.files import written_whole
     from seismass.media.page import PAGE
     from seismass.show.assessment.page_input import live_case
     from seismass.show.assessment.tables import assessment_tables
     from seismass.show.explore import explorer_html
 
     if live_case(assessment_tables(result)).case is None:
-        return []
+        return {}
     try:
-        html = explorer_html()
+        return {PAGE: explorer_html()}
     except MissingPackage:
-        return []
-    with written_whole(out / PAGE) as temporary:
-        temporary.write_text(html, encoding="utf-8")
-    return [out / PAGE]
+        return {}
 
 
 def _listing(args: argparse.Namespace) -> str:

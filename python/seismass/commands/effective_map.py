@@ -34,8 +34,8 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Make the map, write its files and print how rules do; return the exit code."""
+    from seismass.base.folders import check_out
     from seismass.effective_mass import EffectiveMassParameters, effective_mass_map
-    from seismass.media.result import check_out
 
     check_out(args.out, "map")
     options = {

@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 import webbrowser
 
-from seismass.base.files import written_whole
+from seismass.base.files import check_files, write_file
 from seismass.commands.frame import Command, show
-from seismass.commands.options import add_out_option, check_files
+from seismass.commands.options import add_out_option
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -21,9 +21,7 @@ def run(args: argparse.Namespace) -> int:
     from seismass.show.explore import explorer_html
 
     check_files(args.out)
-    html = explorer_html()
-    with written_whole(args.out) as temporary:
-        temporary.write_text(html, encoding="utf-8")
+    write_file(args.out, explorer_html())
     show(f"{args.out}: {args.out.stat().st_size / 1e3:.0f} kB")
     if args.open:
         webbrowser.open(args.out.absolute().as_uri())

@@ -69,7 +69,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the analysis, print its answer and write its files; return the exit code."""
-    from seismass.media.result import check_out
+    from seismass.base.folders import check_out
     from seismass.studies.fragility import HuntAndFill, cloud_analysis, incremental_dynamic_analysis, parse_limit
 
     if args.out is not None:

@@ -18,7 +18,6 @@ from seismass.commands.options import (
     add_plot_option,
     add_reading_options,
     add_target_options,
-    check_files,
     check_plot,
     numbers_option,
     positive_option,
@@ -131,6 +130,8 @@ def _check_out(out: Path | None, path: Path, suite: Suite) -> None:
     would replace a record or stand among them.
     """
     from seismass.base.errors import InvalidOption
+    from seismass.base.files import check_files
+    from seismass.base.folders import check_out
     from seismass.motions.matching.result import SUFFIXES
 
     if out is None:
@@ -141,6 +142,7 @@ def _check_out(out: Path | None, path: Path, suite: Suite) -> None:
             raise InvalidOption(f"--out of match must be a file of .AT2 or .csv, or a folder; got {out}")
         if path.is_dir() and out.is_dir() and out.samefile(path):
             raise InvalidOption(f"--out of match must be another folder than that of the records; got {out}")
+        check_out(out, "match")
         written = [out / name for name in (_LIST, *_file_names(suite))]
     elif len(suite) > 1:
         raise InvalidOption(f"--out of match must be a folder for {len(suite)} records; got {out}")
@@ -162,22 +164,21 @@ def _write(matched: MatchedSuite, out: Path) -> None:
     """One record to the file that is named, or all to a folder with a list."""
     import polars as pl
 
-    from seismass.base.files import write_table, written_whole
-    from seismass.motions.matching.result import SUFFIXES
+    from seismass.base.files import Content, table_content
+    from seismass.base.folders import write_folder
+    from seismass.motions.matching.result import SUFFIXES, at2_text
 
     if out.suffix.lower() in SUFFIXES:
         matched[0].write(out)
         return
-    out.mkdir(parents=True, exist_ok=True)
-    rows = []
-    files = _file_names(one.record for one in matched)
-    for number, (one, file) in enumerate(zip(matched, files, strict=True), start=1):
-        one.write(out / file)
+    rows, files = [], dict[str, Content]()
+    names = _file_names(one.record for one in matched)
+    for number, (one, file) in enumerate(zip(matched, names, strict=True), start=1):
+        files[file] = at2_text(one.record)
         note = "; ".join(one.record.history)
         labels = {"event": one.record.event, "station": one.record.station, "component": one.record.component}
         rows.append({"number": number, "file": file, "name": one.record.name, **labels, "note": note})
-    with written_whole(out / _LIST) as temporary:
-        write_table(pl.DataFrame(rows), "csv", temporary)
+    write_folder(out, {**files, _LIST: table_content(pl.DataFrame(rows), "csv")}, owner="match")
 
 
 def _plot(matched: MatchedSuite, path: Path) -> None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.commands.answer_output import write_figure
 from seismass.commands.frame import Command, show
-from seismass.commands.options import check_files, refuse_options
+from seismass.commands.options import refuse_options
 
 if TYPE_CHECKING:
     from seismass.assessment.building import OwnBuilding
@@ -96,7 +96,7 @@ def run(args: argparse.Namespace) -> int:
     from seismass.assessment.pushover_file import read_pushover
     from seismass.assessment.storey_table import read_storey_table
     from seismass.base.errors import InvalidOption
-    from seismass.base.files import written_whole
+    from seismass.base.files import check_files, write_file
     from seismass.base.values import refusal
 
     if args.out.suffix.lower() != ".toml":
@@ -135,8 +135,7 @@ def run(args: argparse.Namespace) -> int:
     building = read_building(tomllib.loads(text))  # refused before anything is written
     for line in (*_table_lines(table, answers, args.loaded or ()), *doubt_lines(_doubts(building))):
         show(line)
-    with written_whole(args.out) as place:
-        place.write_text(text, encoding="utf-8")
+    write_file(args.out, text)
     if fit is not None:
         figure = args.out.with_name(f"{args.out.stem}_pushover.png")
         write_figure(fit.plot(), figure)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import errno
 import math
-import os
 import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal, cast, get_args
 
+from seismass.base.files import check_files
 from seismass.motions.scaling import TARGET_HELP
 
 if TYPE_CHECKING:
@@ -143,17 +142,6 @@ def read_pairs(args: argparse.Namespace) -> Pairs:
     if not len(pairs):
         raise RecordFormatError(f"pairs of {pairs.name} must be at least one; got {len(pairs.excluded)} files of none")
     return pairs
-
-
-def check_files(*paths: Path | None) -> None:
-    """Refuse files that cannot be written because their folder is missing, before anything is computed."""
-    for path in paths:
-        if path is None:
-            continue
-        if path.is_dir():
-            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
-        if not path.parent.is_dir():
-            raise FileNotFoundError(errno.ENOENT, "No such folder", str(path.parent))
 
 
 def warn_left_out(suite: Suite | Pairs) -> None:

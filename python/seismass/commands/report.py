@@ -5,8 +5,9 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from seismass.base.files import check_files
 from seismass.commands.frame import Command, progress, seconds, show
-from seismass.commands.options import add_out_option, check_files
+from seismass.commands.options import add_out_option
 
 
 def options(parser: argparse.ArgumentParser) -> None:

@@ -69,7 +69,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Find the share, print the answer and write its files; return the exit code."""
-    from seismass.media.result import check_out
+    from seismass.base.folders import check_out
     from seismass.studies.fragility import parse_limit
     from seismass.studies.risk.hazard import HazardCurve
     from seismass.studies.risk.targeted_share import risk_targeted_share

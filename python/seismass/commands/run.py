@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seismass.base.errors import InvalidOption
-from seismass.base.files import write_table, written_whole
+from seismass.base.files import check_files, table_content, write_file
 from seismass.commands.frame import Command, show
-from seismass.commands.options import add_json_option, add_opensees_option, add_out_option, check_files
+from seismass.commands.options import add_json_option, add_opensees_option, add_out_option
 from seismass.runs.scene_file import KEYS, SceneFile, example_scene, read_scene
 
 if TYPE_CHECKING:
@@ -93,8 +93,7 @@ def _write_histories(response: Response | PlaneResponse, path: Path) -> None:
             axes = {"": values} if values.ndim == 1 else {"_x": values[:, 0], "_y": values[:, 1]}
             columns |= {f"{name}_{number}{axis}": column for axis, column in axes.items()}
     frame = pl.DataFrame(columns)
-    with written_whole(path) as temporary:
-        write_table(frame, "csv" if path.suffix.lower() == ".csv" else "parquet", temporary)
+    write_file(path, table_content(frame, "csv" if path.suffix.lower() == ".csv" else "parquet"))
 
 
 def as_json(file: SceneFile, response: Response | PlaneResponse) -> dict[str, Any]:

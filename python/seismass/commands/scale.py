@@ -7,6 +7,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from seismass.base.files import check_files
 from seismass.commands.answer_output import write_figure
 from seismass.commands.frame import Command, show
 from seismass.commands.options import (
@@ -16,7 +17,6 @@ from seismass.commands.options import (
     add_out_option,
     add_plot_option,
     add_spring_options,
-    check_files,
     check_plot,
     left_out,
     positive_count,
@@ -214,14 +214,13 @@ def _scaled(args: argparse.Namespace, suite: Any, target: TargetSpectrum, buildi
 def _write_table(path: Path, scaling: ScalingResult) -> None:
     import polars as pl
 
-    from seismass.base.files import write_table, written_whole
+    from seismass.base.files import table_content, write_file
 
     table = scaling.diagnostics()
     if "roots" in table.columns:
         roots = [" ".join(f"{root:.12g}" for root in several) for several in table["roots"]]
         table = table.with_columns(roots=pl.Series(roots))
-    with written_whole(path) as temporary:
-        write_table(table, "csv", temporary)
+    write_file(path, table_content(table, "csv"))
 
 
 def _document(

@@ -50,7 +50,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Solve the runs, print the slip demand and write its files; return the exit code."""
-    from seismass.media.result import check_out
+    from seismass.base.folders import check_out
     from seismass.studies.slip import parse_size, slip_demand
 
     if args.out is not None:

@@ -87,9 +87,9 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the study, write its files and print what it says; return the exit code."""
+    from seismass.base.folders import check_out
     from seismass.base.statistics import DRIFT_CAP
     from seismass.base.stored_results import result_store
-    from seismass.media.result import check_out, folder_for
     from seismass.runs.simulate import instruction_set
     from seismass.studies.study import StudyParameters
     from seismass.studies.study.run import study_digest
@@ -112,7 +112,8 @@ def run(args: argparse.Namespace) -> int:
     target = read_target(args)
     suite = read_motions(args, "seven")
     inputs = f"{study_digest(suite, target, parameters)} {VERSION} {instruction_set()}"
-    with folder_for(args.out), result_store(args.out, "study", inputs) as store:
+    args.out.parent.mkdir(parents=True, exist_ok=True)
+    with result_store(args.out.parent, args.out.name, inputs) as store:
         answer = _Answer(_solved(args, suite, target, parameters, store), args.png)
         files = write_answer(args, answer)
     metadata = answer.tables.metadata

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from seismass.commands.frame import Command, show
-from seismass.commands.options import add_out_option, check_files, numbers_option
+from seismass.commands.options import add_out_option, numbers_option
 from seismass.commands.parser import RUNS
 from seismass.motions.scaling import TARGET_HELP
 
@@ -29,7 +29,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Print or write the table; return the exit code."""
     from seismass.assessment.building_file import read_building
-    from seismass.base.files import write_table, written_whole
+    from seismass.base.files import check_files, table_content, write_file
     from seismass.motions.scaling.suite import target_of
     from seismass.motions.spectra.target import target_remarks
 
@@ -41,8 +41,7 @@ def run(args: argparse.Namespace) -> int:
     if args.out is None:
         sys.stdout.write(table.write_csv())
         return 0
-    with written_whole(args.out) as temporary:
-        write_table(table, "csv", temporary)
+    write_file(args.out, table_content(table, "csv"))
     show(f"{args.out}: {table.height} periods of {target.label}")
     return 0
 

@@ -29,7 +29,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the validations, write their files and print what they say; return the exit code."""
-    from seismass.media.result import check_out
+    from seismass.base.folders import check_out
     from seismass.studies.study import study_sensitivity
     from seismass.studies.validation import validate
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -52,6 +53,21 @@ STYLE: Final[Any] = {
     "figure.autolayout": False,
     "figure.constrained_layout.use": False,
 }
+
+_OF_PROGRAMS: Final = (
+    *("backend", "date.epoch", "docstring", "figure.max_open", "figure.raise", "interactive", "savefig.directory"),
+    *("timezone", "tk.", "toolbar", "webagg"),
+)
+"""Beginnings of the names of settings that are no look of a figure."""
+
+
+@contextmanager
+def drawing() -> Iterator[None]:
+    """Draw under Matplotlib's own defaults and `STYLE`, whatever matplotlibrc, style sheets and programs say."""
+    defaults = {name: value for name, value in mpl.rcParamsDefault.items() if not name.startswith(_OF_PROGRAMS)}
+    with mpl.rc_context(defaults | STYLE):
+        yield
+
 
 _MISSING: Final = "\N{HORIZONTAL ELLIPSIS}"
 _LEFT_OUT: Final = re.compile(f"{_MISSING}(?: ?{_MISSING})*")

@@ -6,18 +6,17 @@ import hashlib
 import io
 import re
 from collections.abc import Callable, Iterator, Mapping
-from pathlib import Path
-from typing import Any, Final, Literal
+from typing import Any, BinaryIO, Final, Literal
 from xml.etree import ElementTree as ET
 
-import matplotlib as mpl
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from seismass.base.errors import InvalidOption
+from seismass.base.files import Content
 from seismass.base.values import brief, refusal
 from seismass.media.roles import BLUE, GREEN, GREY, INK, ORANGE, PAPER, PURPLE, SKY, VERMILION
-from seismass.media.style import STYLE, lay_out
+from seismass.media.style import drawing, lay_out
 
 FONTS: Final = "'DejaVu Sans', Verdana, sans-serif"
 """Fonts of inline figures. The second has the widths of the first, by which figures are laid out."""
@@ -54,6 +53,7 @@ _GEOMETRY: Final = ("x", "y", "x1", "x2", "y1", "y2", "width", "height", "points
 _VARIABLES: Final = {colour.lower(): f"var({name},{colour.lower()})" for colour, name in COLOUR_VARIABLES.items()}
 
 
+@drawing()
 def figure_svg(figure: Figure) -> str:
     """Return a figure as the text of an SVG file; equal figures give equal text.
 
@@ -75,9 +75,8 @@ def figure_svg(figure: Figure) -> str:
     if not isinstance(figure, Figure):
         raise refusal(InvalidOption, "figure", "SVG", "a matplotlib Figure", brief(figure))
     written = io.StringIO()
-    with mpl.rc_context(STYLE):
-        lay_out(figure)
-        figure.savefig(written, format="svg", metadata={"Date": None, "Creator": None}, facecolor="white")
+    lay_out(figure)
+    figure.savefig(written, format="svg", metadata={"Date": None, "Creator": None}, facecolor="white")
     return written.getvalue()
 
 
@@ -295,14 +294,16 @@ CAPTION_CHARACTERS: Final = 15
 """Characters of a caption per inch of a figure's width, in 7.5 points."""
 
 
-def save_figure(figure: Figure, kind: Literal["png", "svg"], path: Path) -> None:
-    """Write a figure as PNG or SVG, without a date, so that equal figures are equal files."""
-    with mpl.rc_context(STYLE):
-        lay_out(figure)
+def figure_content(figure: Figure, kind: Literal["png", "svg"]) -> Content:
+    """Return what writes a figure as PNG or SVG, without a date, so that equal figures are equal files."""
+
+    @drawing()
+    def write(file: BinaryIO) -> None:
         if kind == "svg":
-            path.write_text(figure_svg(figure), encoding="utf-8")
-        else:
-            options: Any = {"compress_level": 3}  # a third less time, 3 % more bytes
-            figure.savefig(
-                path, format="png", dpi=160, metadata={"Software": None}, facecolor="white", pil_kwargs=options
-            )
+            file.write(figure_svg(figure).encode())
+            return
+        lay_out(figure)
+        options: Any = {"compress_level": 3}  # a third less time, 3 % more bytes
+        figure.savefig(file, format="png", dpi=160, metadata={"Software": None}, facecolor="white", pil_kwargs=options)
+
+    return write

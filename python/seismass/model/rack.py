@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from seismass import _kernel
 from seismass.base.errors import InvalidScene
+from seismass.base.limits import MOST_LEVELS
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, known_id, refusal
 from seismass.base.views import Card
@@ -215,6 +216,8 @@ class Rack(Value, Card):
         _check_choice(("period", period), ("stiffness", stiffness), is_needed=True)
         _check_choice(("yield_shear", yield_shear), ("yield_shear_over_weight", yield_shear_over_weight))
         count = as_count(levels, "levels", "rack", InvalidScene, least=1)
+        if count > MOST_LEVELS:
+            raise refusal(InvalidScene, "levels", "rack", f"at most {MOST_LEVELS}", f"{count}")
 
         def per_level(name: str, value: ArrayLike | None) -> FloatArray | None:
             if value is None:

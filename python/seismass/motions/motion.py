@@ -4,22 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import Any, Final, Protocol, TypeAlias, runtime_checkable
+from typing import Any, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion
+from seismass.base.limits import MOST_SAMPLES, MOST_SECONDS
 from seismass.base.units import STANDARD_GRAVITY, acceleration_factor
 from seismass.base.values import FloatArray, Value, as_array, as_number, brief, frozen, refusal
 from seismass.base.views import Card
-
-MOST_SAMPLES: Final = 10_000_000
-"""Most samples of a motion of a file, or to which one is continued: some hundred megabytes in a run."""
-MOST_SECONDS: Final = 10_000.0
-"""Longest motion of a file, and longest time to which one is continued (s): five times that of any recording. It keeps
-the cost of a run to seconds, and a step in milliseconds exceeds it."""
 
 
 class Motion(Value, Card):

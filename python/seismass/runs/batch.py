@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Final, Protocol, TypeAlias, TypedDict
+from typing import Any, BinaryIO, Final, Protocol, TypeAlias, TypedDict
 
 import numpy as np
 import polars as pl
@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from seismass import _kernel
 from seismass.base.digest import inputs_digest
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
-from seismass.base.files import polars_writing, written_whole
+from seismass.base.files import check_files, polars_writing, write_file
 from seismass.base.fork_check import require_polars
 from seismass.base.stored_results import result_store
 from seismass.base.values import (
@@ -254,21 +254,22 @@ def write_many(
     report = as_progress(progress, "batch")
     stretch = _one_table(_stretch(runs, batch.total))
     solved_by = (_kernel.VERSION, instruction_set(), size, options["peaks_only"], stretch)
-    with (
-        written_whole(target) as temporary,
-        result_store(target.parent, target.name, inputs_digest(batch, solved_by)) as store,
-    ):
+    check_files(target)
+    with result_store(target.parent, target.name, inputs_digest(batch, solved_by)) as store:
         parts = []
         for done in range(0, max(len(stretch), 1), size):
             solve = partial(batch.solve, stretch[done : done + size], options, _since(done, len(stretch), report))
             parts.append(store.file(str(done // size), solve))
-        # Small row groups, as each is held while it is copied.
-        with polars_writing(target):
-            pl.scan_parquet(parts, glob=False).sink_parquet(
-                temporary,
-                row_group_size=DEFAULT_CHUNK,
-                metadata={"seismass": _kernel.VERSION, "instructions": instruction_set()},
-            )
+
+        def write(file: BinaryIO) -> None:
+            with polars_writing():
+                pl.scan_parquet(parts, glob=False).sink_parquet(
+                    file,
+                    row_group_size=DEFAULT_CHUNK,  # small, as each group is held while it is copied
+                    metadata={"seismass": _kernel.VERSION, "instructions": instruction_set()},
+                )
+
+        write_file(target, write)
 
 
 class _Options(TypedDict):

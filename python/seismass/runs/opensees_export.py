@@ -14,7 +14,8 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption, InvalidScene, SeismassError
-from seismass.base.files import data_directory
+from seismass.base.files import Content, data_directory
+from seismass.base.folders import write_folder
 from seismass.base.fork_check import require_polars
 from seismass.base.values import (
     FloatArray,
@@ -28,7 +29,6 @@ from seismass.base.values import (
     short_repr,
 )
 from seismass.base.views import Card
-from seismass.media.result import folder_for, write_folder
 from seismass.model.building import Building
 from seismass.model.scene import Scene
 from seismass.motions.motion import Motion, MotionLike, as_motion
@@ -86,7 +86,7 @@ def write_opensees(
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     files = write_opensees(folder, {"goods slide": scene}, sm.builtin_suite("seven")[:1])
     >>> [file.name for file in files]
-    ['model.py', 'README.md', 'motion-01.txt', 'model.json']
+    ['model.py', 'README.md', 'motion-01.txt', 'model.json', 'files.json']
     """
     out = as_path(folder, "folder of OpenSees models", InvalidOption)
     items = [as_motion(motion, f"motion {number}", "OpenSees export") for number, motion in enumerate(motions, start=1)]
@@ -106,13 +106,12 @@ def write_opensees(
         {"file": file, "dt": motion.dt, "samples": motion.samples} for file, motion in zip(files, items, strict=True)
     ]
     source = data_directory() / "opensees"
-    texts = dict(documents or {})
+    texts: dict[str, Content] = dict(documents or {})
     texts |= {name: (source / name).read_text(encoding="utf-8") for name in (PROGRAM, README)}
     for file, motion in zip(files, items, strict=True):
         texts[file] = "".join(f"{value!r}\n" for value in motion.acceleration.tolist())
     texts[CONTENT] = json.dumps({"units": "kg, N, m, s", "models": models, "motions": listed}, indent=1) + "\n"
-    with folder_for(out):
-        return write_folder(out, tables={}, documents=texts)
+    return write_folder(out, texts, owner="OpenSees export")
 
 
 def model_content(scene: Scene, name: str = "") -> dict[str, Any]:

@@ -38,7 +38,7 @@ from seismass.media.roles import (
     SLIDE_HIGH,
     lettered,
 )
-from seismass.media.style import STYLE
+from seismass.media.style import drawing
 from seismass.media.text_table import text_line
 from seismass.model.codes import MARK, NOT_CHECKED, code_fraction
 
@@ -75,34 +75,34 @@ def effective_mass_figure(
     return curve_figure(result, codes) if named_figure(result, name) == "curve" else storeys_figure(result)
 
 
+@drawing()
 def curve_figure(result: EffectiveMass, codes: Mapping[str, float] | None = None) -> Figure:
     """Drift with goods that slide over the model's, against the share attached, with its band, the answer and codes."""
     marks = STORAGE_CODES if codes is None else codes
     largest = result.curve.filter(pl.col("storey") == 0)
     share, ratio = largest["fraction"].to_numpy(), largest["ratio"].to_numpy()
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(6.4, 4.6), layout="constrained")
-        axes = figure.add_subplot()
-        if largest["ratio_low"].null_count() == 0:
-            low, high = largest["ratio_low"].to_numpy(), largest["ratio_high"].to_numpy()
-            label = f"{100.0 * result.confidence:g} % interval over the records"
-            axes.fill_between(share, low, high, color=SLIDE.colour, alpha=0.18, linewidth=0.0, label=label)
-        label = f"{OVER_MODEL}, {result.statistic} of the largest drift"
-        axes.plot(share, ratio, color=SLIDE.colour, linewidth=2.0, label=label)
-        rule = result.by_hand
-        label = f"{lettered(rule.formula)} = {rule.estimate:.2f}"
-        axes.axvline(rule.estimate, color=GREY, linewidth=1.3, linestyle=(0, (1, 1)), label=label)
-        if np.isfinite(result.value):
-            _mark_answer(axes, result)
-        axes.axhline(1.0, color=INK, linewidth=0.8)
-        _ratio_axis(axes)
-        axes.set_xlim(-0.01, 1.01)
-        axes.set_xlabel(SHARE)
-        axes.set_ylabel(f"{OVER_MODEL}, largest drift\n(above 1: the model is unsafe)")
-        axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
-        mark_codes(axes, marks)
-        figure.legend(loc="outside upper center", ncols=2, frameon=False)
-        figure.supxlabel(f"{_caption(result)}{marked_legend(marks)}", fontsize=7.5)
+    figure = Figure(figsize=(6.4, 4.6), layout="constrained")
+    axes = figure.add_subplot()
+    if largest["ratio_low"].null_count() == 0:
+        low, high = largest["ratio_low"].to_numpy(), largest["ratio_high"].to_numpy()
+        label = f"{100.0 * result.confidence:g} % interval over the records"
+        axes.fill_between(share, low, high, color=SLIDE.colour, alpha=0.18, linewidth=0.0, label=label)
+    label = f"{OVER_MODEL}, {result.statistic} of the largest drift"
+    axes.plot(share, ratio, color=SLIDE.colour, linewidth=2.0, label=label)
+    rule = result.by_hand
+    label = f"{lettered(rule.formula)} = {rule.estimate:.2f}"
+    axes.axvline(rule.estimate, color=GREY, linewidth=1.3, linestyle=(0, (1, 1)), label=label)
+    if np.isfinite(result.value):
+        _mark_answer(axes, result)
+    axes.axhline(1.0, color=INK, linewidth=0.8)
+    _ratio_axis(axes)
+    axes.set_xlim(-0.01, 1.01)
+    axes.set_xlabel(SHARE)
+    axes.set_ylabel(f"{OVER_MODEL}, largest drift\n(above 1: the model is unsafe)")
+    axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
+    mark_codes(axes, marks)
+    figure.legend(loc="outside upper center", ncols=2, frameon=False)
+    figure.supxlabel(f"{_caption(result)}{marked_legend(marks)}", fontsize=7.5)
     return figure
 
 
@@ -148,6 +148,7 @@ def _ratio_axis(axes: Axes) -> None:
     axes.yaxis.set_minor_formatter(NullFormatter())
 
 
+@drawing()
 def storeys_figure(result: EffectiveMass) -> Figure:
     """Drift with goods that slide over models' by storey: none, the effective fraction, all, and the envelope."""
     storeys = result.storeys
@@ -158,32 +159,31 @@ def storeys_figure(result: EffectiveMass) -> Figure:
         ("ratio_at_1", ATTACHED.name, ATTACHED, ATTACHED.line),
         ("envelope_ratio", f"larger of {EFFECTIVE} and none", SLIDE, "-"),
     ]
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(6.4, 1.9 + 0.55 * len(level)), layout="constrained")
-        axes = figure.add_subplot()
-        axes.axvline(1.0, color=INK, linewidth=0.8)
-        for column, label, role, style in rows:
-            axes.plot(
-                storeys[column].to_numpy(),
-                level,
-                color=role.colour,
-                marker=role.marker,
-                linestyle=style,
-                linewidth=1.4,
-                markersize=5.0,
-                markerfacecolor="white" if role in (BARE, ATTACHED) else role.colour,
-                label=label,
-            )
-        low, high = axes.get_xlim()
-        axes.axvspan(1.0, max(high, 1.1), color=GREY, alpha=0.12, linewidth=0.0)
-        axes.set_xlim(min(low, 0.9), max(high, 1.1))
-        axes.set_ylim(0.5, len(level) + 0.5)
-        axes.set_yticks(level)
-        axes.set_ylabel("storey")
-        axes.set_xlabel(f"{OVER_MODEL} drift, {result.statistic} over the motions (shaded: the model is unsafe)")
-        axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
-        figure.legend(loc="outside upper center", ncols=2, frameon=False, title="what the model has attached")
-        figure.supxlabel(_caption(result), fontsize=7.5)
+    figure = Figure(figsize=(6.4, 1.9 + 0.55 * len(level)), layout="constrained")
+    axes = figure.add_subplot()
+    axes.axvline(1.0, color=INK, linewidth=0.8)
+    for column, label, role, style in rows:
+        axes.plot(
+            storeys[column].to_numpy(),
+            level,
+            color=role.colour,
+            marker=role.marker,
+            linestyle=style,
+            linewidth=1.4,
+            markersize=5.0,
+            markerfacecolor="white" if role in (BARE, ATTACHED) else role.colour,
+            label=label,
+        )
+    low, high = axes.get_xlim()
+    axes.axvspan(1.0, max(high, 1.1), color=GREY, alpha=0.12, linewidth=0.0)
+    axes.set_xlim(min(low, 0.9), max(high, 1.1))
+    axes.set_ylim(0.5, len(level) + 0.5)
+    axes.set_yticks(level)
+    axes.set_ylabel("storey")
+    axes.set_xlabel(f"{OVER_MODEL} drift, {result.statistic} over the motions (shaded: the model is unsafe)")
+    axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
+    figure.legend(loc="outside upper center", ncols=2, frameon=False, title="what the model has attached")
+    figure.supxlabel(_caption(result), fontsize=7.5)
     return figure
 
 
@@ -203,68 +203,65 @@ def _caption(result: EffectiveMass) -> str:
     )
 
 
+@drawing()
 def uncertainty_figure(result: LiveLoadUncertainty, name: str | None = None) -> Figure:
     """Cumulative distribution of the share with codes' fractions, above the tornado of friction and occupancy."""
     named_figure(result, name)
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(6.4, 5.6), layout="constrained")
-        upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.0, 1.2))
-        share = np.sort(result.samples["share"].to_numpy())
-        level = (np.arange(len(share)) + 0.5) / len(share)
-        upper.plot(share, level, color=SLIDE.colour, linewidth=2.0, label="samples of friction and occupancy")
-        upper.axvline(
-            result.share, color=ADVISED.colour, linewidth=1.8, label=f"equal expected drift {result.share:.2f}"
+    figure = Figure(figsize=(6.4, 5.6), layout="constrained")
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.0, 1.2))
+    share = np.sort(result.samples["share"].to_numpy())
+    level = (np.arange(len(share)) + 0.5) / len(share)
+    upper.plot(share, level, color=SLIDE.colour, linewidth=2.0, label="samples of friction and occupancy")
+    upper.axvline(result.share, color=ADVISED.colour, linewidth=1.8, label=f"equal expected drift {result.share:.2f}")
+    if result.interval is not None:
+        label = f"its 90 % interval over the records, {result.interval[0]:.2f} to {result.interval[1]:.2f}"
+        upper.axvspan(*result.interval, color=ADVISED.colour, alpha=0.15, linewidth=0.0, label=label)
+    upper.axvline(
+        result.share_84,
+        color=SLIDE_HIGH.colour,
+        linewidth=1.6,
+        linestyle=(0, (5, 2)),
+        label=f"84 % of samples {result.share_84:.2f}",
+    )
+    for name, fraction in STORAGE_CODES.items():
+        upper.axvline(fraction, ymin=0.94, ymax=1.0, color=INK, linewidth=1.4)
+        upper.annotate(
+            f"{name} ",
+            (fraction, 0.93),
+            xycoords=("data", "axes fraction"),
+            rotation=90.0,
+            ha="center",
+            va="top",
+            fontsize=7.0,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0, "alpha": 0.85},
         )
-        if result.interval is not None:
-            label = f"its 90 % interval over the records, {result.interval[0]:.2f} to {result.interval[1]:.2f}"
-            upper.axvspan(*result.interval, color=ADVISED.colour, alpha=0.15, linewidth=0.0, label=label)
-        upper.axvline(
-            result.share_84,
-            color=SLIDE_HIGH.colour,
-            linewidth=1.6,
-            linestyle=(0, (5, 2)),
-            label=f"84 % of samples {result.share_84:.2f}",
-        )
-        for name, fraction in STORAGE_CODES.items():
-            upper.axvline(fraction, ymin=0.94, ymax=1.0, color=INK, linewidth=1.4)
-            upper.annotate(
-                f"{name} ",
-                (fraction, 0.93),
-                xycoords=("data", "axes fraction"),
-                rotation=90.0,
-                ha="center",
-                va="top",
-                fontsize=7.0,
-                bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0, "alpha": 0.85},
-            )
-        upper.set_ylim(0.0, 1.0)
-        upper.set_xlim(-0.01, 1.01)
-        upper.set_ylabel("probability of a smaller share")
-        upper.grid(color=GREY, alpha=0.25, linewidth=0.5)
-        rows = list(result.tornado.iter_rows(named=True))[::-1]
-        for place, row in enumerate(rows):
-            ends = (row["share_low"], row["share_high"])
-            lower.barh(place, ends[1] - ends[0], left=ends[0], height=0.5, color=SLIDE.colour, alpha=0.5)
-            for end, value, side in ((ends[0], row["low"], "right"), (ends[1], row["high"], "left")):
-                outward = side if ends[0] <= ends[1] else {"right": "left", "left": "right"}[side]
-                text = f" {value:.2g} "
-                lower.annotate(text, (min(max(end, 0.04), 0.96), place), ha=outward, va="center", fontsize=8.0)
-        lower.axvline(rows[0]["share_median"], color=INK, linewidth=0.9)
-        lower.set_yticks(range(len(rows)), [lettered(row["variable"]) for row in rows])
-        lower.set_ylim(-0.6, len(rows) - 0.4)
-        lower.set_xlabel(
-            "share of the design live load to attach as mass\n"
-            "(bars: one variable at 5 and 95 %, the other at its median)"
-        )
-        lower.grid(axis="x", color=GREY, alpha=0.25, linewidth=0.5)
-        figure.legend(*upper.get_legend_handles_labels(), loc="outside upper center", ncols=2, frameon=False)
-        metadata = result.metadata
-        figure.supxlabel(
-            f"{metadata['samples']} samples, {metadata['motions']} motions; "
-            f"{MU} {metadata['mu']}, occupancy {metadata['occupancy']}"
-            f"{marked_legend(STORAGE_CODES)}",
-            fontsize=7.5,
-        )
+    upper.set_ylim(0.0, 1.0)
+    upper.set_xlim(-0.01, 1.01)
+    upper.set_ylabel("probability of a smaller share")
+    upper.grid(color=GREY, alpha=0.25, linewidth=0.5)
+    rows = list(result.tornado.iter_rows(named=True))[::-1]
+    for place, row in enumerate(rows):
+        ends = (row["share_low"], row["share_high"])
+        lower.barh(place, ends[1] - ends[0], left=ends[0], height=0.5, color=SLIDE.colour, alpha=0.5)
+        for end, value, side in ((ends[0], row["low"], "right"), (ends[1], row["high"], "left")):
+            outward = side if ends[0] <= ends[1] else {"right": "left", "left": "right"}[side]
+            text = f" {value:.2g} "
+            lower.annotate(text, (min(max(end, 0.04), 0.96), place), ha=outward, va="center", fontsize=8.0)
+    lower.axvline(rows[0]["share_median"], color=INK, linewidth=0.9)
+    lower.set_yticks(range(len(rows)), [lettered(row["variable"]) for row in rows])
+    lower.set_ylim(-0.6, len(rows) - 0.4)
+    lower.set_xlabel(
+        "share of the design live load to attach as mass\n(bars: one variable at 5 and 95 %, the other at its median)"
+    )
+    lower.grid(axis="x", color=GREY, alpha=0.25, linewidth=0.5)
+    figure.legend(*upper.get_legend_handles_labels(), loc="outside upper center", ncols=2, frameon=False)
+    metadata = result.metadata
+    figure.supxlabel(
+        f"{metadata['samples']} samples, {metadata['motions']} motions; "
+        f"{MU} {metadata['mu']}, occupancy {metadata['occupancy']}"
+        f"{marked_legend(STORAGE_CODES)}",
+        fontsize=7.5,
+    )
     return figure
 
 
@@ -280,101 +277,100 @@ _RATIOS: Final = (0.4, 0.5, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5)
 _INTENSITY_LOOKS: Final = ("o", "s", "D", "^", "v", "P", "X", "<", ">", "*", "h")
 
 
+@drawing()
 def map_figure(result: EffectiveMassMap, name: str | None = None) -> Figure:
     """Return a figure by its name."""
     draw = {"collapse": collapse_figure, "rules": rules_figure, "intensity": intensity_figure}
-    with mpl.rc_context(STYLE):
-        return draw[named_figure(result, name)](result)
+    return draw[named_figure(result, name)](result)
 
 
+@drawing()
 def collapse_figure(result: EffectiveMassMap) -> Figure:
     """Effective fraction against mu/C1, every case in which goods slide, by R, with the rule and the codes."""
     sliding = result.table.filter(pl.col("slides"))
-    with mpl.rc_context(STYLE):
-        # Names of codes reach beyond the axes by more than the layout leaves them.
-        figure = Figure(figsize=(7.2, 5.2), layout=ConstrainedLayoutEngine(rect=(0.0, 0.0, 0.98, 1.0)))
-        axes = figure.add_subplot()
-        for label, above, most, colour, marker in _GROUPS:
-            here = sliding.filter((pl.col("R") > above) & (pl.col("R") <= most))
-            if not here.height:
-                continue
-            axes.plot(
-                (here["mu"] / here["coefficient"]).to_numpy(),
-                here["value"].to_numpy(),
-                linestyle="",
-                marker=marker,
-                markersize=2.2,
-                markeredgewidth=0.0,
-                color=colour,
-                alpha=0.55,
-                label=label,
-            )
-        ends = np.linspace(0.0, LARGEST_SHOWN, 400)
-        rule = share_by_hand(ends, 1.0)
-        axes.plot(ends, rule, color="white", linewidth=4.0, zorder=3)
-        axes.plot(ends, rule, color=INK, linewidth=2.2, zorder=4, label=lettered(RULE))
-        for name, share in {"none: ASCE 7 ordinary": 0.0, **STORAGE_CODES, "all": 1.0}.items():
-            axes.plot([0.985, 1.0], [share, share], transform=axes.get_yaxis_transform(), color=INK, linewidth=1.6)
-            axes.annotate(
-                f"{name} {share:g}" if 0.0 < share < 1.0 else name,
-                (1.01, share),
-                xycoords=axes.get_yaxis_transform(),
-                va="center",
-                fontsize=7.5,
-            )
-        axes.set_xlim(0.0, LARGEST_SHOWN)
-        axes.set_ylim(-0.03, 1.05)
-        axes.set_xlabel(r"$\mu$ / $C_1$,   $C_1$ = $S_a$ / $R_y^{2/3}$,   $R_y$ = $S_a W_g$ / $V_y$ $\geq$ 1")
-        axes.set_ylabel(EFFECTIVE)
-        axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
-        legend = figure.legend(loc="outside upper center", ncols=2, frameon=False)
-        for handle in legend.get_lines()[:-1]:
-            handle.set_alpha(1.0)
-            handle.set_markersize(5.0)
-        figure.supxlabel(f"{map_caption(result)}{marked_legend(STORAGE_CODES)}", fontsize=7.5)
+    # Names of codes reach beyond the axes by more than the layout leaves them.
+    figure = Figure(figsize=(7.2, 5.2), layout=ConstrainedLayoutEngine(rect=(0.0, 0.0, 0.98, 1.0)))
+    axes = figure.add_subplot()
+    for label, above, most, colour, marker in _GROUPS:
+        here = sliding.filter((pl.col("R") > above) & (pl.col("R") <= most))
+        if not here.height:
+            continue
+        axes.plot(
+            (here["mu"] / here["coefficient"]).to_numpy(),
+            here["value"].to_numpy(),
+            linestyle="",
+            marker=marker,
+            markersize=2.2,
+            markeredgewidth=0.0,
+            color=colour,
+            alpha=0.55,
+            label=label,
+        )
+    ends = np.linspace(0.0, LARGEST_SHOWN, 400)
+    rule = share_by_hand(ends, 1.0)
+    axes.plot(ends, rule, color="white", linewidth=4.0, zorder=3)
+    axes.plot(ends, rule, color=INK, linewidth=2.2, zorder=4, label=lettered(RULE))
+    for name, share in {"none: ASCE 7 ordinary": 0.0, **STORAGE_CODES, "all": 1.0}.items():
+        axes.plot([0.985, 1.0], [share, share], transform=axes.get_yaxis_transform(), color=INK, linewidth=1.6)
+        axes.annotate(
+            f"{name} {share:g}" if 0.0 < share < 1.0 else name,
+            (1.01, share),
+            xycoords=axes.get_yaxis_transform(),
+            va="center",
+            fontsize=7.5,
+        )
+    axes.set_xlim(0.0, LARGEST_SHOWN)
+    axes.set_ylim(-0.03, 1.05)
+    axes.set_xlabel(r"$\mu$ / $C_1$,   $C_1$ = $S_a$ / $R_y^{2/3}$,   $R_y$ = $S_a W_g$ / $V_y$ $\geq$ 1")
+    axes.set_ylabel(EFFECTIVE)
+    axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
+    legend = figure.legend(loc="outside upper center", ncols=2, frameon=False)
+    for handle in legend.get_lines()[:-1]:
+        handle.set_alpha(1.0)
+        handle.set_markersize(5.0)
+    figure.supxlabel(f"{map_caption(result)}{marked_legend(STORAGE_CODES)}", fontsize=7.5)
     return figure
 
 
+@drawing()
 def rules_figure(result: EffectiveMassMap) -> Figure:
     """Model over real drift for every rule: mean, 5 to 95 %, and the share of cases in which it is unsafe."""
     rules = result.rules()
     level = np.arange(rules.height)[::-1]
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(7.2, 1.6 + 0.34 * rules.height), layout="constrained")
-        axes = figure.add_subplot()
-        axes.axvline(1.0, color=INK, linewidth=0.8)
-        axes.axvspan(0.3, 1.0, color=GREY, alpha=0.12, linewidth=0.0)
-        axes.hlines(level, rules["low"].to_numpy(), rules["high"].to_numpy(), color=SLIDE.colour, linewidth=2.0)
-        axes.plot(
-            rules["bias"].to_numpy(), level, color=SLIDE.colour, marker=SLIDE.marker, linestyle="", markersize=6.0
+    figure = Figure(figsize=(7.2, 1.6 + 0.34 * rules.height), layout="constrained")
+    axes = figure.add_subplot()
+    axes.axvline(1.0, color=INK, linewidth=0.8)
+    axes.axvspan(0.3, 1.0, color=GREY, alpha=0.12, linewidth=0.0)
+    axes.hlines(level, rules["low"].to_numpy(), rules["high"].to_numpy(), color=SLIDE.colour, linewidth=2.0)
+    axes.plot(rules["bias"].to_numpy(), level, color=SLIDE.colour, marker=SLIDE.marker, linestyle="", markersize=6.0)
+    for height, unsafe in zip(level, rules["unsafe"], strict=True):
+        axes.annotate(
+            f"{100.0 * unsafe:.0f} %",
+            (1.01, height),
+            xycoords=axes.get_yaxis_transform(),
+            va="center",
+            fontsize=8.0,
         )
-        for height, unsafe in zip(level, rules["unsafe"], strict=True):
-            axes.annotate(
-                f"{100.0 * unsafe:.0f} %",
-                (1.01, height),
-                xycoords=axes.get_yaxis_transform(),
-                va="center",
-                fontsize=8.0,
-            )
-        axes.annotate("unsafe", (1.01, 1.0), xycoords="axes fraction", va="bottom", fontsize=8.0)
-        axes.set_xscale("log")
-        axes.xaxis.set_major_locator(FixedLocator(list(_RATIOS)))
-        axes.xaxis.set_minor_locator(NullLocator())
-        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        axes.xaxis.set_minor_formatter(NullFormatter())
-        axes.set_xlim(0.38, 2.6)
-        axes.set_ylim(-0.6, rules.height - 0.4)
-        axes.set_yticks(level, [lettered(rule) for rule in rules["rule"]])
-        axes.set_xlabel(
-            "model / goods slide, mean of the largest drift: geometric mean and 5 to 95 % of the\n"
-            "cases in which goods slide (shaded: the model drifts less;\n"
-            "unsafe: with sliding goods the building drifts more than 1.05 times the model)"
-        )
-        axes.grid(axis="x", color=GREY, alpha=0.25, linewidth=0.5)
-        figure.supxlabel(map_caption(result), fontsize=7.5)
+    axes.annotate("unsafe", (1.01, 1.0), xycoords="axes fraction", va="bottom", fontsize=8.0)
+    axes.set_xscale("log")
+    axes.xaxis.set_major_locator(FixedLocator(list(_RATIOS)))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.set_xlim(0.38, 2.6)
+    axes.set_ylim(-0.6, rules.height - 0.4)
+    axes.set_yticks(level, [lettered(rule) for rule in rules["rule"]])
+    axes.set_xlabel(
+        "model / goods slide, mean of the largest drift: geometric mean and 5 to 95 % of the\n"
+        "cases in which goods slide (shaded: the model drifts less;\n"
+        "unsafe: with sliding goods the building drifts more than 1.05 times the model)"
+    )
+    axes.grid(axis="x", color=GREY, alpha=0.25, linewidth=0.5)
+    figure.supxlabel(map_caption(result), fontsize=7.5)
     return figure
 
 
+@drawing()
 def intensity_figure(result: EffectiveMassMap) -> Figure:
     """Effective fraction against intensity, a panel for each R, a line with a bootstrap band over the records for each
     friction: the middle building of the list, and the load nearest to alpha = 1.
@@ -390,39 +386,38 @@ def intensity_figure(result: EffectiveMassMap) -> Figure:
     confidence = result.metadata["parameters"]["confidence"]
     columns = min(len(factors), 4)
     rows = -(-len(factors) // columns)
-    with mpl.rc_context(STYLE):
-        shades = mpl.colormaps["viridis"](np.linspace(0.0, 0.9, len(mus)))
-        figure = Figure(figsize=(1.0 + 2.1 * columns, 1.5 + 2.1 * rows), layout="constrained")
-        grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
-        for axes, factor in zip(grid.flat, factors, strict=False):
-            for colour, marker, mu in zip(shades, _INTENSITY_LOOKS * len(mus), mus, strict=False):
-                line = here.filter((pl.col("R") == factor) & (pl.col("mu") == mu))
-                if line["low"].null_count() == 0:
-                    ends = (line[name].to_numpy() for name in ("intensity", "low", "high"))
-                    axes.fill_between(*ends, color=colour, alpha=0.12, linewidth=0.0)
-                axes.plot(
-                    line["intensity"].to_numpy(),
-                    line["value"].to_numpy(),
-                    color=colour,
-                    marker=marker,
-                    markersize=3.5,
-                    linewidth=1.1,
-                    label=f"{MU} = {mu:g}",
-                )
-            axes.set_title(f"R = {factor:g}")
-            axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
-            axes.set_ylim(-0.03, 1.05)
-        for axes in list(grid.flat)[len(factors) :]:
-            axes.set_axis_off()
-        handles, labels = grid[0][0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside upper center", ncols=min(len(mus), 6), frameon=False)
-        figure.supylabel(EFFECTIVE, fontsize=9.0)
-        figure.supxlabel(
-            "intensity: factor of the scaled motions, strengths unchanged; "
-            f"bands: {100.0 * confidence:g} % intervals over the records   ({storeys} storeys, {period:g} s, {roof} "
-            f"roof, {ALPHA} = {load:g})" + "\n" + map_caption(result),
-            fontsize=7.5,
-        )
+    shades = mpl.colormaps["viridis"](np.linspace(0.0, 0.9, len(mus)))
+    figure = Figure(figsize=(1.0 + 2.1 * columns, 1.5 + 2.1 * rows), layout="constrained")
+    grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
+    for axes, factor in zip(grid.flat, factors, strict=False):
+        for colour, marker, mu in zip(shades, _INTENSITY_LOOKS * len(mus), mus, strict=False):
+            line = here.filter((pl.col("R") == factor) & (pl.col("mu") == mu))
+            if line["low"].null_count() == 0:
+                ends = (line[name].to_numpy() for name in ("intensity", "low", "high"))
+                axes.fill_between(*ends, color=colour, alpha=0.12, linewidth=0.0)
+            axes.plot(
+                line["intensity"].to_numpy(),
+                line["value"].to_numpy(),
+                color=colour,
+                marker=marker,
+                markersize=3.5,
+                linewidth=1.1,
+                label=f"{MU} = {mu:g}",
+            )
+        axes.set_title(f"R = {factor:g}")
+        axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
+        axes.set_ylim(-0.03, 1.05)
+    for axes in list(grid.flat)[len(factors) :]:
+        axes.set_axis_off()
+    handles, labels = grid[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=min(len(mus), 6), frameon=False)
+    figure.supylabel(EFFECTIVE, fontsize=9.0)
+    figure.supxlabel(
+        "intensity: factor of the scaled motions, strengths unchanged; "
+        f"bands: {100.0 * confidence:g} % intervals over the records   ({storeys} storeys, {period:g} s, {roof} "
+        f"roof, {ALPHA} = {load:g})" + "\n" + map_caption(result),
+        fontsize=7.5,
+    )
     return figure
 
 

@@ -7,7 +7,6 @@ import textwrap
 from itertools import cycle
 from typing import Any, Final
 
-import matplotlib as mpl
 import numpy as np
 import polars as pl
 from matplotlib.axes import Axes
@@ -18,7 +17,7 @@ from matplotlib.patches import Patch
 from seismass.base.values import FloatArray, counted
 from seismass.media.result import named_figure
 from seismass.media.roles import GREY, INK, LIMIT, MODELS, PAPER, SLIDE, model_name
-from seismass.media.style import SERIES, STYLE, grid_lines, plain, say
+from seismass.media.style import SERIES, drawing, grid_lines, plain, say
 from seismass.media.text_table import ends_text, number_text
 from seismass.studies.fragility.limits import LimitState
 from seismass.studies.fragility.result import FragilityAnalysis
@@ -38,6 +37,7 @@ def analysis_figure(result: FragilityAnalysis, name: str | None = None) -> Figur
     return demand_figure(result, result.demands[figure_name.removeprefix("demand_")])
 
 
+@drawing()
 def fragility_figure(result: FragilityAnalysis) -> Figure:
     """Return fragility curves of all models, one panel per limit, with bootstrap bands over the motions. Points are the
     share of motions that exceed the limit, at each stripe or by their capacities.
@@ -45,36 +45,35 @@ def fragility_figure(result: FragilityAnalysis) -> Figure:
     count = len(result.limits)
     columns = min(count, 2)
     rows = -(-count // columns)
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(max(4.4 * columns, 6.4), 0.9 + 3.3 * rows), layout="constrained")
-        panels = figure.subplots(rows, columns, squeeze=False).ravel()
-        for axes, limit in zip(panels, result.limits, strict=False):
-            for model, (look, marker) in _looks(result).items():
-                if (model, limit.name) in result.fits:
-                    _curve(axes, result, limit, model, look, marker)
-            axes.set_title(plain(limit.text))
-            axes.set_ylim(-0.02, 1.02)
-            axes.set_xlim(0.0, _highest_drawn(result, limit))
-            axes.set_xlabel(_intensity_label(result))
-            axes.set_ylabel("probability of exceedance")
-            grid_lines(axes)
-            fits = [fit for (_, name), fit in result.fits.items() if name == limit.name]
-            if all(fit.kind == "never" for fit in fits):
-                say(axes, "never exceeded")
-        for axes in panels[count:]:
-            axes.set_axis_off()
-        handles: list[Any] = [
-            Line2D([], [], **look, marker=marker, markersize=4.0, label=plain(model_name(model)))
-            for model, (look, marker) in _looks(result).items()
-        ]
-        if any(len(fit.samples) for fit in result.fits.values()):
-            share = f"{100.0 * result.metadata['confidence']:g} % interval"
-            handles.append(Patch(facecolor=GREY, alpha=0.3, label=share))
-        if count < len(panels):
-            panels[count].legend(handles=handles, loc="center", frameon=False)
-        else:
-            figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
-        figure.supxlabel(_caption(result), fontsize=7.5)
+    figure = Figure(figsize=(max(4.4 * columns, 6.4), 0.9 + 3.3 * rows), layout="constrained")
+    panels = figure.subplots(rows, columns, squeeze=False).ravel()
+    for axes, limit in zip(panels, result.limits, strict=False):
+        for model, (look, marker) in _looks(result).items():
+            if (model, limit.name) in result.fits:
+                _curve(axes, result, limit, model, look, marker)
+        axes.set_title(plain(limit.text))
+        axes.set_ylim(-0.02, 1.02)
+        axes.set_xlim(0.0, _highest_drawn(result, limit))
+        axes.set_xlabel(_intensity_label(result))
+        axes.set_ylabel("probability of exceedance")
+        grid_lines(axes)
+        fits = [fit for (_, name), fit in result.fits.items() if name == limit.name]
+        if all(fit.kind == "never" for fit in fits):
+            say(axes, "never exceeded")
+    for axes in panels[count:]:
+        axes.set_axis_off()
+    handles: list[Any] = [
+        Line2D([], [], **look, marker=marker, markersize=4.0, label=plain(model_name(model)))
+        for model, (look, marker) in _looks(result).items()
+    ]
+    if any(len(fit.samples) for fit in result.fits.values()):
+        share = f"{100.0 * result.metadata['confidence']:g} % interval"
+        handles.append(Patch(facecolor=GREY, alpha=0.3, label=share))
+    if count < len(panels):
+        panels[count].legend(handles=handles, loc="center", frameon=False)
+    else:
+        figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
+    figure.supxlabel(_caption(result), fontsize=7.5)
     return figure
 
 
@@ -149,6 +148,7 @@ def observed(result: FragilityAnalysis, limit: LimitState, model: str) -> tuple[
     return shares[level].to_numpy(), shares["share"].to_numpy()
 
 
+@drawing()
 def demand_figure(result: FragilityAnalysis, limit: LimitState) -> Figure:
     """Return demand by intensity, a panel per model with the quantity: lines and 16, 50 and 84 % fractiles given
     intensity where motions are scaled, else points. A cross is the last point before a collapse.
@@ -156,54 +156,53 @@ def demand_figure(result: FragilityAnalysis, limit: LimitState) -> Figure:
     column, scale = limit.column, limit.shown_scale
     models = [model for model in result.models if result.traces(model, column)]
     scaled = not result.capacities.is_empty()
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(max(1.0 + 2.9 * len(models), 6.4), 4.0), layout="constrained")
-        panels = figure.subplots(1, len(models), squeeze=False, sharex=True, sharey=True)[0]
-        fractiles = result.fractiles().filter(demand_column=column) if scaled else None
-        for axes, model in zip(panels, models, strict=True):
-            for x, y in result.traces(model, column):
-                finite = np.isfinite(y)
-                if fractiles is None:
-                    axes.loglog(scale * y[finite], x[finite], color=INK, linestyle="", marker="o", markersize=3.0)
-                    continue
-                points, values = np.append(0.0, x), np.append(0.0, np.where(finite, y, np.nan))
-                axes.plot(scale * values, points, color=GREY, linewidth=0.7, alpha=0.8, gid="motion")
-                fell = np.flatnonzero(~finite)
-                if len(fell):
-                    axes.plot(scale * values[fell[0]], points[fell[0]], color=INK, marker="x", markersize=4.5)
-            if fractiles is not None:
-                rows = fractiles.filter(model=model)
-                for name, style in _FRACTILE_LOOKS.items():
-                    value = rows[name].fill_null(np.nan).to_numpy()
-                    shown = np.where(np.isfinite(value), scale * value, np.nan)
-                    levels = np.append(0.0, rows["level"].to_numpy())
-                    axes.plot(np.append(0.0, shown), levels, color=SLIDE.colour, linestyle=style, linewidth=1.8)
-            fallen = result.runs.filter(model=model, status="collapsed").height
-            name = plain(model_name(model))
-            axes.set_title(name if scaled or not fallen else f"{name}, {fallen} collapsed")
-            axes.set_xlabel(limit.label)
-            grid_lines(axes)
-        if limit.quantity != "collapse":
-            bounds = [each.value for each in result.limits if each.column == column]
-            for axes in panels:
-                for bound in bounds:
-                    axes.axvline(scale * bound, color=LIMIT.colour, linestyle=LIMIT.line, linewidth=1.1)
-            if scaled:
-                panels[0].set_xlim(0.0, 2.0 * scale * max(bounds) if max(bounds) > 0.0 else None)
-                panels[0].set_ylim(0.0, _highest_shown(result, column, 2.0 * max(bounds)))
-        panels[0].set_ylabel(_intensity_label(result))
-        handles = [Line2D([], [], color=LIMIT.colour, linestyle=LIMIT.line, label=LIMIT.name)]
-        if not scaled:
-            handles.append(Line2D([], [], color=INK, linestyle="", marker="o", markersize=3.0, label="each motion"))
-        else:
-            handles.append(Line2D([], [], color=GREY, linewidth=0.8, label="each motion"))
-            handles += [
-                Line2D([], [], color=SLIDE.colour, linestyle=style, label=_FRACTILE_NAMES[name])
-                for name, style in _FRACTILE_LOOKS.items()
-            ]
-            handles.append(Line2D([], [], color=INK, linestyle="", marker="x", markersize=4.5, label="before collapse"))
-        figure.legend(handles=handles, loc="outside upper center", ncols=3, frameon=False)
-        figure.supxlabel(_caption(result), fontsize=7.5)
+    figure = Figure(figsize=(max(1.0 + 2.9 * len(models), 6.4), 4.0), layout="constrained")
+    panels = figure.subplots(1, len(models), squeeze=False, sharex=True, sharey=True)[0]
+    fractiles = result.fractiles().filter(demand_column=column) if scaled else None
+    for axes, model in zip(panels, models, strict=True):
+        for x, y in result.traces(model, column):
+            finite = np.isfinite(y)
+            if fractiles is None:
+                axes.loglog(scale * y[finite], x[finite], color=INK, linestyle="", marker="o", markersize=3.0)
+                continue
+            points, values = np.append(0.0, x), np.append(0.0, np.where(finite, y, np.nan))
+            axes.plot(scale * values, points, color=GREY, linewidth=0.7, alpha=0.8, gid="motion")
+            fell = np.flatnonzero(~finite)
+            if len(fell):
+                axes.plot(scale * values[fell[0]], points[fell[0]], color=INK, marker="x", markersize=4.5)
+        if fractiles is not None:
+            rows = fractiles.filter(model=model)
+            for name, style in _FRACTILE_LOOKS.items():
+                value = rows[name].fill_null(np.nan).to_numpy()
+                shown = np.where(np.isfinite(value), scale * value, np.nan)
+                levels = np.append(0.0, rows["level"].to_numpy())
+                axes.plot(np.append(0.0, shown), levels, color=SLIDE.colour, linestyle=style, linewidth=1.8)
+        fallen = result.runs.filter(model=model, status="collapsed").height
+        name = plain(model_name(model))
+        axes.set_title(name if scaled or not fallen else f"{name}, {fallen} collapsed")
+        axes.set_xlabel(limit.label)
+        grid_lines(axes)
+    if limit.quantity != "collapse":
+        bounds = [each.value for each in result.limits if each.column == column]
+        for axes in panels:
+            for bound in bounds:
+                axes.axvline(scale * bound, color=LIMIT.colour, linestyle=LIMIT.line, linewidth=1.1)
+        if scaled:
+            panels[0].set_xlim(0.0, 2.0 * scale * max(bounds) if max(bounds) > 0.0 else None)
+            panels[0].set_ylim(0.0, _highest_shown(result, column, 2.0 * max(bounds)))
+    panels[0].set_ylabel(_intensity_label(result))
+    handles = [Line2D([], [], color=LIMIT.colour, linestyle=LIMIT.line, label=LIMIT.name)]
+    if not scaled:
+        handles.append(Line2D([], [], color=INK, linestyle="", marker="o", markersize=3.0, label="each motion"))
+    else:
+        handles.append(Line2D([], [], color=GREY, linewidth=0.8, label="each motion"))
+        handles += [
+            Line2D([], [], color=SLIDE.colour, linestyle=style, label=_FRACTILE_NAMES[name])
+            for name, style in _FRACTILE_LOOKS.items()
+        ]
+        handles.append(Line2D([], [], color=INK, linestyle="", marker="x", markersize=4.5, label="before collapse"))
+    figure.legend(handles=handles, loc="outside upper center", ncols=3, frameon=False)
+    figure.supxlabel(_caption(result), fontsize=7.5)
     return figure
 
 

@@ -6,7 +6,6 @@ import textwrap
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
@@ -18,7 +17,7 @@ from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, counted, refusal
 from seismass.media.result import named_figure
 from seismass.media.roles import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
-from seismass.media.style import PERIOD_TICKS, STYLE, plain
+from seismass.media.style import PERIOD_TICKS, drawing, plain
 from seismass.media.svg import CAPTION_CHARACTERS
 from seismass.media.text_table import text_line
 from seismass.motions.pulses.extraction import (
@@ -47,31 +46,31 @@ AFTER: Final[dict[str, Any]] = {"color": BLUE, "linewidth": 0.9}
 _WIDTH: Final = 9.6
 
 
+@drawing()
 def matching_figure(matched: MatchedRecord) -> Figure:
     """Return the figure of a matched record; the scaled record is orange, the matched one blue and thinner."""
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(_WIDTH, 7.4), layout="constrained")
-        grid = figure.add_gridspec(4, 2, width_ratios=(1.0, 1.15))
-        _spectra(matched, figure.add_subplot(grid[:2, 0]))
-        _ratios(matched, figure.add_subplot(grid[2, 0]))
-        _husid(matched, figure.add_subplot(grid[3, 0]))
-        _histories(matched, [figure.add_subplot(grid[row, 1]) for row in range(3)], figure.add_subplot(grid[3, 1]))
-        handles = [
-            Line2D([], [], **BEFORE, label=f"scaled by {matched.factor:.4g}"),
-            Line2D([], [], **AFTER, label="matched"),
-            Line2D([], [], color=VERMILION, linewidth=1.4, linestyle=(0, (1, 1)), label="target"),
-            Patch(color=VERMILION, alpha=0.18, linewidth=0.0, label=f"target \N{PLUS-MINUS SIGN} {100.0 * BAND:g} %"),
-        ]
-        figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
-        misfit = matched.misfit
-        state = "" if matched.converged else ": not converged"
-        caption = (
-            f"{plain(matched.record.name or '(unnamed)')}. Target: {plain(matched.target)}; matched from "
-            f"{matched.matched_periods[0]:g} to {matched.matched_periods[-1]:g} s, misfit up to "
-            f"{100.0 * misfit.largest:.1f} %, rms {100.0 * misfit.rms:.1f} %, "
-            f"{counted(matched.iterations, 'pass', 'passes')}{state}"
-        )
-        figure.supxlabel(textwrap.fill(caption, int(CAPTION_CHARACTERS * _WIDTH)), fontsize=7.5)
+    figure = Figure(figsize=(_WIDTH, 7.4), layout="constrained")
+    grid = figure.add_gridspec(4, 2, width_ratios=(1.0, 1.15))
+    _spectra(matched, figure.add_subplot(grid[:2, 0]))
+    _ratios(matched, figure.add_subplot(grid[2, 0]))
+    _husid(matched, figure.add_subplot(grid[3, 0]))
+    _histories(matched, [figure.add_subplot(grid[row, 1]) for row in range(3)], figure.add_subplot(grid[3, 1]))
+    handles = [
+        Line2D([], [], **BEFORE, label=f"scaled by {matched.factor:.4g}"),
+        Line2D([], [], **AFTER, label="matched"),
+        Line2D([], [], color=VERMILION, linewidth=1.4, linestyle=(0, (1, 1)), label="target"),
+        Patch(color=VERMILION, alpha=0.18, linewidth=0.0, label=f"target \N{PLUS-MINUS SIGN} {100.0 * BAND:g} %"),
+    ]
+    figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
+    misfit = matched.misfit
+    state = "" if matched.converged else ": not converged"
+    caption = (
+        f"{plain(matched.record.name or '(unnamed)')}. Target: {plain(matched.target)}; matched from "
+        f"{matched.matched_periods[0]:g} to {matched.matched_periods[-1]:g} s, misfit up to "
+        f"{100.0 * misfit.largest:.1f} %, rms {100.0 * misfit.rms:.1f} %, "
+        f"{counted(matched.iterations, 'pass', 'passes')}{state}"
+    )
+    figure.supxlabel(textwrap.fill(caption, int(CAPTION_CHARACTERS * _WIDTH)), fontsize=7.5)
     return figure
 
 
@@ -181,33 +180,33 @@ _SHOWN = 0.999
 """Share of the squared velocity that the figure shows; what follows is quiet."""
 
 
+@drawing()
 def pulse_figure(result: PulseResult) -> Figure:
     """Velocity, extracted pulse, residual, and both cumulative squared velocities with the test of early arrival."""
     one = result.primary
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(6.4, 6.6), layout="constrained")
-        panels = figure.subplots(4, 1, sharex=True, height_ratios=(1.0, 1.0, 1.0, 1.3))
-        time = np.arange(len(one.velocity), dtype=np.float64) * one.dt
-        last = int(np.argmax(cumulative_share(one.velocity) >= _SHOWN))
-        end = max(time[last], one.centres.max() + one.period)
-        most = 1.15 * CENTIMETRES * max(np.max(np.abs(shown)) for shown in (one.velocity, one.pulse, one.residual))
-        rows = (
-            ("velocity", one.velocity, INK, "-"),
-            ("extracted pulse", one.pulse, VERMILION, _PULSE_STYLE),
-            ("residual", one.residual, BLUE, "-"),
-        )
-        for axes, (name, history, colour, line) in zip(panels[:3], rows, strict=True):
-            axes.axhline(0.0, color=GREY, linewidth=0.5)
-            axes.plot(time, CENTIMETRES * history, color=colour, linewidth=1.1, linestyle=line)
-            axes.set_ylim(-most, most)
-            peak = f"{name}, peak {CENTIMETRES * np.max(np.abs(history)):.1f} cm/s"
-            axes.set_title(peak, loc="right", fontsize=8.0, pad=3.0)
-            axes.set_ylabel("cm/s")
-            axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
-        _arrival(panels[3], result.method, one, time)
-        panels[0].set_xlim(0.0, min(end, time[-1]))
-        figure.suptitle(textwrap.fill(_title(result), 92), fontsize=9.0)
-        figure.supxlabel(textwrap.fill(plain(_caption(result)), 108), fontsize=7.5)
+    figure = Figure(figsize=(6.4, 6.6), layout="constrained")
+    panels = figure.subplots(4, 1, sharex=True, height_ratios=(1.0, 1.0, 1.0, 1.3))
+    time = np.arange(len(one.velocity), dtype=np.float64) * one.dt
+    last = int(np.argmax(cumulative_share(one.velocity) >= _SHOWN))
+    end = max(time[last], one.centres.max() + one.period)
+    most = 1.15 * CENTIMETRES * max(np.max(np.abs(shown)) for shown in (one.velocity, one.pulse, one.residual))
+    rows = (
+        ("velocity", one.velocity, INK, "-"),
+        ("extracted pulse", one.pulse, VERMILION, _PULSE_STYLE),
+        ("residual", one.residual, BLUE, "-"),
+    )
+    for axes, (name, history, colour, line) in zip(panels[:3], rows, strict=True):
+        axes.axhline(0.0, color=GREY, linewidth=0.5)
+        axes.plot(time, CENTIMETRES * history, color=colour, linewidth=1.1, linestyle=line)
+        axes.set_ylim(-most, most)
+        peak = f"{name}, peak {CENTIMETRES * np.max(np.abs(history)):.1f} cm/s"
+        axes.set_title(peak, loc="right", fontsize=8.0, pad=3.0)
+        axes.set_ylabel("cm/s")
+        axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
+    _arrival(panels[3], result.method, one, time)
+    panels[0].set_xlim(0.0, min(end, time[-1]))
+    figure.suptitle(textwrap.fill(_title(result), 92), fontsize=9.0)
+    figure.supxlabel(textwrap.fill(plain(_caption(result)), 108), fontsize=7.5)
     return figure
 
 
@@ -266,53 +265,52 @@ def _caption(result: PulseResult) -> str:
     )
 
 
+@drawing()
 def orientation_figure(scan: OrientationScan) -> Figure:
     """Indicator, peak velocity and period of the candidate over the orientation, with the limits of Baker (2007)."""
     table = scan.table()
     angles, kinds = scan.angles, np.array(table["kind"].to_list())
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(6.4, 6.0), layout="constrained")
-        panels = figure.subplots(3, 1, sharex=True)
-        rows = (
-            ("indicator", table["indicator"].to_numpy(), "pulse indicator"),
-            ("pgv", CENTIMETRES * table["pgv"].to_numpy(), "peak velocity (cm/s)"),
-            ("period", table["period"].to_numpy(), "period of wavelet (s)"),
-        )
-        markers = {"pulse": ("o", VERMILION), "ambiguous": ("s", "white"), "no pulse": ("x", GREY)}
-        for axes, (name, values, label) in zip(panels, rows, strict=True):
-            axes.plot(angles, values, color=GREY, linewidth=0.7, zorder=1)
-            for kind, (marker, colour) in markers.items():
-                mask = kinds == kind
-                edge = {} if marker == "x" else {"markeredgecolor": INK}
-                axes.plot(
-                    angles[mask], values[mask], linestyle="none", marker=marker, color=colour, markersize=5.5, **edge
-                )
-            axes.set_ylabel(label)
-            axes.set_ylim(0.0, 1.04 if name == "indicator" else 1.15 * values.max())
-            axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
-        for limit in (NO_PULSE_BELOW, PULSE_ABOVE):
-            panels[0].axhline(limit, color=GREEN, linewidth=1.0, linestyle=_PULSE_STYLE)
-        panels[1].axhline(CENTIMETRES * LEAST_PGV, color=GREEN, linewidth=1.0, linestyle=_PULSE_STYLE)
-        panels[2].set_xlabel("orientation (degrees from the first component to the second)")
-        panels[2].set_xlim(-3.0, 180.0)
-        panels[2].set_xticks(range(0, 181, 30))
-        handles = [
-            Line2D([], [], linestyle="none", marker=marker, color=colour, markeredgecolor=INK, label=kind)
-            if marker != "x"
-            else Line2D([], [], linestyle="none", marker=marker, color=colour, label=kind)
-            for kind, (marker, colour) in markers.items()
-        ]
-        handles.append(Line2D([], [], color=GREEN, linewidth=1.0, linestyle=_PULSE_STYLE, label="limits of the method"))
-        figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
-        names = " and ".join(name or "(unnamed)" for name in scan.names)
-        caption = f"{names}, {BAKER}: pulse-like in {scan.pulses} of {len(scan.results)} orientations"
-        figure.supxlabel(textwrap.fill(plain(caption), 108), fontsize=7.5)
+    figure = Figure(figsize=(6.4, 6.0), layout="constrained")
+    panels = figure.subplots(3, 1, sharex=True)
+    rows = (
+        ("indicator", table["indicator"].to_numpy(), "pulse indicator"),
+        ("pgv", CENTIMETRES * table["pgv"].to_numpy(), "peak velocity (cm/s)"),
+        ("period", table["period"].to_numpy(), "period of wavelet (s)"),
+    )
+    markers = {"pulse": ("o", VERMILION), "ambiguous": ("s", "white"), "no pulse": ("x", GREY)}
+    for axes, (name, values, label) in zip(panels, rows, strict=True):
+        axes.plot(angles, values, color=GREY, linewidth=0.7, zorder=1)
+        for kind, (marker, colour) in markers.items():
+            mask = kinds == kind
+            edge = {} if marker == "x" else {"markeredgecolor": INK}
+            axes.plot(angles[mask], values[mask], linestyle="none", marker=marker, color=colour, markersize=5.5, **edge)
+        axes.set_ylabel(label)
+        axes.set_ylim(0.0, 1.04 if name == "indicator" else 1.15 * values.max())
+        axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
+    for limit in (NO_PULSE_BELOW, PULSE_ABOVE):
+        panels[0].axhline(limit, color=GREEN, linewidth=1.0, linestyle=_PULSE_STYLE)
+    panels[1].axhline(CENTIMETRES * LEAST_PGV, color=GREEN, linewidth=1.0, linestyle=_PULSE_STYLE)
+    panels[2].set_xlabel("orientation (degrees from the first component to the second)")
+    panels[2].set_xlim(-3.0, 180.0)
+    panels[2].set_xticks(range(0, 181, 30))
+    handles = [
+        Line2D([], [], linestyle="none", marker=marker, color=colour, markeredgecolor=INK, label=kind)
+        if marker != "x"
+        else Line2D([], [], linestyle="none", marker=marker, color=colour, label=kind)
+        for kind, (marker, colour) in markers.items()
+    ]
+    handles.append(Line2D([], [], color=GREEN, linewidth=1.0, linestyle=_PULSE_STYLE, label="limits of the method"))
+    figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
+    names = " and ".join(name or "(unnamed)" for name in scan.names)
+    caption = f"{names}, {BAKER}: pulse-like in {scan.pulses} of {len(scan.results)} orientations"
+    figure.supxlabel(textwrap.fill(plain(caption), 108), fontsize=7.5)
     return figure
 
 
 PANELS: Final = 4
 
 
+@drawing()
 def record_figure(
     record: Record, *, figure: Figure | SubFigure | None = None, axes: Sequence[Axes] | None = None
 ) -> Figure:
@@ -321,15 +319,14 @@ def record_figure(
     """
     if axes is not None and figure is not None:
         raise refusal(InvalidOption, "axes", "plot", "left out where a figure is given", brief(axes))
-    with mpl.rc_context(STYLE):
-        if axes is None:
-            figure = figure or Figure(figsize=(7.0, 6.4), layout="constrained")
-            panels: list[Axes] = list(figure.subplots(PANELS, 1, sharex=True))
-        else:
-            panels = list(axes)
-            if len(panels) != PANELS or not all(isinstance(one, Axes) for one in panels):
-                raise refusal(InvalidOption, "axes", "plot", f"{PANELS} Axes", brief(axes))
-        _draw(record, panels)
+    if axes is None:
+        figure = figure or Figure(figsize=(7.0, 6.4), layout="constrained")
+        panels: list[Axes] = list(figure.subplots(PANELS, 1, sharex=True))
+    else:
+        panels = list(axes)
+        if len(panels) != PANELS or not all(isinstance(one, Axes) for one in panels):
+            raise refusal(InvalidOption, "axes", "plot", f"{PANELS} Axes", brief(axes))
+    _draw(record, panels)
     return panels[0].figure.figure  # of a subfigure the whole one
 
 

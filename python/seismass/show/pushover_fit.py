@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import Final
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
 from seismass.design import PushoverFit
 from seismass.media.result import named_figure
 from seismass.media.roles import BLUE, INK, VERMILION
-from seismass.media.style import STYLE, columns, grid_lines
+from seismass.media.style import columns, drawing, grid_lines
 from seismass.media.text_table import text_table
 
 _ROW: Final = 4
@@ -58,37 +57,37 @@ def pushover_fit_text(fit: PushoverFit) -> str:
     )
 
 
+@drawing()
 def pushover_fit_figure(fit: PushoverFit, name: str | None = None) -> Figure:
     """Draw each curve, the springs fitted to it, and their corners."""
     named_figure(fit, name)
-    with mpl.rc_context(STYLE):
-        count = len(fit.drift)
-        width, height = (5.6, 4.0) if count == 1 else (2.9, 2.7)
-        place = columns(None, count, "figure of pushover_fit", width=width, height=height, most=_ROW)
-        for number, axes in enumerate(place.axes):
-            drift, shear, fitted = (1e3 * fit.drift[number], 1e-3 * fit.shear[number], 1e-3 * fit.fitted[number])
-            every = max(1, len(drift) // 40)
-            handle = axes.plot(drift, shear, "o", markersize=3.0, color=INK, markevery=every, label="curve")[0]
-            corner_drifts, force = ([], []) if fit.of_roof else _corners(fit, number)
-            along = np.argsort([*drift, *corner_drifts], kind="stable")
-            bent = np.array([*drift, *corner_drifts])[along], np.array([*fitted, *force])[along]
-            line = axes.plot(*bent, color=BLUE, linewidth=1.5, label="springs")[0]
-            corner = None
-            if corner_drifts:
-                corner = axes.plot(
-                    corner_drifts, force, "o", markersize=7.0, markerfacecolor="none", color=VERMILION, label="corner"
-                )[0]
-            axes.set_ylim(bottom=0.0)
-            axes.set_xlim(left=0.0)
-            label = "roof" if fit.of_roof else f"storey {number + 1}"
-            axes.set_title(
-                f"{label}: misfit {100 * fit.largest_misfit[number]:.2g} %, rms {100 * fit.rms_misfit[number]:.2g} %"
-            )
-            axes.set_xlabel("displacement of the roof (mm)" if fit.of_roof else "drift (mm)")
-            grid_lines(axes)
-        for axes in place.left:
-            axes.set_ylabel("base shear (kN)" if fit.of_roof else "shear (kN)")
-        place.legend([handle, line] if corner is None else [handle, line, corner])
+    count = len(fit.drift)
+    width, height = (5.6, 4.0) if count == 1 else (2.9, 2.7)
+    place = columns(None, count, "figure of pushover_fit", width=width, height=height, most=_ROW)
+    for number, axes in enumerate(place.axes):
+        drift, shear, fitted = (1e3 * fit.drift[number], 1e-3 * fit.shear[number], 1e-3 * fit.fitted[number])
+        every = max(1, len(drift) // 40)
+        handle = axes.plot(drift, shear, "o", markersize=3.0, color=INK, markevery=every, label="curve")[0]
+        corner_drifts, force = ([], []) if fit.of_roof else _corners(fit, number)
+        along = np.argsort([*drift, *corner_drifts], kind="stable")
+        bent = np.array([*drift, *corner_drifts])[along], np.array([*fitted, *force])[along]
+        line = axes.plot(*bent, color=BLUE, linewidth=1.5, label="springs")[0]
+        corner = None
+        if corner_drifts:
+            corner = axes.plot(
+                corner_drifts, force, "o", markersize=7.0, markerfacecolor="none", color=VERMILION, label="corner"
+            )[0]
+        axes.set_ylim(bottom=0.0)
+        axes.set_xlim(left=0.0)
+        label = "roof" if fit.of_roof else f"storey {number + 1}"
+        axes.set_title(
+            f"{label}: misfit {100 * fit.largest_misfit[number]:.2g} %, rms {100 * fit.rms_misfit[number]:.2g} %"
+        )
+        axes.set_xlabel("displacement of the roof (mm)" if fit.of_roof else "drift (mm)")
+        grid_lines(axes)
+    for axes in place.left:
+        axes.set_ylabel("base shear (kN)" if fit.of_roof else "shear (kN)")
+    place.legend([handle, line] if corner is None else [handle, line, corner])
     return place.figure
 
 

@@ -7,7 +7,6 @@ import textwrap
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Final
 
-import matplotlib as mpl
 import numpy as np
 import polars as pl
 from matplotlib.axes import Axes
@@ -31,7 +30,7 @@ from seismass.media.roles import (
     SLIDE,
     model_name,
 )
-from seismass.media.style import STYLE, grid_lines, plain
+from seismass.media.style import drawing, grid_lines, plain
 from seismass.media.svg import CAPTION_CHARACTERS
 from seismass.media.text_table import interval_text, number_text, text_line
 from seismass.show.effective_mass import STORAGE_CODES, mark_codes, marked_legend
@@ -44,19 +43,19 @@ if TYPE_CHECKING:
 _WIDTH = 10.5
 
 
+@drawing()
 def risk_figure(
     result: RiskTargetedShare, name: str | None = None, *, codes: Mapping[str, float] | None = None
 ) -> Figure:
     """Return `RiskTargetedShare.plot`."""
     named_figure(result, name)
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(_WIDTH, 5.0), layout="constrained")
-        left, right = figure.subplots(1, 2)
-        _hazard(left, result)
-        marks = STORAGE_CODES if codes is None else codes
-        _rates(right, result, marks)
-        caption = textwrap.fill(_caption(result), int(CAPTION_CHARACTERS * _WIDTH))
-        figure.supxlabel(f"{caption}{marked_legend(marks)}", fontsize=7.5)
+    figure = Figure(figsize=(_WIDTH, 5.0), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    _hazard(left, result)
+    marks = STORAGE_CODES if codes is None else codes
+    _rates(right, result, marks)
+    caption = textwrap.fill(_caption(result), int(CAPTION_CHARACTERS * _WIDTH))
+    figure.supxlabel(f"{caption}{marked_legend(marks)}", fontsize=7.5)
     return figure
 
 

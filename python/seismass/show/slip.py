@@ -6,7 +6,6 @@ import textwrap
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Final
 
-import matplotlib as mpl
 import numpy as np
 import polars as pl
 from matplotlib.axes import Axes
@@ -16,7 +15,7 @@ from matplotlib.lines import Line2D
 from seismass.base.values import counted
 from seismass.media.result import named_figure
 from seismass.media.roles import GREY, INK, LIMIT, MU, SLIDE
-from seismass.media.style import SERIES, STYLE, grid_lines, plain, say
+from seismass.media.style import SERIES, drawing, grid_lines, plain, say
 from seismass.media.svg import CAPTION_CHARACTERS
 from seismass.media.text_table import interval_text, number_text, text_line
 from seismass.studies.slip.estimates import TITLES
@@ -29,50 +28,48 @@ _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 _HEIGHT = 4.6
 
 
+@drawing()
 def slip_demand_figure(result: SlipDemand, name: str | None = None) -> Figure:
     """Return `SlipDemand.plot`."""
     named_figure(result, name)
     rows = 2 if result.fragilities else 1
     width = 8.4
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(width, _HEIGHT * (0.85 * rows + 0.15)), layout="constrained")
-        axes = figure.subplots(rows, 2, squeeze=False).ravel()
-        _by_block(axes[0], result)
-        _against_acceleration(axes[1], result)
-        if result.fragilities:
-            _fragilities(axes[2], result)
-        handles = [
-            Line2D(
-                [],
-                [],
-                color=SLIDE.colour,
-                marker=SLIDE.marker,
-                linestyle="",
-                markersize=5.0,
-                label="in the building, each motion",
-            ),
-            Line2D(
-                [],
-                [],
-                color=GREY,
-                marker="o",
-                markerfacecolor="white",
-                linestyle="",
-                markersize=5.0,
-                label="the same block on the ground",
-            ),
-            Line2D(
-                [], [], color=INK, marker="D", linewidth=1.6, markersize=5.0, label="mean, 16 to 84 % of the motions"
-            ),
-        ]
-        if result.exceedance.height:
-            handles.append(Line2D([], [], color=LIMIT.colour, linestyle=LIMIT.line, linewidth=1.2, label="clearance"))
-        if result.fragilities:
-            axes[3].set_axis_off()
-            axes[3].legend(handles=handles, loc="center", frameon=False)
-        else:
-            figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
-        figure.supxlabel(textwrap.fill(_caption(result), int(CAPTION_CHARACTERS * width)), fontsize=7.5)
+    figure = Figure(figsize=(width, _HEIGHT * (0.85 * rows + 0.15)), layout="constrained")
+    axes = figure.subplots(rows, 2, squeeze=False).ravel()
+    _by_block(axes[0], result)
+    _against_acceleration(axes[1], result)
+    if result.fragilities:
+        _fragilities(axes[2], result)
+    handles = [
+        Line2D(
+            [],
+            [],
+            color=SLIDE.colour,
+            marker=SLIDE.marker,
+            linestyle="",
+            markersize=5.0,
+            label="in the building, each motion",
+        ),
+        Line2D(
+            [],
+            [],
+            color=GREY,
+            marker="o",
+            markerfacecolor="white",
+            linestyle="",
+            markersize=5.0,
+            label="the same block on the ground",
+        ),
+        Line2D([], [], color=INK, marker="D", linewidth=1.6, markersize=5.0, label="mean, 16 to 84 % of the motions"),
+    ]
+    if result.exceedance.height:
+        handles.append(Line2D([], [], color=LIMIT.colour, linestyle=LIMIT.line, linewidth=1.2, label="clearance"))
+    if result.fragilities:
+        axes[3].set_axis_off()
+        axes[3].legend(handles=handles, loc="center", frameon=False)
+    else:
+        figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
+    figure.supxlabel(textwrap.fill(_caption(result), int(CAPTION_CHARACTERS * width)), fontsize=7.5)
     return figure
 
 

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from functools import partial
 from typing import Final
 
-import matplotlib as mpl
 import numpy as np
 import polars as pl
 from matplotlib.axes import Axes
@@ -15,7 +14,7 @@ from matplotlib.figure import Figure
 
 from seismass.media.result import named_figure
 from seismass.media.roles import ALPHA, ATTACHED, BLOCK_COLOURS, BLUE, GREY, INK, MU, SLIDE, VERMILION
-from seismass.media.style import STYLE
+from seismass.media.style import drawing
 from seismass.media.text_table import text_line
 from seismass.studies.validation import Claim, Validation
 from seismass.studies.validation.shaking_table import CENTRAL, DAMPINGS, FRICTIONS, MASS_RATIOS, Platform
@@ -38,6 +37,7 @@ _STILL: Final = 0.02
 """Histories are drawn from where they reach this share of their largest value."""
 
 
+@drawing()
 def section4_figure(result: Section4, component: str, second_slope: float) -> Figure:
     """Return drift of the storeys and slip of the blocks by all programs for a component and a second slope of those
     compared, as in the paper's Fig. 5.
@@ -46,31 +46,31 @@ def section4_figure(result: Section4, component: str, second_slope: float) -> Fi
     exact = drawn[0]
     moving = np.flatnonzero((np.abs(exact.drift) > _STILL * np.abs(exact.drift).max()).any(axis=1))
     start = max(0.0, float(exact.time[moving[0]]) - 0.5) if moving.size else 0.0
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(9.0, 6.4), layout="constrained")
-        panels = figure.subplots(STOREYS, 2, sharex=True)
-        for storey in range(STOREYS):
-            for axes, name in zip(panels[STOREYS - 1 - storey], ("drift", "slip"), strict=True):
-                for item in drawn:
-                    line = _LINES.get(item.program, _SPRINGS)
-                    label = f"{item.program}, {item.setting}" if item.setting else item.program
-                    axes.plot(item.time, 1e3 * getattr(item, name)[:, storey], label=label, **line)
-                axes.axhline(0.0, color=GREY, linewidth=0.5)
-                axes.set_xlim(start, float(exact.time[-1]))
-                what = f"storey {storey + 1}" if name == "drift" else f"block of floor {storey + 1}"
-                axes.set_title(f"{name}, {what}", fontsize=8.5, loc="left")
-                axes.set_ylabel("mm")
-                if np.abs(getattr(exact, name)[:, storey]).max() == 0.0:
-                    axes.set_ylim(-1.0, 1.0)
-                    words = "does not slide" if name == "slip" else "does not drift"
-                    axes.text(0.5, 0.62, words, transform=axes.transAxes, ha="center", fontsize=8.0)
-        for axes in panels[-1]:
-            axes.set_xlabel("time (s)")
-        figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False)
-        figure.supxlabel(f"component {component}, peak {PEAK_G:g} g, r2 = {second_slope:g}", fontsize=7.5)
+    figure = Figure(figsize=(9.0, 6.4), layout="constrained")
+    panels = figure.subplots(STOREYS, 2, sharex=True)
+    for storey in range(STOREYS):
+        for axes, name in zip(panels[STOREYS - 1 - storey], ("drift", "slip"), strict=True):
+            for item in drawn:
+                line = _LINES.get(item.program, _SPRINGS)
+                label = f"{item.program}, {item.setting}" if item.setting else item.program
+                axes.plot(item.time, 1e3 * getattr(item, name)[:, storey], label=label, **line)
+            axes.axhline(0.0, color=GREY, linewidth=0.5)
+            axes.set_xlim(start, float(exact.time[-1]))
+            what = f"storey {storey + 1}" if name == "drift" else f"block of floor {storey + 1}"
+            axes.set_title(f"{name}, {what}", fontsize=8.5, loc="left")
+            axes.set_ylabel("mm")
+            if np.abs(getattr(exact, name)[:, storey]).max() == 0.0:
+                axes.set_ylim(-1.0, 1.0)
+                words = "does not slide" if name == "slip" else "does not drift"
+                axes.text(0.5, 0.62, words, transform=axes.transAxes, ha="center", fontsize=8.0)
+    for axes in panels[-1]:
+        axes.set_xlabel("time (s)")
+    figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False)
+    figure.supxlabel(f"component {component}, peak {PEAK_G:g} g, r2 = {second_slope:g}", fontsize=7.5)
     return figure
 
 
+@drawing()
 def sliding_figure(result: Section4) -> Figure:
     """Return the peak slip of each block over the second slope, a panel per component and peak of the record."""
     runs = result.runs
@@ -78,49 +78,48 @@ def sliding_figure(result: Section4) -> Figure:
     names = runs["component"].unique(maintain_order=True).to_list()
     slopes = runs["second_slope"].unique().sort().to_list()
     width = 0.26
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(9.0, 2.3 * len(names) + 0.8), layout="constrained")
-        panels = figure.subplots(len(names), len(peaks), squeeze=False, sharex=True)
-        for (i, name), (j, peak) in ((a, b) for a in enumerate(names) for b in enumerate(peaks)):
-            axes = panels[i, j]
-            rows = runs.filter(component=name, peak_g=peak).sort("second_slope")
-            for floor, color in enumerate(BLOCK_COLOURS[:STOREYS]):
-                slip = 1e3 * rows["peak_slip"].list.get(floor).to_numpy()
-                place = np.arange(len(slopes)) + width * (floor - 1)
-                axes.bar(place, slip, width, color=color, label=f"floor {floor + 1}")
-            axes.set_title(f"{name}, peak {peak:g} g", fontsize=8.5)
-            axes.set_xticks(range(len(slopes)), [f"{slope:g}" for slope in slopes])
-        for axes in panels[-1]:
-            axes.set_xlabel("second slope r2")
-        for axes in panels[:, 0]:
-            axes.set_ylabel("peak slip (mm)")
-        figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False)
+    figure = Figure(figsize=(9.0, 2.3 * len(names) + 0.8), layout="constrained")
+    panels = figure.subplots(len(names), len(peaks), squeeze=False, sharex=True)
+    for (i, name), (j, peak) in ((a, b) for a in enumerate(names) for b in enumerate(peaks)):
+        axes = panels[i, j]
+        rows = runs.filter(component=name, peak_g=peak).sort("second_slope")
+        for floor, color in enumerate(BLOCK_COLOURS[:STOREYS]):
+            slip = 1e3 * rows["peak_slip"].list.get(floor).to_numpy()
+            place = np.arange(len(slopes)) + width * (floor - 1)
+            axes.bar(place, slip, width, color=color, label=f"floor {floor + 1}")
+        axes.set_title(f"{name}, peak {peak:g} g", fontsize=8.5)
+        axes.set_xticks(range(len(slopes)), [f"{slope:g}" for slope in slopes])
+    for axes in panels[-1]:
+        axes.set_xlabel("second slope r2")
+    for axes in panels[:, 0]:
+        axes.set_ylabel("peak slip (mm)")
+    figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False)
     return figure
 
 
+@drawing()
 def platform_figure(result: Platform, component: str) -> Figure:
     """Return bands of drift histories for both mass ratios, as in the paper's Fig. 4, and peak drift over period."""
     bands = [band for band in result.bands if band.component == component]
     period, mu, damping, amplitude = CENTRAL
     every = f"{MU} {FRICTIONS[0]:g} to {FRICTIONS[-1]:g}, damping {DAMPINGS[0]:g} to {DAMPINGS[-1]:g}"
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(9.0, 6.6), layout="constrained")
-        panels = figure.subplot_mosaic([["first"] * 2, ["second"] * 2, ["drift", "ratio"]])
-        central = f"{MU} = {mu:g}, damping {damping:g}"
-        for name, band in zip(("first", "second"), bands, strict=True):
-            axes, time = panels[name], band.time
-            low, high, middle, attached = (1e3 * value for value in (band.low, band.high, band.central, band.attached))
-            axes.fill_between(time, low, high, color=SLIDE.colour, alpha=0.25, linewidth=0.0, label=every)
-            axes.plot(time, middle, color=SLIDE.colour, linewidth=1.1, label=central)
-            axes.plot(time, attached, **ATTACHED.look, linewidth=0.9, label="block attached")
-            axes.set_title(f"{ALPHA} = {band.mass_ratio:g}, platform of T = {period:g} s", fontsize=8.5, loc="left")
-            axes.set_ylabel("drift (mm)")
-            axes.set_xlim(0.0, float(band.time[-1]))
-            axes.set_xlabel("time of the model (s)")
-        _over_period(panels["drift"], result.runs.filter(component=component, amplitude=amplitude))
-        _heavier_over_lighter(panels["ratio"], result.runs.filter(component=component, amplitude=amplitude))
-        handles, labels = panels["first"].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside upper center", ncols=3, frameon=False)
+    figure = Figure(figsize=(9.0, 6.6), layout="constrained")
+    panels = figure.subplot_mosaic([["first"] * 2, ["second"] * 2, ["drift", "ratio"]])
+    central = f"{MU} = {mu:g}, damping {damping:g}"
+    for name, band in zip(("first", "second"), bands, strict=True):
+        axes, time = panels[name], band.time
+        low, high, middle, attached = (1e3 * value for value in (band.low, band.high, band.central, band.attached))
+        axes.fill_between(time, low, high, color=SLIDE.colour, alpha=0.25, linewidth=0.0, label=every)
+        axes.plot(time, middle, color=SLIDE.colour, linewidth=1.1, label=central)
+        axes.plot(time, attached, **ATTACHED.look, linewidth=0.9, label="block attached")
+        axes.set_title(f"{ALPHA} = {band.mass_ratio:g}, platform of T = {period:g} s", fontsize=8.5, loc="left")
+        axes.set_ylabel("drift (mm)")
+        axes.set_xlim(0.0, float(band.time[-1]))
+        axes.set_xlabel("time of the model (s)")
+    _over_period(panels["drift"], result.runs.filter(component=component, amplitude=amplitude))
+    _heavier_over_lighter(panels["ratio"], result.runs.filter(component=component, amplitude=amplitude))
+    handles, labels = panels["first"].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=3, frameon=False)
     return figure
 
 

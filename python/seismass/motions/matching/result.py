@@ -6,14 +6,13 @@ import os
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import polars as pl
 
 from seismass.base.errors import InvalidOption
-from seismass.base.files import written_whole
+from seismass.base.files import write_file
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_path, brief, content_hash, counted, is_one_of, refusal, same_content
 from seismass.base.views import Card, view
@@ -36,12 +35,11 @@ def write_record(record: Record, path: str | os.PathLike[str]) -> None:
     kind = target.suffix.lower()
     if not is_one_of(kind, SUFFIXES):
         raise refusal(InvalidOption, "path", "matched record", "a name that ends in .AT2 or .csv", brief(target.name))
-    text = _at2(record) if kind == ".at2" else _csv(record)
-    with written_whole(Path(target)) as temporary:
-        temporary.write_text(text, encoding="utf-8", newline="\n")
+    write_file(target, at2_text(record) if kind == ".at2" else _csv(record))
 
 
-def _at2(record: Record) -> str:
+def at2_text(record: Record) -> str:
+    """Return a matched record as an .AT2 file."""
     values = record.acceleration / STANDARD_GRAVITY
     step = f"{record.dt:.10f}".rstrip("0")
     head = (

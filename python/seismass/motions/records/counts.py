@@ -21,10 +21,11 @@ import numpy as np
 
 from seismass.base.errors import InvalidMotion, MissingPackage, RecordFormatError
 from seismass.base.files import open_regular
+from seismass.base.limits import MOST_RECORD
 from seismass.base.values import as_number, as_path, brief, printable
 from seismass.motions.records.formats import NotRead, known_binary
 from seismass.motions.records.formats.labels import azimuth_of, is_vertical
-from seismass.motions.records.read import HEAD_BYTES, LARGEST_BYTES, suspicions
+from seismass.motions.records.read import HEAD_BYTES, suspicions
 from seismass.motions.records.record import Record
 
 FORMATS: Final = {"miniSEED": "MSEED", "SAC": "SAC"}
@@ -91,13 +92,13 @@ def _content(source: Path) -> tuple[bytes, str]:
     """Return the bytes of a file, and its kind."""
     try:
         with open_regular(source) as opened:
-            content = opened.read(LARGEST_BYTES + 1)
+            content = opened.read(MOST_RECORD + 1)
     except OSError as error:
         raise RecordFormatError(
             f"record file must be a file that can be read; got {source} ({error.strerror or error})"
         ) from error
-    if len(content) > LARGEST_BYTES:
-        raise RecordFormatError(f"size of {source.name} must be at most {LARGEST_BYTES} bytes; got more")
+    if len(content) > MOST_RECORD:
+        raise RecordFormatError(f"size of {source.name} must be at most {MOST_RECORD} bytes; got more")
     known = known_binary(content[:HEAD_BYTES])
     if known is None or known[0] not in FORMATS:
         got = known[0] if known else "something else; a text is read by read_record"

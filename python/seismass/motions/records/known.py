@@ -10,10 +10,12 @@ import io
 import math
 import re
 from collections.abc import Iterable, Sequence
+from itertools import islice
 from pathlib import Path
 from typing import Any, Final
 
 from seismass.base.files import read_file
+from seismass.base.limits import MOST_FLATFILE, MOST_ROWS
 from seismass.base.values import printable
 from seismass.motions.records.record import KNOWN, Record
 
@@ -96,7 +98,6 @@ _FILES: Final = re.compile(r"(?:horizontal|vertical)[^,]*file ?name|file name[^,
 _MECHANISMS: Final = {"0": "strike slip", "1": "normal", "2": "reverse", "3": "reverse oblique", "4": "normal oblique"}
 """Numbers of the NGA-West2 flatfile."""
 _SEQUENCE: Final = re.compile(r"RSN(\d+)", re.IGNORECASE)
-LARGEST_TABLE: Final = 64 * 1024 * 1024
 
 
 def with_tables(records: Sequence[Record], files: Iterable[Path]) -> list[Record]:
@@ -118,8 +119,9 @@ def _with(record: Record, rows: dict[str, dict[str, Any]]) -> Record:
 def _rows_of(file: Path) -> dict[str, dict[str, Any]]:
     """Return what a table says, by file names in lower case and by record sequence numbers."""
     try:
-        text = read_file(file, LARGEST_TABLE).decode("utf-8-sig", "replace")
-        table = list(csv.reader(io.StringIO(text), skipinitialspace=True)) if _RSN.search(text) else []
+        text = read_file(file, MOST_FLATFILE).decode("utf-8-sig", "replace")
+        rows_of_text = csv.reader(io.StringIO(text), skipinitialspace=True)
+        table = list(islice(rows_of_text, 10 * MOST_ROWS)) if _RSN.search(text) else []
     except (OSError, csv.Error):
         return {}
     rows: dict[str, dict[str, Any]] = {}

@@ -20,7 +20,8 @@ from typing import IO, Any, Final, Literal, TypeAlias
 import numpy as np
 
 from seismass.base.errors import InvalidMotion, RecordFormatError
-from seismass.base.files import open_regular
+from seismass.base.files import open_regular, temporary_folder, write_file
+from seismass.base.limits import LONGEST_LINE, MOST_DEEP, MOST_LINES, MOST_MEMBERS, MOST_RECORD, MOST_UNPACKED
 from seismass.base.units import ACCELERATION_UNITS, unit_by_name
 from seismass.base.values import as_number, as_path, brief, printable
 from seismass.motions.records.formats import (
@@ -188,12 +189,7 @@ MOST_NULS: Final = 4
 _ALTERED: Final = "not as recorded"
 """Files of matched records say so in their header."""
 
-LONGEST_LINE: Final = 2**22
-"""Longest line of a record file (bytes): all samples of the longest records fit into one."""
 _LONG_LINE: Final = re.compile(rb"[^\r\n]{%d}" % (LONGEST_LINE + 1))
-
-LARGEST_BYTES: Final = 64 * 1024 * 1024
-"""No record is larger: some five million samples as text, seven hours at 200 a second."""
 
 
 def read_record(
@@ -346,13 +342,15 @@ def read_bytes(source: Path) -> bytes:
             if wide_encoding(head) is None:
                 refuse_binary(head, source)
             size = os.fstat(file.fileno()).st_size
-            if size <= LARGEST_BYTES:  # else nothing more is read
-                content = head + file.read(LARGEST_BYTES + 1)
+            if size <= MOST_RECORD:  # else nothing more is read
+                content = head + file.read(MOST_RECORD + 1)
                 size = len(content)
-        if size > LARGEST_BYTES:
-            raise RecordFormatError(f"size of {source.name} must be at most {LARGEST_BYTES} bytes; got {size}")
+        if size > MOST_RECORD:
+            raise RecordFormatError(f"size of {source.name} must be at most {MOST_RECORD} bytes; got {size}")
         if _LONG_LINE.search(content):
             raise RecordFormatError(f"lines of {source.name} must be at most {LONGEST_LINE} bytes; got more")
+        if content.count(b"\n") > MOST_LINES:
+            raise RecordFormatError(f"lines of {source.name} must be at most {MOST_LINES}; got more")
     except OSError as error:
         raise RecordFormatError(
             f"record file must be a file that can be read; got {source} ({error.strerror or error})"
@@ -463,15 +461,6 @@ def has_vertical_name(record: Record) -> bool:
     return _VERTICAL_NAME.search(record.name) is not None
 
 
-MOST_MEMBERS: Final = 5000
-"""Files of an archive; those of networks have some hundreds."""
-
-MOST_DEEP: Final = 4
-"""Archives in archives; an archive further down is a file that is not read."""
-
-LARGEST_UNPACKED: Final = 1024 * 1024 * 1024
-"""Bytes of an archive, unpacked: five hundred records of 2 MB."""
-
 _SIGNATURE: Final = b"PK\x03\x04"
 _NO_RECORDS: Final = ("[Content_Types].xml", "xl/")
 
@@ -493,33 +482,32 @@ def unpacked(path: Path) -> Iterator[tuple[Path, dict[Path, str]]]:
     """Yield a temporary folder with the files of an archive, and the name of each in the archive. Names of the archive
     are not paths: each file stands in a numbered folder, under the last part of its name.
     """
-    with tempfile.TemporaryDirectory(prefix="seismass-") as name:
-        folder = Path(name)
+    with temporary_folder(Path(tempfile.gettempdir())) as place:
+        folder = place.path
         names: dict[Path, str] = {}
         try:
             with open_regular(path) as file:
                 inner: list[tuple[IO[bytes], str, int]] = [(file, "", 1)]
-                left, number = LARGEST_UNPACKED, 0
+                left, number = MOST_UNPACKED, 0
                 while inner:  # archives of archives: each is unpacked under its name
                     packed, prefix, depth = inner.pop()
                     archive = zipfile.ZipFile(packed)
                     members = [one for one in archive.infolist() if not one.is_dir() and not _is_hidden(one.filename)]
                     _refuse_large(path, members, number)
                     for member in sorted(members, key=lambda one: one.filename):
-                        with archive.open(member) as opened:
-                            content = opened.read(left + 1)
+                        with archive.open(member) as opened:  # of a larger one as much as shows that it is
+                            content = opened.read(min(left, MOST_RECORD) + 1)
                         left, number = left - len(content), number + 1
                         if left < 0:
                             raise RecordFormatError(
-                                f"size of {path.name}, unpacked, must be at most {LARGEST_UNPACKED} bytes; got more"
+                                f"size of {path.name}, unpacked, must be at most {MOST_UNPACKED} bytes; got more"
                             )
                         kind = known_binary(content[:HEAD_BYTES])
                         if depth < MOST_DEEP and kind and kind[0] == "ZIP" and zipfile.is_zipfile(io.BytesIO(content)):
                             inner.append((io.BytesIO(content), f"{prefix}{member.filename}/", depth + 1))
                             continue
-                        target = folder / f"{number:05d}" / _safe_name(member.filename)
-                        target.parent.mkdir()
-                        target.write_bytes(content)
+                        with place.new_folder(f"{number:05d}") as below:
+                            target = write_file(_safe_name(member.filename), content, folder=below)
                         names[target] = prefix + member.filename
         except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, OSError) as error:
             raise RecordFormatError(f"content of {path.name} must be a sound ZIP archive; got: {error}") from error
@@ -533,16 +521,17 @@ def _is_hidden(name: str) -> bool:
 
 def _safe_name(name: str) -> str:
     """Return the last part of a name, without what a file system does not take."""
-    last = printable(PurePosixPath(name.replace("\\", "/")).name)[-100:]
-    return "".join(one if one.isalnum() or one in " -_.()+" else "_" for one in last) or "member"
+    last = printable(PurePosixPath(name.replace("\\", "/")).name)[-60:]  # of at most four bytes each
+    safe = "".join(one if one.isalnum() or one in " -_.()+" else "_" for one in last)
+    return safe if safe.strip(".") else "member"
 
 
 def _refuse_large(path: Path, members: list[zipfile.ZipInfo], before: int) -> None:
     if before + len(members) > MOST_MEMBERS:
         raise RecordFormatError(f"files of {path.name} must be at most {MOST_MEMBERS}; got {before + len(members)}")
     size = sum(member.file_size for member in members)
-    if size > LARGEST_UNPACKED:
-        raise RecordFormatError(f"size of {path.name}, unpacked, must be at most {LARGEST_UNPACKED} bytes; got {size}")
+    if size > MOST_UNPACKED:
+        raise RecordFormatError(f"size of {path.name}, unpacked, must be at most {MOST_UNPACKED} bytes; got {size}")
 
 
 def files_below(directory: Path) -> list[Path]:

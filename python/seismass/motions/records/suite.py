@@ -15,6 +15,7 @@ import numpy as np
 
 from seismass.base.errors import InvalidMotion, RecordFormatError
 from seismass.base.files import open_regular
+from seismass.base.limits import MOST_TEXT_COLUMNS, within_rows
 from seismass.base.units import names_unit
 from seismass.base.values import as_path, brief, printable, refusal
 from seismass.base.views import view
@@ -47,8 +48,6 @@ if TYPE_CHECKING:
     import polars as pl
 
 _SAID_BY_NAME = "files are read by name or from a list, where their units can be given"
-LARGEST_COLUMNS = 32 * 1024 * 1024
-"""Text of columns above so many bytes is left to be read by name."""
 
 _COLUMNS = ("number", "file", "channel", "name", "event", "station", "component", "dt", "unit", "scale", "note")
 
@@ -298,7 +297,7 @@ def _read_columns(file: Path, head: str, size: int) -> tuple[Record, ...] | str:
         if is_row_of_numbers(line):
             break
         header.append(line)
-    if len(header) == len(lines) or not names_unit("\n".join(header)) or size > LARGEST_COLUMNS:
+    if len(header) == len(lines) or not names_unit("\n".join(header)) or size > MOST_TEXT_COLUMNS:
         return kind
     try:
         records = read_records(file)
@@ -418,7 +417,8 @@ def _counted(excluded: list[Excluded]) -> str:
 
 
 def _read_list(source: Path) -> Suite:
-    reader = csv.DictReader(io.StringIO(read_text(source)), skipinitialspace=True, restkey="", restval="")
+    text = within_rows(read_text(source), source.name, RecordFormatError)
+    reader = csv.DictReader(io.StringIO(text), skipinitialspace=True, restkey="", restval="")
     try:
         rows = list(reader)
     except csv.Error as error:

@@ -19,6 +19,7 @@ from seismass import _kernel
 from seismass.base.digest import inputs_digest
 from seismass.base.errors import InvalidMotion, InvalidOption, RecordFormatError
 from seismass.base.files import read_file
+from seismass.base.limits import MOST_TABLE, within_rows
 from seismass.base.units import ACCELERATION_UNITS, FOOT, INCH, STANDARD_GRAVITY, stated_unit, unit_by_name
 from seismass.base.values import (
     FloatArray,
@@ -114,7 +115,7 @@ def read_table(
     if column is not None and not isinstance(column, str):
         raise refusal(RecordFormatError, "column", source.name, "a name", brief(column))
     try:
-        content = read_file(source)
+        content = read_file(source, MOST_TABLE)
         wide = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
         text = content.decode("utf-16" if wide else "utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
     except UnicodeDecodeError:
@@ -125,6 +126,7 @@ def read_table(
     if "\0" in text:
         got = f"{source} (not text)"
         raise refusal(RecordFormatError, "path", OWNER, "a file of text that can be read", got)
+    within_rows(text, source.name, RecordFormatError)
     spectra = _json_spectra(text, source.name) if text.lstrip().startswith("{") else _table_spectra(text, source.name)
     return _one_of(spectra, unit_name, column, source.name)
 

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import shutil
 import subprocess
+import tempfile
 from collections.abc import Iterator
+from functools import partial
 from math import ceil
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, Protocol
+from typing import TYPE_CHECKING, BinaryIO, Final, Protocol
 
 import numpy as np
 from PIL import Image, ImageDraw
 
 from seismass.base.errors import InvalidOption, MissingPackage
-from seismass.base.files import written_whole
+from seismass.base.files import check_files, open_regular, temporary_folder, write_file
 from seismass.base.values import FloatArray, as_path, as_positive, brief, refusal
 from seismass.media.roles import SLIDE
 from seismass.show.animation.picture import (
@@ -210,11 +212,15 @@ def write_film(picture: Pictured, path: Path, frames_per_second: float | None, s
             "ffmpeg of a film must be on the path (Debian, Ubuntu: apt-get install ffmpeg), or the file a .gif or "
             ".html; got none"
         )
-    with written_whole(path) as temporary:
-        if ffmpeg is None:
-            _write_gif(picture, temporary, rate, pace)
-        else:
-            _write_mp4(picture, temporary, rate, pace, ffmpeg)
+    check_files(path)
+    if ffmpeg is None:
+        write_file(path, partial(_write_gif, picture, rate, pace))
+    else:
+        with temporary_folder(Path(tempfile.gettempdir())) as folder:
+            film = folder.path / "film.mp4"
+            _write_mp4(picture, film, rate, pace, ffmpeg)
+            with open_regular(film) as whole:
+                write_file(path, partial(shutil.copyfileobj, whole))
 
 
 def _frames(picture: Pictured, rate: float, speed: float) -> Iterator[Image.Image]:
@@ -224,13 +230,13 @@ def _frames(picture: Pictured, rate: float, speed: float) -> Iterator[Image.Imag
         yield picture.frame(min(number * speed / rate, picture.duration), lasting=speed / rate)
 
 
-def _write_gif(picture: Pictured, path: Path, rate: float, speed: float) -> None:
+def _write_gif(picture: Pictured, rate: float, speed: float, file: BinaryIO) -> None:
     # One palette for all frames, of one in which everything is to be seen.
     palette = picture.sample().quantize(COLOURS, dither=Image.Dither.NONE)
     frames = (frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in _frames(picture, rate, speed))
     first = next(frames)
     each = max(20, round(100.0 / rate) * 10)
-    first.save(path, format="GIF", save_all=True, append_images=frames, duration=each, loop=0, optimize=True)
+    first.save(file, format="GIF", save_all=True, append_images=frames, duration=each, loop=0, optimize=True)
 
 
 def _write_mp4(picture: Pictured, path: Path, rate: float, speed: float, ffmpeg: str) -> None:
@@ -273,8 +279,7 @@ def write_animation(
         if frames_per_second is not None or speed != 1.0:
             requirement = "left out for a page, which has a choice of speeds"
             raise refusal(InvalidOption, "frames_per_second or speed", "animation", requirement, "a number")
-        with written_whole(target) as temporary:
-            temporary.write_text(animation.html(), encoding="utf-8")
+        write_file(target, animation.html())
         return
     from seismass.show.animation.picture import Picture
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import textwrap
 from typing import Any, Final, NamedTuple
 
-import matplotlib as mpl
 import numpy as np
 import polars as pl
 from markupsafe import Markup, escape
@@ -37,7 +36,7 @@ from seismass.media.roles import (
     apart,
     sentence_html,
 )
-from seismass.media.style import PERIOD_TICKS, STYLE, plain, shortened
+from seismass.media.style import PERIOD_TICKS, drawing, plain, shortened
 from seismass.model.codes import AS_STATED, MARK, NOT_CHECKED, VERIFIED
 from seismass.show.assessment.tables import AssessmentTables, Fraction, assessment_tables
 from seismass.show.effective_mass import STORAGE_CODES, marked_legend
@@ -75,6 +74,7 @@ def assessment_figure(result: Assessment, name: str | None = None) -> Figure:
     return _drawn(assessment_tables(result), named_figure(result, name), PAPER_SIZE)
 
 
+@drawing()
 def _drawn(result: AssessmentTables, name: str, size: Size) -> Figure:
     draw = {
         "effective_fraction": fraction_figure,
@@ -82,11 +82,10 @@ def _drawn(result: AssessmentTables, name: str, size: Size) -> Figure:
         "slip": slip_figure,
         "spectrum": spectrum_figure,
     }
-    with mpl.rc_context(STYLE):
-        figure = draw[name](result, size)
-        # Lay out once, not again for every file.
-        figure.draw_without_rendering()
-        figure.set_layout_engine("none")
+    figure = draw[name](result, size)
+    # Lay out once, not again for every file.
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
     return figure
 
 

@@ -11,7 +11,8 @@ import polars as pl
 from markupsafe import Markup
 
 from seismass.assessment.models import ADVISED, BARE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
-from seismass.base.files import written_whole
+from seismass.base.files import write_file
+from seismass.base.folders import as_written, read_folder
 from seismass.base.statistics import CAPPED_MEAN
 from seismass.effective_mass.result import KIND_TEXTS
 from seismass.effective_mass.rule import RULE_IN_WORDS
@@ -25,7 +26,6 @@ from seismass.media.page import (
     table_html,
     text_html,
 )
-from seismass.media.result import as_written, edited_files
 from seismass.media.roles import EFFECTIVE, LAMBDA, MU, OMEGA, OVER_MODEL, lettered, sentence_html
 from seismass.media.text_table import number_text
 from seismass.show.assessment.page_input import Pictures, in_motion_html, input_html, motions_html, names_of
@@ -351,14 +351,13 @@ def write_assessment_page(
     they were written, which are read with `force` alone. `progress` is called with (figures drawn, figures in all).
     """
     read = (DOCUMENT, ANIMATION, *(f"{name}.parquet" for name in TABLES))
-    edited = edited_files(folder, read, force=force)
+    files = read_folder(folder, read, force=force)
     with as_written(folder):
-        tables = read_assessment_tables(folder)
+        tables = read_assessment_tables(files)
         _, drawings = drawn_figures(tables, progress)
-        page = page_with(tables, drawings, edited)
-    with written_whole(target) as temporary:
-        temporary.write_text(page, encoding="utf-8")
-    return edited
+        page = page_with(tables, drawings, files.edited)
+    write_file(target, page)
+    return files.edited
 
 
 def drawn_figures(

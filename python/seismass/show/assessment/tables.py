@@ -5,19 +5,17 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any, Final
 
 import polars as pl
 
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.base.errors import InvalidOption
-from seismass.base.files import read_file, read_table
+from seismass.base.folders import ReadFolder
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import brief, refusal
 from seismass.effective_mass import ByHand
 from seismass.effective_mass.models import Kind
-from seismass.media.result import as_written
 from seismass.model.scene import Scene
 
 DOCUMENT: Final = "assessment.json"
@@ -121,29 +119,15 @@ def _is_animated(scene: Scene) -> bool:
     return scene.base is None and scene.other_direction is False
 
 
-def read_assessment_tables(folder: Path) -> AssessmentTables:
-    """Read the folder of an assessment."""
-    try:
-        document = json.loads(read_file(folder / DOCUMENT))
-    except (ValueError, RecursionError) as error:
-        raise refusal(InvalidOption, "content", DOCUMENT, "JSON as `seismass building` writes it", f"{error}") from None
-    version = document.get("schema_version") if isinstance(document, dict) else None
-    if version != SCHEMA_VERSION:
-        raise refusal(InvalidOption, "schema_version", DOCUMENT, f"{SCHEMA_VERSION}", brief(version))
-    with as_written(folder):
-        names = [*NEEDED, *(["curve"] if document["effective"] else []), *(["scaling"] if document["factors"] else [])]
-    tables = {}
-    for name in names:
-        path = folder / f"{name}.parquet"
-        if not path.exists():
-            raise refusal(InvalidOption, path.name, f"folder {folder}", f"there beside {DOCUMENT}", "none")
-        try:
-            tables[name] = read_table(path)
-        except pl.exceptions.PolarsError as error:
-            raise refusal(InvalidOption, "content", path.name, "a Parquet table", f"{error}") from None
-    with as_written(folder):
-        path = folder / ANIMATION
-        return _made(document, tables, json.loads(read_file(path)) if path.exists() else None)
+def read_assessment_tables(files: ReadFolder) -> AssessmentTables:
+    """Read the files of the folder of an assessment."""
+    document = files.document(DOCUMENT)
+    if document.get("schema_version") != SCHEMA_VERSION:
+        got = brief(document.get("schema_version"))
+        raise refusal(InvalidOption, "schema_version", DOCUMENT, f"{SCHEMA_VERSION}", got)
+    optional = (["curve"] if document["effective"] else []) + (["scaling"] if document["factors"] else [])
+    tables = {name: files.table(name) for name in (*NEEDED, *optional)}
+    return _made(document, tables, files.document(ANIMATION) if ANIMATION in files else None)
 
 
 def _animation(result: Assessment) -> dict[str, Any] | None:

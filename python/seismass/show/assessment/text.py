@@ -7,6 +7,7 @@ from __future__ import annotations
 import json
 import os
 import textwrap
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -18,10 +19,11 @@ from seismass.assessment.checks import friction_words
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
 from seismass.assessment.result import Assessment
 from seismass.base.errors import InvalidOption
+from seismass.base.folders import check_out, write_folder
 from seismass.base.statistics import QUANTILES
 from seismass.base.values import as_path
 from seismass.effective_mass.rule import RULE_UNKNOWN
-from seismass.media.result import PAGE, check_out, write_folder
+from seismass.media.result import PAGE, result_files
 from seismass.media.text_table import number_text, text_table
 from seismass.model.codes import CODE_NAMES, FROM_MEMORY, MARK, NOT_CHECKED, SECOND_HAND
 from seismass.show.assessment.tables import ANIMATION, DOCUMENT, FIGURES, TABLES, assessment_tables, quantity_text
@@ -274,8 +276,15 @@ def _bullets(sentences: tuple[str, ...]) -> list[str]:
 
 
 def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
-    """Write text, tables (Parquet and CSV), assessment.json, figures (PNG and SVG) and the page to a folder; return the
-    files in that order. On an error no file is changed.
+    """Write the folder of an assessment; see `Assessment.write`."""
+    return write_with(result, folder, {}, figures=figures)
+
+
+def write_with(
+    result: Assessment, folder: str | os.PathLike[str], others: Mapping[str, str], *, figures: bool = True
+) -> list[Path]:
+    """Write text, tables (Parquet and CSV), assessment.json, figures (PNG and SVG), the page and other documents to a
+    folder; return the files. On an error nothing is changed.
     """
     out = as_path(folder, "assessment", InvalidOption)
     check_out(out, "assessment")
@@ -292,11 +301,5 @@ def write_assessment(result: Assessment, folder: str | os.PathLike[str], *, figu
         documents[PAGE] = page_with(tables, drawings)
     ours = {PAGE, ANIMATION} | {f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")}
     ours |= {f"{name}.{kind}" for name in TABLES for kind in ("parquet", "csv")}
-    return write_folder(
-        out,
-        tables=result.tables,
-        documents=documents,
-        figures=drawn,
-        kinds=("png",),
-        earlier=ours.__contains__,
-    )
+    files = result_files(tables=result.tables, documents=documents | dict(others), figures=drawn, kinds=("png",))
+    return write_folder(out, files, earlier=ours.__contains__, owner="assessment")

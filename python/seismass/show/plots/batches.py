@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any, Final
 
-import matplotlib as mpl
 import numpy as np
 import polars as pl
 from matplotlib.axes import Axes
@@ -17,7 +16,7 @@ from seismass.base.statistics import quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_number, brief, refusal
 from seismass.media.roles import ALPHA, BLOCK_COLOURS, BLUE, GREY, INK, LIMIT, MU, PAPER, SKY
-from seismass.media.style import STYLE, grid_lines, plain, say, single
+from seismass.media.style import drawing, grid_lines, plain, say, single
 from seismass.studies.fragility.fragility import fit_counts
 
 _LABELS: Final[dict[str, tuple[str, float]]] = {
@@ -94,6 +93,7 @@ _CROSS: Final[dict[str, Any]] = {"color": INK, "linestyle": "", "marker": "x"}
 _LIMIT: Final[dict[str, Any]] = {**LIMIT.look, "linewidth": 1.2}
 
 
+@drawing()
 def ida(
     table: pl.DataFrame,
     intensity: str = "scale",
@@ -134,37 +134,35 @@ def ida(
     """
     levels, demands = _by_motion(table, intensity, demand, "IDA figure")
     values = in_unit(demand, demands)
-    with mpl.rc_context(STYLE):
-        place = single(ax, "IDA figure", size=(6.4, 4.6))
-        axes = place.axes[0]
-        for curve in values:
-            axes.plot(np.append(0.0, curve), np.append(0.0, levels), color=GREY, linewidth=0.8, alpha=0.8, gid="motion")
-            fell = np.flatnonzero(np.isinf(curve))
-            if len(fell) and fell[0] > 0:
-                last = fell[0] - 1
-                axes.plot(
-                    curve[last], levels[last], color=INK, linestyle="", marker="x", markersize=5.0, gid="collapse"
-                )
-        for share, name, look in FRACTILES:
-            of_level = quantile(values.T, share)
-            axes.plot(np.append(0.0, of_level), np.append(0.0, levels), **look, label=name, gid=name)
-        if limit is not None:
-            axes.axvline(as_number(limit, "limit", "IDA figure", InvalidOption), **_LIMIT)
-        axes.set_xlim(0.0, 1.1 * float(np.max(values[np.isfinite(values)], initial=0.0)) or 1.0)
-        axes.set_ylim(0.0, 1.04 * levels[-1])
-        axes.set_xlabel(label_of(demand))
-        axes.set_ylabel(label_of(intensity))
-        grid_lines(axes)
-        handles = [Line2D([], [], color=GREY, linewidth=0.8, label="each motion")]
-        handles += [Line2D([], [], **look, label=name) for _, name, look in FRACTILES]
-        if limit is not None:
-            handles.append(Line2D([], [], **_LIMIT, label="limit"))
-        if np.isinf(values).any():
-            handles.append(Line2D([], [], **_CROSS, markersize=5.0, label="last before collapse"))
-        place.legend(handles, columns=3)
+    place = single(ax, "IDA figure", size=(6.4, 4.6))
+    axes = place.axes[0]
+    for curve in values:
+        axes.plot(np.append(0.0, curve), np.append(0.0, levels), color=GREY, linewidth=0.8, alpha=0.8, gid="motion")
+        fell = np.flatnonzero(np.isinf(curve))
+        if len(fell) and fell[0] > 0:
+            last = fell[0] - 1
+            axes.plot(curve[last], levels[last], color=INK, linestyle="", marker="x", markersize=5.0, gid="collapse")
+    for share, name, look in FRACTILES:
+        of_level = quantile(values.T, share)
+        axes.plot(np.append(0.0, of_level), np.append(0.0, levels), **look, label=name, gid=name)
+    if limit is not None:
+        axes.axvline(as_number(limit, "limit", "IDA figure", InvalidOption), **_LIMIT)
+    axes.set_xlim(0.0, 1.1 * float(np.max(values[np.isfinite(values)], initial=0.0)) or 1.0)
+    axes.set_ylim(0.0, 1.04 * levels[-1])
+    axes.set_xlabel(label_of(demand))
+    axes.set_ylabel(label_of(intensity))
+    grid_lines(axes)
+    handles = [Line2D([], [], color=GREY, linewidth=0.8, label="each motion")]
+    handles += [Line2D([], [], **look, label=name) for _, name, look in FRACTILES]
+    if limit is not None:
+        handles.append(Line2D([], [], **_LIMIT, label="limit"))
+    if np.isinf(values).any():
+        handles.append(Line2D([], [], **_CROSS, markersize=5.0, label="last before collapse"))
+    place.legend(handles, columns=3)
     return place.figure
 
 
+@drawing()
 def fragility(
     table: pl.DataFrame,
     limit: float,
@@ -202,39 +200,38 @@ def fragility(
     levels, demands = _by_motion(table, intensity, demand, "fragility")
     exceeded = (demands > bound).sum(axis=0)
     fit = fragility_fit(levels, exceeded, np.full(len(levels), len(demands)))
-    with mpl.rc_context(STYLE):
-        place = single(ax, "fragility", size=(6.4, 4.2))
-        axes = place.axes[0]
-        axes.plot(
-            levels,
-            exceeded / len(demands),
-            color=INK,
-            linestyle="",
-            marker="o",
-            markersize=5.0,
-            markerfacecolor=PAPER,
-            label=f"share of {len(demands)} motions",
-            gid="shares",
-        )
-        end = 1.05 * levels[-1]
-        if fit is not None:
-            median, beta = fit
-            way = np.linspace(0.0, end, 301)[1:]
-            curve = norm.cdf(np.log(way / median) / beta)
-            label = f"lognormal, median {median:.3g}, dispersion {beta:.2f}"
-            axes.plot(way, curve, color=BLUE, linewidth=1.8, label=label, gid="curve")
-        elif not exceeded.any():
-            say(axes, "never exceeded")
-        elif (exceeded == len(demands)).all():
-            say(axes, "always exceeded")
-        axes.set_xlim(0.0, end)
-        axes.set_ylim(-0.02, 1.02)
-        axes.set_xlabel(label_of(intensity))
-        shown = float(in_unit(demand, np.array(bound)))
-        name, _, unit = label_of(demand).partition(" (")
-        axes.set_ylabel(f"probability that {name} > {shown:g} {unit.rstrip(')')}".rstrip())
-        grid_lines(axes)
-        place.legend(axes.get_legend_handles_labels()[0], columns=2)
+    place = single(ax, "fragility", size=(6.4, 4.2))
+    axes = place.axes[0]
+    axes.plot(
+        levels,
+        exceeded / len(demands),
+        color=INK,
+        linestyle="",
+        marker="o",
+        markersize=5.0,
+        markerfacecolor=PAPER,
+        label=f"share of {len(demands)} motions",
+        gid="shares",
+    )
+    end = 1.05 * levels[-1]
+    if fit is not None:
+        median, beta = fit
+        way = np.linspace(0.0, end, 301)[1:]
+        curve = norm.cdf(np.log(way / median) / beta)
+        label = f"lognormal, median {median:.3g}, dispersion {beta:.2f}"
+        axes.plot(way, curve, color=BLUE, linewidth=1.8, label=label, gid="curve")
+    elif not exceeded.any():
+        say(axes, "never exceeded")
+    elif (exceeded == len(demands)).all():
+        say(axes, "always exceeded")
+    axes.set_xlim(0.0, end)
+    axes.set_ylim(-0.02, 1.02)
+    axes.set_xlabel(label_of(intensity))
+    shown = float(in_unit(demand, np.array(bound)))
+    name, _, unit = label_of(demand).partition(" (")
+    axes.set_ylabel(f"probability that {name} > {shown:g} {unit.rstrip(')')}".rstrip())
+    grid_lines(axes)
+    place.legend(axes.get_legend_handles_labels()[0], columns=2)
     return place.figure
 
 
@@ -268,6 +265,7 @@ def fragility_fit(intensity: ArrayLike, exceeded: ArrayLike, number: ArrayLike) 
     return (fit.median, fit.dispersion) if fit.kind == "fitted" else None
 
 
+@drawing()
 def scatter(table: pl.DataFrame, x: str, y: str, *, by: str | None = None, ax: Axes | None = None) -> Figure:
     """Draw one column of a table against another, a point for each row.
 
@@ -302,29 +300,24 @@ def scatter(table: pl.DataFrame, x: str, y: str, *, by: str | None = None, ax: A
         raise refusal(
             InvalidOption, "by", "scatter figure", f"a column of at most {len(_POINTS)} values", f"{len(groups)}"
         )
-    with mpl.rc_context(STYLE):
-        place = single(ax, "scatter figure")
-        axes = place.axes[0]
-        for place_of, (group, (colour, marker)) in enumerate(zip(groups, _POINTS, strict=False)):
-            here = points.filter(pl.col("by").eq_missing(group))
-            # Open, and smaller from one series to the next, so that points at one place are seen within one another.
-            size = 4.0 if len(groups) == 1 else 7.5 - 4.0 * place_of / (len(groups) - 1)
-            look: Any = {"color": colour, "linestyle": "", "marker": marker, "markersize": size}
-            look |= {"markerfacecolor": "none", "markeredgewidth": 0.9} if len(groups) > 1 else {"alpha": 0.75}
-            name = (
-                "" if by is None else f"{plain(by)} = {plain(f'{group:g}' if isinstance(group, float) else str(group))}"
-            )
-            axes.plot(
-                in_unit(x, here["x"].to_numpy()), in_unit(y, here["y"].to_numpy()), **look, label=name, gid="points"
-            )
-        collapsed = points.filter("fell")
-        if collapsed.height:
-            point = in_unit(x, collapsed["x"].to_numpy()), in_unit(y, collapsed["y"].to_numpy())
-            axes.plot(*point, **_CROSS, markersize=7.0, label="collapsed", gid="collapse")
-        axes.set_xlabel(label_of(x))
-        axes.set_ylabel(label_of(y))
-        grid_lines(axes)
-        place.legend([handle for handle in axes.get_legend_handles_labels()[0] if handle.get_label()])
+    place = single(ax, "scatter figure")
+    axes = place.axes[0]
+    for place_of, (group, (colour, marker)) in enumerate(zip(groups, _POINTS, strict=False)):
+        here = points.filter(pl.col("by").eq_missing(group))
+        # Open, and smaller from one series to the next, so that points at one place are seen within one another.
+        size = 4.0 if len(groups) == 1 else 7.5 - 4.0 * place_of / (len(groups) - 1)
+        look: Any = {"color": colour, "linestyle": "", "marker": marker, "markersize": size}
+        look |= {"markerfacecolor": "none", "markeredgewidth": 0.9} if len(groups) > 1 else {"alpha": 0.75}
+        name = "" if by is None else f"{plain(by)} = {plain(f'{group:g}' if isinstance(group, float) else str(group))}"
+        axes.plot(in_unit(x, here["x"].to_numpy()), in_unit(y, here["y"].to_numpy()), **look, label=name, gid="points")
+    collapsed = points.filter("fell")
+    if collapsed.height:
+        point = in_unit(x, collapsed["x"].to_numpy()), in_unit(y, collapsed["y"].to_numpy())
+        axes.plot(*point, **_CROSS, markersize=7.0, label="collapsed", gid="collapse")
+    axes.set_xlabel(label_of(x))
+    axes.set_ylabel(label_of(y))
+    grid_lines(axes)
+    place.legend([handle for handle in axes.get_legend_handles_labels()[0] if handle.get_label()])
     return place.figure
 
 

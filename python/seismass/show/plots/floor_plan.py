@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -16,7 +15,7 @@ from matplotlib.patches import Rectangle
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_positive, brief, refusal
 from seismass.media.roles import BLUE, GREY, INK, ORANGE, PAPER, VERMILION
-from seismass.media.style import STYLE, grid_lines
+from seismass.media.style import drawing, grid_lines
 from seismass.runs.plane import PlaneResponse
 
 OWNER: Final = "floor plan"
@@ -84,6 +83,7 @@ class FloorPlan:
         return cls((left, lower - 1.2, right, upper), goods, ((left, lower - 1.2, right, lower),))
 
 
+@drawing()
 def floor_paths(
     response: PlaneResponse,
     *,
@@ -123,20 +123,19 @@ def floor_paths(
     strange = sorted(set(floor_plan.goods) - set(standing))
     if strange:
         raise refusal(InvalidOption, "goods", OWNER, f"blocks of floor {floor}", f"block {strange[0]}")
-    with mpl.rc_context(STYLE):
-        if ax is None:
-            figure = Figure(figsize=(9.0, 4.4), layout="constrained")
-            places = list(figure.subplots(1, 2, width_ratios=(2.1, 1.0)))
-        else:
-            places = list(ax)
-            if len(places) != 2:
-                raise refusal(InvalidOption, "ax", OWNER, "two Axes", str(len(places)))
-            figure = places[0].get_figure(root=True) or Figure()
-        reached = _floor(places[0], response, floor_plan)
-        places[0].set_title("the ground from above" if floor == 0 else f"floor {floor} from above, at scale")
-        _orbit(places[1], response, floor)
-        if ax is None:
-            figure.legend(handles=_handles(reached), loc="outside upper center", ncols=5, frameon=False)
+    if ax is None:
+        figure = Figure(figsize=(9.0, 4.4), layout="constrained")
+        places = list(figure.subplots(1, 2, width_ratios=(2.1, 1.0)))
+    else:
+        places = list(ax)
+        if len(places) != 2:
+            raise refusal(InvalidOption, "ax", OWNER, "two Axes", str(len(places)))
+        figure = places[0].get_figure(root=True) or Figure()
+    reached = _floor(places[0], response, floor_plan)
+    places[0].set_title("the ground from above" if floor == 0 else f"floor {floor} from above, at scale")
+    _orbit(places[1], response, floor)
+    if ax is None:
+        figure.legend(handles=_handles(reached), loc="outside upper center", ncols=5, frameon=False)
     return figure
 
 

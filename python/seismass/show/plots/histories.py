@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any, Final
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -16,7 +15,7 @@ from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_count, brief, is_one_of, refusal
 from seismass.media.roles import BLUE, GREEN, GREY, INK, PAPER, PURPLE, VERMILION, YIELDS
-from seismass.media.style import RING, SERIES, STYLE, Panels, grid_lines, panels, ring, say, single, zero_line
+from seismass.media.style import RING, SERIES, Panels, drawing, grid_lines, panels, ring, say, single, zero_line
 from seismass.model.scene import goods_names, spring_names
 from seismass.runs.response import DEFAULT_POINTS, EVENT_KINDS, Response
 from seismass.runs.simulate import simulate
@@ -87,6 +86,7 @@ def mark_handles(kinds: Sequence[str]) -> list[Line2D]:
     return [Line2D([], [], **MARKS[kind], linestyle="", markeredgewidth=0.8, label=kind) for kind in kinds]
 
 
+@drawing()
 def events(response: Response, *, ax: Axes | None = None) -> Figure:
     """Draw when each storey, level of a rack and block had its events: a row for each, a marker for each kind.
 
@@ -113,34 +113,33 @@ def events(response: Response, *, ax: Axes | None = None) -> Figure:
     blocks, rows = goods_names(response.scene), list(spring_names(response.scene))
     springs = len(rows)
     rows += [f"block {number}, {place}" for number, place in enumerate(blocks, start=1)]
-    with mpl.rc_context(STYLE):
-        place = single(ax, "event timeline", size=(7.0, 1.3 + 0.32 * max(len(rows), 1)))
-        axes = place.axes[0]
-        kinds = []
-        for kind in EVENT_KINDS:
-            times = log["time"][log["kind"] == kind]
-            first = 0 if kind in STOREY_KINDS else springs
-            level = log["number"][log["kind"] == kind].astype(float) - 1.0 + first
-            if kind in ALL_BLOCKS:
-                level = np.tile(np.arange(springs, len(rows), dtype=float), len(times))
-                times = np.repeat(times, len(blocks))
-            if len(times):
-                axes.plot(times, level, **MARKS[kind], linestyle="", markeredgewidth=0.8, zorder=3, gid=kind)
-                kinds.append(kind)
-        for number in range(1, len(blocks) + 1):
-            spans = sliding_spans(response, number)
-            if len(spans):
-                widths = [(start, end - start) for start, end in spans]
-                axes.broken_barh(widths, (springs + number - 1.28, 0.56), facecolor=GREEN, alpha=0.25, linewidth=0.0)
-        for row in range(len(rows)):
-            if not any(np.any(line.get_ydata() == row) for line in axes.lines):
-                say(axes, "does not yield" if row < springs else "does not slide", at=row)
-        axes.set_yticks(range(len(rows)), rows)
-        axes.set_ylim(-0.6, max(len(rows), 1) - 0.4)
-        axes.set_xlim(0.0, response.end_time or 1.0)
-        axes.set_xlabel("time (s)")
-        grid_lines(axes)
-        place.legend(mark_handles(kinds), columns=6)
+    place = single(ax, "event timeline", size=(7.0, 1.3 + 0.32 * max(len(rows), 1)))
+    axes = place.axes[0]
+    kinds = []
+    for kind in EVENT_KINDS:
+        times = log["time"][log["kind"] == kind]
+        first = 0 if kind in STOREY_KINDS else springs
+        level = log["number"][log["kind"] == kind].astype(float) - 1.0 + first
+        if kind in ALL_BLOCKS:
+            level = np.tile(np.arange(springs, len(rows), dtype=float), len(times))
+            times = np.repeat(times, len(blocks))
+        if len(times):
+            axes.plot(times, level, **MARKS[kind], linestyle="", markeredgewidth=0.8, zorder=3, gid=kind)
+            kinds.append(kind)
+    for number in range(1, len(blocks) + 1):
+        spans = sliding_spans(response, number)
+        if len(spans):
+            widths = [(start, end - start) for start, end in spans]
+            axes.broken_barh(widths, (springs + number - 1.28, 0.56), facecolor=GREEN, alpha=0.25, linewidth=0.0)
+    for row in range(len(rows)):
+        if not any(np.any(line.get_ydata() == row) for line in axes.lines):
+            say(axes, "does not yield" if row < springs else "does not slide", at=row)
+    axes.set_yticks(range(len(rows)), rows)
+    axes.set_ylim(-0.6, max(len(rows), 1) - 0.4)
+    axes.set_xlim(0.0, response.end_time or 1.0)
+    axes.set_xlabel("time (s)")
+    grid_lines(axes)
+    place.legend(mark_handles(kinds), columns=6)
     return place.figure
 
 
@@ -155,6 +154,7 @@ def sliding_spans(response: Response, block: int) -> FloatArray:
     return np.array(spans).reshape(-1, 2)
 
 
+@drawing()
 def drift(
     response: Response,
     *,
@@ -186,20 +186,20 @@ def drift(
         The run has no histories, there is no such storey or kind of events, or `ax` does not fit the panels.
     """
     numbers_drawn = numbers(storeys, response.scene.storeys, "storeys", "drift figure")
-    with mpl.rc_context(STYLE):
-        place = panels(ax, len(numbers_drawn), "drift figure")
-        histories(
-            place,
-            response,
-            numbers_drawn,
-            lambda number: 1e3 * response.drift[:, number - 1],
-            lambda number: (response.peak_drift_time[number - 1], 1e3 * response.peak_drift[number - 1]),
-            event_kinds(events, ("yield", "close"), "drift figure"),
-            ("drift (mm)", "storey {}".format, "does not drift"),
-        )
+    place = panels(ax, len(numbers_drawn), "drift figure")
+    histories(
+        place,
+        response,
+        numbers_drawn,
+        lambda number: 1e3 * response.drift[:, number - 1],
+        lambda number: (response.peak_drift_time[number - 1], 1e3 * response.peak_drift[number - 1]),
+        event_kinds(events, ("yield", "close"), "drift figure"),
+        ("drift (mm)", "storey {}".format, "does not drift"),
+    )
     return place.figure
 
 
+@drawing()
 def slip(
     response: Response,
     *,
@@ -232,23 +232,23 @@ def slip(
     """
     places = goods_names(response.scene)
     numbers_drawn = numbers(blocks, len(places), "blocks", "slip figure")
-    with mpl.rc_context(STYLE):
-        place = panels(ax, len(numbers_drawn), "slip figure")
-        histories(
-            place,
-            response,
-            numbers_drawn,
-            lambda number: 1e3 * response.slip[:, number - 1],
-            lambda number: (response.peak_slip_time[number - 1], 1e3 * response.peak_slip[number - 1]),
-            event_kinds(events, ("slip", "stick", "touch_stop"), "slip figure"),
-            ("slip (mm)", lambda number: f"block {number}, {places[number - 1]}", "does not slide"),
-        )
-        if len(numbers_drawn) == 1 or not place.shared:
-            for number, axes in zip(numbers_drawn, place.axes, strict=True):
-                _stops(axes, response, number)
+    place = panels(ax, len(numbers_drawn), "slip figure")
+    histories(
+        place,
+        response,
+        numbers_drawn,
+        lambda number: 1e3 * response.slip[:, number - 1],
+        lambda number: (response.peak_slip_time[number - 1], 1e3 * response.peak_slip[number - 1]),
+        event_kinds(events, ("slip", "stick", "touch_stop"), "slip figure"),
+        ("slip (mm)", lambda number: f"block {number}, {places[number - 1]}", "does not slide"),
+    )
+    if len(numbers_drawn) == 1 or not place.shared:
+        for number, axes in zip(numbers_drawn, place.axes, strict=True):
+            _stops(axes, response, number)
     return place.figure
 
 
+@drawing()
 def acceleration(
     response: Response,
     *,
@@ -281,20 +281,19 @@ def acceleration(
         The run has no such histories, there is no such floor or kind of events, or `ax` does not fit the panels.
     """
     numbers_drawn = numbers(floors, response.scene.storeys, "floors", "acceleration figure")
-    with mpl.rc_context(STYLE):
-        place = panels(ax, len(numbers_drawn), "acceleration figure")
-        histories(
-            place,
-            response,
-            numbers_drawn,
-            lambda number: response.floor_acceleration[:, number - 1] / STANDARD_GRAVITY,
-            lambda number: (
-                response.peak_floor_acceleration_time[number - 1],
-                response.peak_floor_acceleration[number - 1] / STANDARD_GRAVITY,
-            ),
-            event_kinds(events, ("yield", "close"), "acceleration figure"),
-            ("acceleration (g)", "floor {}".format, "is not accelerated"),
-        )
+    place = panels(ax, len(numbers_drawn), "acceleration figure")
+    histories(
+        place,
+        response,
+        numbers_drawn,
+        lambda number: response.floor_acceleration[:, number - 1] / STANDARD_GRAVITY,
+        lambda number: (
+            response.peak_floor_acceleration_time[number - 1],
+            response.peak_floor_acceleration[number - 1] / STANDARD_GRAVITY,
+        ),
+        event_kinds(events, ("yield", "close"), "acceleration figure"),
+        ("acceleration (g)", "floor {}".format, "is not accelerated"),
+    )
     return place.figure
 
 
@@ -386,6 +385,7 @@ _BANDS: Final = (
 )
 
 
+@drawing()
 def energy(response: Response, *, points: int = DEFAULT_POINTS, ax: Axes | None = None) -> Figure:
     """Draw the energies of a run over time, relative to the moving ground, stacked; their sum is what came in.
 
@@ -414,33 +414,30 @@ def energy(response: Response, *, points: int = DEFAULT_POINTS, ax: Axes | None 
     stated = response.scene.building is None or response.scene.building.mass_is_stated
     scale, unit = (1e-3, "kJ") if stated else (1.0, "J for floors of 1 kg")
     values = {name: scale * np.array([run.energy[name] for run in runs]) for name in runs[0].energy}
-    with mpl.rc_context(STYLE):
-        place = single(ax, "energy figure", size=(7.0, 3.8))
-        axes = place.axes[0]
-        floor, handles = np.zeros(len(times)), []
-        for name, colour, hatch in _BANDS:
-            if name in values and np.any(values[name] != 0.0):
-                top = floor + values[name]
-                axes.fill_between(times, floor, top, facecolor=colour, alpha=0.3, linewidth=0.0, gid=name)
-                if hatch:
-                    # Apart from the fill, whose transparency a hatch in SVG would not have.
-                    axes.fill_between(times, floor, top, **_hatched(colour, hatch))
-                handles.append((name, colour, hatch))
-                floor = top
-        total = values["initial"] + values["input"]
-        axes.plot(times, total, color=INK, linewidth=1.4, label="input", gid="input")
-        axes.axhline(0.0, color=GREY, linewidth=0.6)
-        if not handles:
-            say(axes, "no energy")
-        axes.set_xlim(0.0, times[-1] or 1.0)
-        axes.set_xlabel("time (s)")
-        axes.set_ylabel(f"energy ({unit})")
-        grid_lines(axes)
-        names = [name for name, _, _ in handles] + ["input"]
-        patches = [
-            (Patch(facecolor=colour, alpha=0.3), Patch(**_hatched(colour, hatch))) for _, colour, hatch in handles
-        ]
-        place.legend([*patches, axes.lines[0]], columns=6, labels=names)
+    place = single(ax, "energy figure", size=(7.0, 3.8))
+    axes = place.axes[0]
+    floor, handles = np.zeros(len(times)), []
+    for name, colour, hatch in _BANDS:
+        if name in values and np.any(values[name] != 0.0):
+            top = floor + values[name]
+            axes.fill_between(times, floor, top, facecolor=colour, alpha=0.3, linewidth=0.0, gid=name)
+            if hatch:
+                # Apart from the fill, whose transparency a hatch in SVG would not have.
+                axes.fill_between(times, floor, top, **_hatched(colour, hatch))
+            handles.append((name, colour, hatch))
+            floor = top
+    total = values["initial"] + values["input"]
+    axes.plot(times, total, color=INK, linewidth=1.4, label="input", gid="input")
+    axes.axhline(0.0, color=GREY, linewidth=0.6)
+    if not handles:
+        say(axes, "no energy")
+    axes.set_xlim(0.0, times[-1] or 1.0)
+    axes.set_xlabel("time (s)")
+    axes.set_ylabel(f"energy ({unit})")
+    grid_lines(axes)
+    names = [name for name, _, _ in handles] + ["input"]
+    patches = [(Patch(facecolor=colour, alpha=0.3), Patch(**_hatched(colour, hatch))) for _, colour, hatch in handles]
+    place.legend([*patches, axes.lines[0]], columns=6, labels=names)
     return place.figure
 
 
@@ -448,6 +445,7 @@ def _hatched(colour: str, hatch: str) -> dict[str, Any]:
     return {"facecolor": "none", "edgecolor": colour, "hatch": hatch, "linewidth": 0.0}
 
 
+@drawing()
 def slip_path(
     response: Response,
     *,
@@ -482,20 +480,19 @@ def slip_path(
     numbers_drawn = numbers(blocks, len(places), "blocks", "figure of slip paths")
     times, runs = _shortened(response, points, "figure of slip paths", energy=False)
     paths = 1e3 * np.array([run.slip_path for run in runs])
-    with mpl.rc_context(STYLE):
-        place = single(ax, "figure of slip paths", size=(7.0, 3.2))
-        axes = place.axes[0]
-        for position, number in enumerate(numbers_drawn):
-            label = f"block {number}, {places[number - 1]}"
-            axes.plot(times, paths[:, number - 1], **SERIES[position % len(SERIES)], linewidth=1.4, label=label)
-        axes.set_xlim(0.0, times[-1] or 1.0)
-        axes.set_ylim(0.0, None if paths.any() else 1.0)
-        if not paths[:, [number - 1 for number in numbers_drawn]].any():
-            say(axes, "nothing slides")
-        axes.set_xlabel("time (s)")
-        axes.set_ylabel("path slipped (mm)")
-        grid_lines(axes)
-        place.legend(axes.get_legend_handles_labels()[0])
+    place = single(ax, "figure of slip paths", size=(7.0, 3.2))
+    axes = place.axes[0]
+    for position, number in enumerate(numbers_drawn):
+        label = f"block {number}, {places[number - 1]}"
+        axes.plot(times, paths[:, number - 1], **SERIES[position % len(SERIES)], linewidth=1.4, label=label)
+    axes.set_xlim(0.0, times[-1] or 1.0)
+    axes.set_ylim(0.0, None if paths.any() else 1.0)
+    if not paths[:, [number - 1 for number in numbers_drawn]].any():
+        say(axes, "nothing slides")
+    axes.set_xlabel("time (s)")
+    axes.set_ylabel("path slipped (mm)")
+    grid_lines(axes)
+    place.legend(axes.get_legend_handles_labels()[0])
     return place.figure
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Final
 
-import matplotlib as mpl
 import numpy as np
 import polars as pl
 from matplotlib.axes import Axes
@@ -17,7 +16,7 @@ from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.design import Pushover
 from seismass.media.roles import BLUE, GREY, INK, LIMIT, PURPLE, VERMILION
-from seismass.media.style import SERIES, STYLE, columns, grid_lines, panels, say, single, zero_line
+from seismass.media.style import SERIES, columns, drawing, grid_lines, panels, say, single, zero_line
 from seismass.model.building import Building
 from seismass.model.scene import floor_name, goods_levels, goods_names, rack_levels, spring_names
 from seismass.runs.response import Response
@@ -39,6 +38,7 @@ _ROW: Final = 4
 _BACKBONE: Final[dict[str, Any]] = {"color": VERMILION, "linestyle": (0, (5, 2)), "linewidth": 1.3}
 
 
+@drawing()
 def loops(
     response: Response,
     *,
@@ -79,34 +79,33 @@ def loops(
     assert building is not None
     scale, unit = (1e-3, "kN") if building.mass_is_stated else (1.0 / building.weight, "V/W")
     forces, drawn_kinds = scale * response.storey_force, set[str]()
-    with mpl.rc_context(STYLE):
-        place = columns(ax, len(numbers_drawn), owner, width=2.6, height=3.2, most=_ROW)
-        for number, axes in zip(numbers_drawn, place.axes, strict=True):
-            drift, force = 1e3 * response.drift[:, number - 1], forces[:, number - 1]
-            if response.peak_drift[number - 1] > 0.0:
-                way, strength = backbone(building, number, float(response.peak_drift[number - 1]))
-                axes.plot(1e3 * way, scale * strength, **_BACKBONE, gid="backbone")
-            else:
-                say(axes, "does not drift")
-            axes.plot(drift, force, color=BLUE, linewidth=0.7, gid="loop")
-            if response.has_events:
-                for kind in kinds:
-                    times = event_times(response, kind, number)
-                    if mark_events(axes, times, kind, (response.time, force), (response.time, drift)):
-                        drawn_kinds.add(kind)
-            for line in (axes.axhline, axes.axvline):
-                line(0.0, color=GREY, linewidth=0.6)
-            grid_lines(axes)
-            axes.locator_params(axis="x", nbins=5)
-            axes.set_title(f"storey {number}")
-            axes.set_xlabel("drift (mm)")
-        for axes in place.left:
-            axes.set_ylabel(f"spring force ({unit})" if unit == "kN" else "spring force / weight")
-        handles = [
-            Line2D([], [], color=BLUE, linewidth=0.9, label="run"),
-            Line2D([], [], **_BACKBONE, label="backbone"),
-        ]
-        place.legend([*handles, *mark_handles([kind for kind in kinds if kind in drawn_kinds])], columns=4)
+    place = columns(ax, len(numbers_drawn), owner, width=2.6, height=3.2, most=_ROW)
+    for number, axes in zip(numbers_drawn, place.axes, strict=True):
+        drift, force = 1e3 * response.drift[:, number - 1], forces[:, number - 1]
+        if response.peak_drift[number - 1] > 0.0:
+            way, strength = backbone(building, number, float(response.peak_drift[number - 1]))
+            axes.plot(1e3 * way, scale * strength, **_BACKBONE, gid="backbone")
+        else:
+            say(axes, "does not drift")
+        axes.plot(drift, force, color=BLUE, linewidth=0.7, gid="loop")
+        if response.has_events:
+            for kind in kinds:
+                times = event_times(response, kind, number)
+                if mark_events(axes, times, kind, (response.time, force), (response.time, drift)):
+                    drawn_kinds.add(kind)
+        for line in (axes.axhline, axes.axvline):
+            line(0.0, color=GREY, linewidth=0.6)
+        grid_lines(axes)
+        axes.locator_params(axis="x", nbins=5)
+        axes.set_title(f"storey {number}")
+        axes.set_xlabel("drift (mm)")
+    for axes in place.left:
+        axes.set_ylabel(f"spring force ({unit})" if unit == "kN" else "spring force / weight")
+    handles = [
+        Line2D([], [], color=BLUE, linewidth=0.9, label="run"),
+        Line2D([], [], **_BACKBONE, label="backbone"),
+    ]
+    place.legend([*handles, *mark_handles([kind for kind in kinds if kind in drawn_kinds])], columns=4)
     return place.figure
 
 
@@ -133,6 +132,7 @@ _MARKS: Final[dict[str, dict[str, Any]]] = {
 _NAMES: Final = {"yield": "corner of a spring", "close": "stop closes", "open": "stop opens", "capacity": "mechanism"}
 
 
+@drawing()
 def pushover(path: Pushover, *, labels: bool = True, ax: Axes | None = None) -> Figure:
     """Draw the base shear over the weight against the roof displacement, with events by their storey.
 
@@ -155,25 +155,24 @@ def pushover(path: Pushover, *, labels: bool = True, ax: Axes | None = None) -> 
     InvalidOption
         `ax` is not an Axes.
     """
-    with mpl.rc_context(STYLE):
-        place = single(ax, "pushover figure")
-        axes = place.axes[0]
-        roof, shear = 1e3 * path.roof_displacement, path.base_shear / path.weight
-        axes.plot(roof, shear, color=BLUE if place.is_new else None, linewidth=1.6)
-        events = path.events
-        for kind, mark in _MARKS.items():
-            rows = events.filter(kind=kind)
-            axes.plot(1e3 * rows["roof_displacement"], rows["base_shear"] / path.weight, **mark, linestyle="", zorder=3)
-        if labels:
-            _label(axes, events, roof, shear)
-        axes.set_xlabel("roof displacement (mm)")
-        axes.set_ylabel("base shear over weight")
-        grid_lines(axes)
-        met = [kind for kind in _MARKS if kind in set(events["kind"])]
-        handles = [Line2D([], [], **_MARKS[kind], linestyle="", label=_NAMES.get(kind, kind)) for kind in met]
-        if place.is_new and labels:
-            axes.set_title("numbers: storeys", loc="right", fontsize=7.5, color=INK)
-        place.legend(handles, columns=min(len(handles), 4))
+    place = single(ax, "pushover figure")
+    axes = place.axes[0]
+    roof, shear = 1e3 * path.roof_displacement, path.base_shear / path.weight
+    axes.plot(roof, shear, color=BLUE if place.is_new else None, linewidth=1.6)
+    events = path.events
+    for kind, mark in _MARKS.items():
+        rows = events.filter(kind=kind)
+        axes.plot(1e3 * rows["roof_displacement"], rows["base_shear"] / path.weight, **mark, linestyle="", zorder=3)
+    if labels:
+        _label(axes, events, roof, shear)
+    axes.set_xlabel("roof displacement (mm)")
+    axes.set_ylabel("base shear over weight")
+    grid_lines(axes)
+    met = [kind for kind in _MARKS if kind in set(events["kind"])]
+    handles = [Line2D([], [], **_MARKS[kind], linestyle="", label=_NAMES.get(kind, kind)) for kind in met]
+    if place.is_new and labels:
+        axes.set_title("numbers: storeys", loc="right", fontsize=7.5, color=INK)
+    place.legend(handles, columns=min(len(handles), 4))
     return place.figure
 
 
@@ -200,6 +199,7 @@ def _label(axes: Axes, events: pl.DataFrame, roof: FloatArray, shear: FloatArray
         )
 
 
+@drawing()
 def contacts(
     response: Response, *, blocks: int | Sequence[int] | None = None, ax: Axes | Sequence[Axes] | None = None
 ) -> Figure:
@@ -236,36 +236,36 @@ def contacts(
             raise refusal(InvalidOption, "blocks", owner, f"some of {', '.join(map(str, stopped))}", brief(number))
     log, places = response.event_log, goods_names(response.scene)
     velocities = response.events["velocity"].to_numpy()
-    with mpl.rc_context(STYLE):
-        place = panels(ax, len(numbers_drawn), owner)
-        for number, axes in zip(numbers_drawn, place.axes, strict=True):
-            is_contact = (log["kind"] == "touch_stop") & (log["number"] == number)
-            signed = log["sign"][is_contact] * np.abs(velocities[is_contact])
-            axes.vlines(log["time"][is_contact], 0.0, signed, color=PURPLE, linewidth=1.0, gid="contacts")
-            axes.plot(log["time"][is_contact], signed, **MARKS["touch_stop"], linestyle="")
-            count = int(is_contact.sum())
-            caption = f"block {number}, {places[number - 1]}: "
-            if count:
-                force = response.peak_contact_force[number - 1]
-                caption += f"{count} contacts, at most {response.peak_contact_velocity[number - 1]:.3g} m/s and "
-                caption += f"{1e-3 * force:.3g} kN"
-            else:
-                caption += "no contact"
-            axes.set_title(caption, loc="left", fontsize=8.0, pad=3.0)
-        for axes in dict.fromkeys(place.axes):
-            zero_line(axes)
-            grid_lines(axes)
-            axes.set_ylabel("velocity (m/s)")
-            axes.set_xlim(0.0, response.end_time or 1.0)
-            reach = 1.15 * max(abs(axes.dataLim.y0), abs(axes.dataLim.y1)) if np.isfinite(axes.dataLim.y0) else 0.0
-            axes.set_ylim(-(reach or 1.0), reach or 1.0)
-            if response.status == "collapsed":
-                axes.axvline(response.end_time, color=INK, linewidth=1.2)
-        for axes in place.axes[:1] if place.is_new else place.axes:
-            axes.set_xlabel("time (s)")
+    place = panels(ax, len(numbers_drawn), owner)
+    for number, axes in zip(numbers_drawn, place.axes, strict=True):
+        is_contact = (log["kind"] == "touch_stop") & (log["number"] == number)
+        signed = log["sign"][is_contact] * np.abs(velocities[is_contact])
+        axes.vlines(log["time"][is_contact], 0.0, signed, color=PURPLE, linewidth=1.0, gid="contacts")
+        axes.plot(log["time"][is_contact], signed, **MARKS["touch_stop"], linestyle="")
+        count = int(is_contact.sum())
+        caption = f"block {number}, {places[number - 1]}: "
+        if count:
+            force = response.peak_contact_force[number - 1]
+            caption += f"{count} contacts, at most {response.peak_contact_velocity[number - 1]:.3g} m/s and "
+            caption += f"{1e-3 * force:.3g} kN"
+        else:
+            caption += "no contact"
+        axes.set_title(caption, loc="left", fontsize=8.0, pad=3.0)
+    for axes in dict.fromkeys(place.axes):
+        zero_line(axes)
+        grid_lines(axes)
+        axes.set_ylabel("velocity (m/s)")
+        axes.set_xlim(0.0, response.end_time or 1.0)
+        reach = 1.15 * max(abs(axes.dataLim.y0), abs(axes.dataLim.y1)) if np.isfinite(axes.dataLim.y0) else 0.0
+        axes.set_ylim(-(reach or 1.0), reach or 1.0)
+        if response.status == "collapsed":
+            axes.axvline(response.end_time, color=INK, linewidth=1.2)
+    for axes in place.axes[:1] if place.is_new else place.axes:
+        axes.set_xlabel("time (s)")
     return place.figure
 
 
+@drawing()
 def rack_drift(
     response: Response,
     *,
@@ -316,13 +316,13 @@ def rack_drift(
         return response.peak_rack_drift_time[rack][level], 1e3 * response.peak_rack_drift[rack][level]
 
     kinds = event_kinds(events, ("yield", "close"), owner)
-    with mpl.rc_context(STYLE):
-        place = panels(ax, len(numbers_drawn), owner)
-        labels = ("drift (mm)", lambda number: names[number - 1], "does not drift")
-        histories(place, response, numbers_drawn, history, peak, kinds, labels)
+    place = panels(ax, len(numbers_drawn), owner)
+    labels = ("drift (mm)", lambda number: names[number - 1], "does not drift")
+    histories(place, response, numbers_drawn, history, peak, kinds, labels)
     return place.figure
 
 
+@drawing()
 def rack_profile(
     response: Response, *, racks: int | Sequence[int] | None = None, ax: Sequence[Axes] | None = None
 ) -> Figure:
@@ -357,37 +357,36 @@ def rack_profile(
     labels = ["peak drift (mm)", "peak acceleration (g)", f"peak spring force {unit}"]
     labels += ["peak slip (mm)"] if slides else []
     levels = max(scene.racks[rack - 1].levels for rack in numbers_drawn)
-    with mpl.rc_context(STYLE):
-        place = columns(ax, len(labels), owner, width=2.1, height=1.5 + 0.4 * min(max(levels, 3), 12))
-        handles = []
-        for position, rack in enumerate(numbers_drawn):
-            look: dict[str, Any] = {**SERIES[position % len(SERIES)], "linewidth": 1.4}
-            handles.append(Line2D([], [], **look, label=f"rack {rack}, {floor_name(scene.racks[rack - 1].floor)}"))
-            level_numbers = np.arange(1, scene.racks[rack - 1].levels + 1)
-            for axes, values in zip(
-                place.axes,
-                (
-                    1e3 * response.peak_rack_drift[rack - 1],
-                    response.peak_rack_acceleration[rack - 1] / STANDARD_GRAVITY,
-                    response.peak_rack_shear[rack - 1] / force,
-                ),
-                strict=False,
-            ):
-                axes.plot(values, level_numbers, **look, marker="o", markersize=4.0)
-            if slides:
-                points = [(1e3 * slip, level) for (rack_of_level, level), slip in slips if rack_of_level == rack]
-                unjoined = look | {"linestyle": "", "marker": "s", "markersize": 4.5}
-                place.axes[3].plot([slip for slip, _ in points], [level for _, level in points], **unjoined)
-        for axes, label in zip(place.axes, labels, strict=True):
-            axes.set_xlim(0.0, 1.12 * max(axes.dataLim.x1, 0.0) or 1.0)
-            if not axes.dataLim.x1 > 0.0:
-                say(axes, "none")
-            axes.set_ylim(0.5, levels + 0.5)
-            axes.set_yticks(range(1, levels + 1) if levels <= 12 else range(1, levels + 1, levels // 6))
-            axes.set_xlabel(label)
-            axes.locator_params(axis="x", nbins=4)
-            grid_lines(axes)
-        for axes in place.axes if not place.is_new else place.axes[:1]:
-            axes.set_ylabel("level")
-        place.legend(handles)
+    place = columns(ax, len(labels), owner, width=2.1, height=1.5 + 0.4 * min(max(levels, 3), 12))
+    handles = []
+    for position, rack in enumerate(numbers_drawn):
+        look: dict[str, Any] = {**SERIES[position % len(SERIES)], "linewidth": 1.4}
+        handles.append(Line2D([], [], **look, label=f"rack {rack}, {floor_name(scene.racks[rack - 1].floor)}"))
+        level_numbers = np.arange(1, scene.racks[rack - 1].levels + 1)
+        for axes, values in zip(
+            place.axes,
+            (
+                1e3 * response.peak_rack_drift[rack - 1],
+                response.peak_rack_acceleration[rack - 1] / STANDARD_GRAVITY,
+                response.peak_rack_shear[rack - 1] / force,
+            ),
+            strict=False,
+        ):
+            axes.plot(values, level_numbers, **look, marker="o", markersize=4.0)
+        if slides:
+            points = [(1e3 * slip, level) for (rack_of_level, level), slip in slips if rack_of_level == rack]
+            unjoined = look | {"linestyle": "", "marker": "s", "markersize": 4.5}
+            place.axes[3].plot([slip for slip, _ in points], [level for _, level in points], **unjoined)
+    for axes, label in zip(place.axes, labels, strict=True):
+        axes.set_xlim(0.0, 1.12 * max(axes.dataLim.x1, 0.0) or 1.0)
+        if not axes.dataLim.x1 > 0.0:
+            say(axes, "none")
+        axes.set_ylim(0.5, levels + 0.5)
+        axes.set_yticks(range(1, levels + 1) if levels <= 12 else range(1, levels + 1, levels // 6))
+        axes.set_xlabel(label)
+        axes.locator_params(axis="x", nbins=4)
+        grid_lines(axes)
+    for axes in place.axes if not place.is_new else place.axes[:1]:
+        axes.set_ylabel("level")
+    place.legend(handles)
     return place.figure

@@ -20,7 +20,7 @@ from seismass.base.statistics import quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_number, brief, is_one_of, refusal
 from seismass.media.roles import BLUE, GREY, INK, LIMIT
-from seismass.media.style import PERIOD_TICKS, SERIES, STYLE, columns, grid_lines, say, single
+from seismass.media.style import PERIOD_TICKS, SERIES, columns, drawing, grid_lines, say, single
 from seismass.motions.motion import Motion
 from seismass.motions.spectra import response_spectrum
 from seismass.runs.response import Response
@@ -42,6 +42,7 @@ class _Quantity:
     levels: NDArray[Any]
 
 
+@drawing()
 def profile(
     response: Response,
     *,
@@ -86,22 +87,21 @@ def profile(
         if name not in shown:
             raise refusal(InvalidOption, "limits", owner, f"for some of {', '.join(shown)}", brief(name))
     storeys = response.scene.storeys
-    with mpl.rc_context(STYLE):
-        place = columns(ax, len(shown), owner, width=2.1, height=1.3 + 0.35 * min(max(storeys, 4), 16))
-        for name, axes in zip(shown, place.axes, strict=True):
-            _panel(axes, known[name], bounds.get(name))
-            axes.set_ylim(0.0, storeys + 0.25)
-            axes.set_yticks(range(storeys + 1) if storeys <= 12 else range(0, storeys + 1, storeys // 6))
-        for axes in place.axes if not place.is_new else place.axes[:1]:
-            axes.set_ylabel("floor (0: ground)")
-        handles = [
-            Line2D([], [], color=BLUE, linewidth=1.6, label="of storeys"),
-            Line2D([], [], color=BLUE, marker="o", markersize=4.0, linewidth=1.2, label="of floors and blocks"),
-        ]
-        if bounds:
-            handles.append(Line2D([], [], **_LIMIT, label="limit"))
-        if place.is_new:
-            place.legend(handles, columns=3)
+    place = columns(ax, len(shown), owner, width=2.1, height=1.3 + 0.35 * min(max(storeys, 4), 16))
+    for name, axes in zip(shown, place.axes, strict=True):
+        _panel(axes, known[name], bounds.get(name))
+        axes.set_ylim(0.0, storeys + 0.25)
+        axes.set_yticks(range(storeys + 1) if storeys <= 12 else range(0, storeys + 1, storeys // 6))
+    for axes in place.axes if not place.is_new else place.axes[:1]:
+        axes.set_ylabel("floor (0: ground)")
+    handles = [
+        Line2D([], [], color=BLUE, linewidth=1.6, label="of storeys"),
+        Line2D([], [], color=BLUE, marker="o", markersize=4.0, linewidth=1.2, label="of floors and blocks"),
+    ]
+    if bounds:
+        handles.append(Line2D([], [], **_LIMIT, label="limit"))
+    if place.is_new:
+        place.legend(handles, columns=3)
     return place.figure
 
 
@@ -158,6 +158,7 @@ def _panel(axes: Axes, quantity: _Quantity, limit: float | None) -> None:
     grid_lines(axes)
 
 
+@drawing()
 def floor_spectra(
     response: Response,
     *,
@@ -205,36 +206,35 @@ def floor_spectra(
     ground = response.motion
     motions = [Motion(response.floor_acceleration[:, number - 1], ground.dt) for number in numbers_drawn]
     spectra = response_spectrum([ground, *motions], period_values, damping) / STANDARD_GRAVITY
-    with mpl.rc_context(STYLE):
-        groups = _in_groups(len(numbers_drawn)) if ax is None else [range(len(numbers_drawn))]
-        place = columns(ax, len(groups), owner, width=5.6, height=4.2 if len(groups) == 1 else 3.4, most=1)
-        building = response.scene.building
-        assert building is not None
-        for group, axes in zip(groups, place.axes, strict=True):
-            axes.plot(period_values, spectra[0], color=GREY, linewidth=2.2, label="ground")
-            for position, look in zip(group, _looks(len(group)), strict=True):
-                label = f"floor {numbers_drawn[position]}"
-                axes.plot(period_values, spectra[1 + position], **look, linewidth=1.4, label=label)
-            axes.set_xscale("log")
-            axes.set_xlim(period_values[0], period_values[-1])
-            ticks = [tick for tick in PERIOD_TICKS if period_values[0] <= tick <= period_values[-1] * 1.0001]
-            axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
-            axes.minorticks_off()
-            axes.set_ylim(0.0, 1.1 * float(spectra.max()) or 1.0)
-            axes.axvline(building.periods[0], color=INK, linewidth=0.8, linestyle=(0, (1, 2)))
-            place_of_text: Any = {
-                "xycoords": ("data", "axes fraction"),
-                "textcoords": "offset points",
-                "xytext": (2, -9),
-            }
-            axes.annotate("T1", (building.periods[0], 1.0), **place_of_text, fontsize=7.5)
-            axes.set_ylabel(f"pseudo-acceleration, {100.0 * damping:g} % damping (g)")
-            grid_lines(axes)
-            if len(groups) > 1:
-                axes.legend(fontsize=8.0, frameon=False, loc="upper right")
-        place.axes[-1].set_xlabel("period (s)")
-        if len(groups) == 1:
-            place.legend(place.axes[0].get_legend_handles_labels()[0], columns=5)
+    groups = _in_groups(len(numbers_drawn)) if ax is None else [range(len(numbers_drawn))]
+    place = columns(ax, len(groups), owner, width=5.6, height=4.2 if len(groups) == 1 else 3.4, most=1)
+    building = response.scene.building
+    assert building is not None
+    for group, axes in zip(groups, place.axes, strict=True):
+        axes.plot(period_values, spectra[0], color=GREY, linewidth=2.2, label="ground")
+        for position, look in zip(group, _looks(len(group)), strict=True):
+            label = f"floor {numbers_drawn[position]}"
+            axes.plot(period_values, spectra[1 + position], **look, linewidth=1.4, label=label)
+        axes.set_xscale("log")
+        axes.set_xlim(period_values[0], period_values[-1])
+        ticks = [tick for tick in PERIOD_TICKS if period_values[0] <= tick <= period_values[-1] * 1.0001]
+        axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+        axes.minorticks_off()
+        axes.set_ylim(0.0, 1.1 * float(spectra.max()) or 1.0)
+        axes.axvline(building.periods[0], color=INK, linewidth=0.8, linestyle=(0, (1, 2)))
+        place_of_text: Any = {
+            "xycoords": ("data", "axes fraction"),
+            "textcoords": "offset points",
+            "xytext": (2, -9),
+        }
+        axes.annotate("T1", (building.periods[0], 1.0), **place_of_text, fontsize=7.5)
+        axes.set_ylabel(f"pseudo-acceleration, {100.0 * damping:g} % damping (g)")
+        grid_lines(axes)
+        if len(groups) > 1:
+            axes.legend(fontsize=8.0, frameon=False, loc="upper right")
+    place.axes[-1].set_xlabel("period (s)")
+    if len(groups) == 1:
+        place.legend(place.axes[0].get_legend_handles_labels()[0], columns=5)
     return place.figure
 
 
@@ -254,6 +254,7 @@ def _looks(count: int) -> list[dict[str, Any]]:
     return [{"color": tuple(shade), "linestyle": dashes[i % len(dashes)]} for i, shade in enumerate(shades)]
 
 
+@drawing()
 def drift_profiles(table: pl.DataFrame, demand: str = "peak_drift", *, ax: Axes | None = None) -> Figure:
     """Draw a demand of many runs over the storeys: each run, the median, 16 % and 84 %.
 
@@ -293,23 +294,22 @@ def drift_profiles(table: pl.DataFrame, demand: str = "peak_drift", *, ax: Axes 
     fell = (rows["status"] == "collapsed").to_numpy()
     counted = np.where(fell[:, None], np.inf, values)
     level = np.arange(1, heights[0] + 1)
-    with mpl.rc_context(STYLE):
-        place = single(ax, owner, size=(4.6, 1.6 + 0.4 * min(max(heights[0], 5), 14)))
-        axes = place.axes[0]
-        for run in values:
-            axes.plot(run, level, color=GREY, linewidth=0.7, alpha=0.7, gid="run")
-        curves: list[FloatArray] = []
-        for share, name, look in FRACTILES:
-            curves.append(quantile(counted.T, share))
-            axes.plot(curves[-1], level, **look, marker="o", markersize=3.5, label=name, gid=name)
-        finite = values[np.isfinite(values)]
-        axes.set_xlim(0.0, 1.08 * float(np.max(finite, initial=0.0)) or 1.0)
-        axes.set_ylim(0.6, heights[0] + 0.4)
-        axes.set_yticks(level if heights[0] <= 14 else level[:: heights[0] // 7])
-        axes.set_xlabel(label_of(demand))
-        axes.set_ylabel("storey")
-        grid_lines(axes)
-        handles = [Line2D([], [], color=GREY, linewidth=0.7, label=f"each of {len(values)} runs")]
-        handles += [Line2D([], [], **look, label=name) for _, name, look in FRACTILES]
-        place.legend(handles, columns=2)
+    place = single(ax, owner, size=(4.6, 1.6 + 0.4 * min(max(heights[0], 5), 14)))
+    axes = place.axes[0]
+    for run in values:
+        axes.plot(run, level, color=GREY, linewidth=0.7, alpha=0.7, gid="run")
+    curves: list[FloatArray] = []
+    for share, name, look in FRACTILES:
+        curves.append(quantile(counted.T, share))
+        axes.plot(curves[-1], level, **look, marker="o", markersize=3.5, label=name, gid=name)
+    finite = values[np.isfinite(values)]
+    axes.set_xlim(0.0, 1.08 * float(np.max(finite, initial=0.0)) or 1.0)
+    axes.set_ylim(0.6, heights[0] + 0.4)
+    axes.set_yticks(level if heights[0] <= 14 else level[:: heights[0] // 7])
+    axes.set_xlabel(label_of(demand))
+    axes.set_ylabel("storey")
+    grid_lines(axes)
+    handles = [Line2D([], [], color=GREY, linewidth=0.7, label=f"each of {len(values)} runs")]
+    handles += [Line2D([], [], **look, label=name) for _, name, look in FRACTILES]
+    place.legend(handles, columns=2)
     return place.figure

@@ -8,7 +8,6 @@ from functools import partial
 from itertools import cycle
 from typing import Any, Final
 
-import matplotlib as mpl
 import numpy as np
 import polars as pl
 from matplotlib.axes import Axes
@@ -34,7 +33,7 @@ from seismass.media.roles import (
     SLIDE,
     lettered,
 )
-from seismass.media.style import STYLE, lay_out, plain
+from seismass.media.style import drawing, lay_out, plain
 from seismass.show.study.answer import (
     LEAST_WIDTH,
     StudyFrames,
@@ -443,14 +442,14 @@ def sensitivity_figure(table: pl.DataFrame) -> Figure:
 MARKERS = ("o", "s", "D", "^", "v", "P", "X")
 
 
+@drawing()
 def study_figures(result: StudyFrames) -> dict[str, Figure]:
     """Return the figures of a study by name; see `drawings`."""
     figures: dict[str, Figure] = {}
-    with mpl.rc_context(STYLE):
-        for name, draw in drawings(result).items():
-            # Those of all R have the same panels and texts of the same length.
-            first = next((each for each in figures if each.startswith("drift_R") and name.startswith("drift_R")), None)
-            figures[name] = lay_out(draw(), like=None if first is None else figures[first])
+    for name, draw in drawings(result).items():
+        # Those of all R have the same panels and texts of the same length.
+        first = next((each for each in figures if each.startswith("drift_R") and name.startswith("drift_R")), None)
+        figures[name] = lay_out(draw(), like=None if first is None else figures[first])
     return figures
 
 
@@ -478,29 +477,29 @@ def _has_goods(result: StudyFrames) -> bool:
     return result.responses["peak_slip"].null_count() < result.responses.height
 
 
+@drawing()
 def phone_figures(result: StudyFrames) -> dict[str, Figure]:
     """Return figures for narrow screens, by the name of that in whose place they stand."""
     frictions = labels_of(result.summary["mu"])
     mu, name = next(iter(frictions.items()))
     suffix = f"_mu{name}" if len(frictions) > 1 else ""
-    with mpl.rc_context(STYLE):
-        return {f"underestimation{suffix}": lay_out(underestimation_figure(result, mu, narrow=True))}
+    return {f"underestimation{suffix}": lay_out(underestimation_figure(result, mu, narrow=True))}
 
 
+@drawing()
 def page_figures(result: StudyTables) -> dict[str, Figure]:
     """Return the figures of the page of a study by name: those of the study, its sensitivity and its validations."""
     figures = study_figures(result)
-    with mpl.rc_context(STYLE):
-        if result.sensitivity is not None:
-            figures["sensitivity"] = sensitivity_figure(result.sensitivity)
-        if result.section4 is not None:
-            components = result.section4.runs["component"].unique(maintain_order=True)
-            slope = COMPARED_SLOPES[0]
-            figures |= {f"section4_{name}": section4_figure(result.section4, name, slope) for name in components}
-            figures["section4_sliding"] = sliding_figure(result.section4)
-        if result.platform is not None:
-            components = result.platform.runs["component"].unique(maintain_order=True)
-            figures |= {f"platform_{name}": platform_figure(result.platform, name) for name in components}
+    if result.sensitivity is not None:
+        figures["sensitivity"] = sensitivity_figure(result.sensitivity)
+    if result.section4 is not None:
+        components = result.section4.runs["component"].unique(maintain_order=True)
+        slope = COMPARED_SLOPES[0]
+        figures |= {f"section4_{name}": section4_figure(result.section4, name, slope) for name in components}
+        figures["section4_sliding"] = sliding_figure(result.section4)
+    if result.platform is not None:
+        components = result.platform.runs["component"].unique(maintain_order=True)
+        figures |= {f"platform_{name}": platform_figure(result.platform, name) for name in components}
     return figures
 
 

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import Any, Final
 
 import polars as pl
 from markupsafe import Markup
 
 from seismass.base.errors import InvalidOption
-from seismass.base.files import read_file, read_table
+from seismass.base.folders import ReadFolder
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import brief, refusal
 from seismass.effective_mass.rule import RULE, RULE_IN_WORDS
@@ -102,14 +101,14 @@ def study_tables(
     return _validated(made, made.tables)
 
 
-def read_study_tables(folder: Path) -> StudyTables:
-    """Read the folder of a study."""
-    metadata = _document(folder / DOCUMENT)
+def read_study_tables(files: ReadFolder) -> StudyTables:
+    """Read the files of the folder of a study."""
+    metadata = files.document(DOCUMENT)
     version = metadata.get("schema_version")
     if version != SCHEMA_VERSION:
         raise refusal(InvalidOption, "schema_version", DOCUMENT, f"{SCHEMA_VERSION}", brief(version))
-    tables = {name: _table(folder, name) for name in _OWN}
-    tables |= {name: _table(folder, name) for name in OPTIONAL_TABLES if (folder / f"{name}.parquet").exists()}
+    tables = {name: files.table(name) for name in _OWN}
+    tables |= {name: files.table(name) for name in OPTIONAL_TABLES if f"{name}.parquet" in files}
     read = StudyTables(
         metadata=metadata,
         responses=tables["responses"],
@@ -120,7 +119,7 @@ def read_study_tables(folder: Path) -> StudyTables:
         scaling=tables["scaling"],
         sensitivity=tables.get("sensitivity"),
         claims=tables.get("claims"),
-        animation=_document(folder / ANIMATION) if (folder / ANIMATION).exists() else None,
+        animation=files.document(ANIMATION) if ANIMATION in files else None,
     )
     return _validated(read, tables)
 
@@ -135,26 +134,6 @@ def _validated(read: StudyTables, tables: dict[str, pl.DataFrame]) -> StudyTable
         section4=section4_of(tables, synthetic=validation["section4_synthetic"]),
         platform=platform_of(tables, synthetic=validation["platform_synthetic"]),
     )
-
-
-def _document(path: Path) -> dict[str, Any]:
-    try:
-        content = json.loads(read_file(path))
-    except (ValueError, RecursionError) as error:
-        raise refusal(InvalidOption, "content", path.name, "JSON as `seismass study` writes it", f"{error}") from None
-    if not isinstance(content, dict):
-        raise refusal(InvalidOption, "content", path.name, "a JSON object", type(content).__name__)
-    return content
-
-
-def _table(folder: Path, name: str) -> pl.DataFrame:
-    path = folder / f"{name}.parquet"
-    if not path.exists():
-        raise refusal(InvalidOption, f"{name}.parquet", f"folder {folder}", "there beside study.json", "none")
-    try:
-        return read_table(path)
-    except pl.exceptions.PolarsError as error:
-        raise refusal(InvalidOption, "content", path.name, "a Parquet table", f"{error}") from None
 
 
 def _animation(example: Example) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The files of a study: all of them are written beside their places first, then renamed, or none appears."""
+"""The folder of a study: its tables, documents, figures and page; text and figures of its results."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any, Final
 import polars as pl
 
 from seismass.base.errors import InvalidOption
-from seismass.base.files import written_whole
+from seismass.base.files import write_file
+from seismass.base.folders import as_written, read_folder, write_folder
 from seismass.base.values import as_path
-from seismass.media.result import PAGE, as_written, edited_files, named_figure, write_folder
+from seismass.media.result import PAGE, named_figure, result_files
 from seismass.media.text_table import change_text, text_table
 from seismass.show.study.answer import DAMPING_TEXTS, findings_text
 from seismass.show.study.tables import ANIMATION, DOCUMENT, OPTIONAL_TABLES, READ, StudyTables, read_study_tables
@@ -60,14 +61,15 @@ def write_study(
         documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
         documents[PAGE] = study_page(result, drawings, figure_svgs(phone_figures(result)))
     ours = {PAGE, ANIMATION} | {f"{name}.{kind}" for name in OPTIONAL_TABLES for kind in ("parquet", "csv")}
-    return write_folder(
-        out,
+    files = result_files(
         tables=tables,
         documents=documents,
         figures=drawn if png else None,
         kinds=("png",),
         metadata={name: table_metadata(result.metadata, name, table) for name, table in tables.items()},
-        earlier=lambda name: name in ours or FIGURE_FILE.fullmatch(name) is not None,
+    )
+    return write_folder(
+        out, files, earlier=lambda name: name in ours or FIGURE_FILE.fullmatch(name) is not None, owner="study"
     )
 
 
@@ -81,14 +83,13 @@ def write_study_page(
     from seismass.show.study.figures import phone_figures
     from seismass.show.study.page import study_page
 
-    edited = edited_files(folder, READ, force=force)
+    files = read_folder(folder, READ, force=force)
     with as_written(folder):
-        result = read_study_tables(folder)
+        result = read_study_tables(files)
         _, drawings = _drawn(result, progress)
-        page = study_page(result, drawings, figure_svgs(phone_figures(result)), edited)
-    with written_whole(target) as temporary:
-        temporary.write_text(page, encoding="utf-8")
-    return edited
+        page = study_page(result, drawings, figure_svgs(phone_figures(result)), files.edited)
+    write_file(target, page)
+    return files.edited
 
 
 def _drawn(result: StudyTables, progress: Progress | None) -> tuple[dict[str, Figure], dict[str, str]]:
@@ -199,12 +200,10 @@ def figure_names(result: StudyResult) -> tuple[str, ...]:
 
 def study_figure(result: StudyResult, name: str | None = None) -> Figure:
     """Return a figure by its name."""
-    import matplotlib as mpl
-
-    from seismass.media.style import STYLE, lay_out
+    from seismass.media.style import drawing, lay_out
     from seismass.show.study.figures import drawings
 
-    with mpl.rc_context(STYLE):
+    with drawing():
         return lay_out(drawings(result)[named_figure(result, name)]())
 
 

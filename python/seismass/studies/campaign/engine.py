@@ -20,9 +20,9 @@ import numpy as np
 import polars as pl
 
 from seismass.base.errors import InvalidOption, MissingPackage, SeismassError, SimulationError
-from seismass.base.files import PREFIX, remove_left_behind, reported_as, written_whole
+from seismass.base.files import PREFIX, Directory, remove_left_behind, write_file
 from seismass.base.fork_check import require_polars
-from seismass.base.stored_results import damage, metadata_of, read_checked, write_checked
+from seismass.base.stored_results import checked_content, damage, metadata_of, read_checked
 from seismass.base.values import as_count, brief, printable, refusal
 from seismass.base.views import Card
 from seismass.studies.campaign.campaign import CampaignRuns
@@ -201,8 +201,8 @@ def solve_part(folder: str, sha256: str, part: int, threads: int | None) -> Done
 def write_part(frame: pl.DataFrame, folder: Path, sha256: str, part: int) -> None:
     """Write the rows of a part under its name, whole and on the disk, without listing the folder of many parts."""
     path = part_path(folder, part)
-    with reported_as(path), written_whole(path, durable=True, tidy=False) as temporary:
-        write_checked(frame, temporary, part_metadata(sha256, part))
+    with Directory(path.parent) as parts:
+        write_file(path.name, checked_content(frame, part_metadata(sha256, part)), durable=True, folder=parts)
 
 
 def _campaign(folder: str, sha256: str) -> CampaignRuns:
@@ -264,7 +264,8 @@ def run_campaign(
             _by_executor(campaign, folder, missing, pool, 1 if threads is None else threads, clock)
     else:
         _by_threads(campaign, folder, missing, threads, clock)
-    remove_left_behind(folder / PARTS)
+    with Directory(folder / PARTS) as place:
+        remove_left_behind(place)
 
 
 def _shard(shard: Any) -> tuple[int, int]:
@@ -401,9 +402,10 @@ def prepare(campaign: CampaignRuns, folder: Path) -> None:
     check_same(read_manifest(folder), wanted, folder)
     write_inputs(campaign, folder)
     _make_parts(folder)
-    for place in (folder, folder / PARTS):
-        _check_writable(place)
-        remove_left_behind(place)
+    for path in (folder, folder / PARTS):
+        _check_writable(path)
+        with Directory(path) as place:
+            remove_left_behind(place)
 
 
 def _make(campaign: CampaignRuns, folder: Path, manifest: dict[str, object]) -> None:
@@ -423,8 +425,7 @@ def _make(campaign: CampaignRuns, folder: Path, manifest: dict[str, object]) -> 
     _make_parts(folder)
     write_inputs(campaign, folder)
     text = json.dumps(manifest, indent=1, allow_nan=False) + "\n"
-    with written_whole(folder / MANIFEST, durable=True) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    write_file(folder / MANIFEST, text, durable=True)
 
 
 def _make_parts(folder: Path) -> None:

@@ -16,7 +16,7 @@ import polars as pl
 from seismass.base.errors import InvalidCampaignFile, InvalidOption
 from seismass.base.files import data_directory
 from seismass.base.input_table import CAMPAIGN_FILE, Table, load_table, refuse_other_kind
-from seismass.base.values import as_path, brief, refusal
+from seismass.base.values import as_flag, as_path, brief, refusal
 from seismass.base.views import Card
 from seismass.motions.motion import scaled_motions
 from seismass.motions.records import Record, Suite, builtin_suite, read_suite
@@ -25,7 +25,7 @@ from seismass.runs.grid.grid import Grid
 from seismass.runs.grid.sample import SAMPLED
 from seismass.runs.scene_file import building_of_table
 from seismass.studies.campaign.campaign import KEYS, CampaignRuns, axis_values
-from seismass.studies.campaign.engine import Report, prepare, rows_and_problem, run_campaign
+from seismass.studies.campaign.engine import Report, check_parts, prepare, rows_and_problem, run_campaign
 from seismass.studies.campaign.manifest import (
     AXES,
     MOTIONS,
@@ -257,21 +257,43 @@ class CampaignFolder(Card):
         """One row per motion: number, name, file, time step, peak (g), digest of the samples."""
         return read_table(self.path, MOTIONS).drop("acceleration", "vertical")
 
-    def scan_parts(self) -> pl.LazyFrame:
+    @cached_property
+    def _compared(self) -> dict[int, tuple[int, int, int]]:
+        """Parts whose digests were compared, with number, size and time of their files."""
+        return {}
+
+    def scan_parts(self, *, force: bool = False) -> pl.LazyFrame:
         """Return the rows of the parts that are there as they are stored, as a lazy frame.
+
+        Parameters
+        ----------
+        force : bool, optional
+            Take parts as they are, without comparing them with their digests; by default each is read once for that.
 
         Raises
         ------
         InvalidOption
-            No part is there.
+            No part is there, or one is not as it was written.
         """
-        present = sorted(self.present())
+        there = self._there()
+        present = sorted(there.files)
         if not present:
             raise refusal(InvalidOption, f"folder {self.path}", "campaign", "one with at least one part", "none")
+        if not as_flag(force, "force", "campaign", InvalidOption):
+            status = {part: part_path(self.path, part).lstat() for part in present}
+            states = {part: (each.st_ino, each.st_size, each.st_mtime_ns) for part, each in status.items()}
+            new = [part for part in present if self._compared.get(part) != states[part]]
+            check_parts(self.path, self._manifest["inputs_sha256"], sorted({*new, *there.others}))
+            self._compared.update((part, states[part]) for part in new)
         return pl.scan_parquet([part_path(self.path, part) for part in present], glob=False)
 
-    def scan(self) -> pl.LazyFrame:
+    def scan(self, *, force: bool = False) -> pl.LazyFrame:
         """Return the rows of the parts that are there, with the axes and the motions joined to them, as a lazy frame.
+
+        Parameters
+        ----------
+        force : bool, optional
+            Take parts as they are, without comparing them with their digests; by default each is read once for that.
 
         Returns
         -------
@@ -282,9 +304,9 @@ class CampaignFolder(Card):
         Raises
         ------
         InvalidOption
-            No part is there.
+            No part is there, or one is not as it was written.
         """
-        rows = self.scan_parts()
+        rows = self.scan_parts(force=force)
         results = [name for name in self._manifest["columns"] if name not in KEYS[:2]]
         joined: list[str] = []
         for axis in self._manifest["grid"]["axes"]:

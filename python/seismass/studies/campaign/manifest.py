@@ -14,8 +14,8 @@ import polars as pl
 
 from seismass import _kernel
 from seismass.base.errors import InvalidOption, SeismassError
-from seismass.base.files import read_file, reported_as, written_whole
-from seismass.base.stored_results import damage, read_checked, write_checked
+from seismass.base.files import read_file, write_file
+from seismass.base.stored_results import checked_content, damage, read_checked
 from seismass.base.values import brief, refusal
 from seismass.runs.grid.content import grid_of
 from seismass.runs.simulate import instruction_set
@@ -217,8 +217,7 @@ def write_inputs(campaign: CampaignRuns, folder: Path) -> None:
         try:
             path.lstat()
         except FileNotFoundError:
-            with reported_as(path), written_whole(path, durable=True) as temporary:
-                write_checked(table, temporary, {"campaign": campaign.sha256})
+            write_file(path, checked_content(table, {"campaign": campaign.sha256}), durable=True)
             continue
         if not read_table(folder, name).equals(table):
             requirement = "of the values of this campaign (remove it, and the same call writes it again)"

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption, RecordFormatError
 from seismass.base.files import read_utf8
+from seismass.base.limits import MOST_TABLE, within_rows
 from seismass.base.values import (
     FloatArray,
     Value,
@@ -43,7 +44,7 @@ def read_hazard(path: str | os.PathLike[str]) -> tuple[FloatArray, FloatArray, s
     """Return intensities (g), annual rates and the name of a CSV; see `HazardCurve.from_csv`."""
     source = as_path(path, "hazard curve", RecordFormatError)
     try:
-        text = read_utf8(source)
+        text = read_utf8(source, MOST_TABLE)
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "not text"
         got = f"{source} ({reason})"
@@ -52,7 +53,7 @@ def read_hazard(path: str | os.PathLike[str]) -> tuple[FloatArray, FloatArray, s
 
 
 def _parsed(text: str, file: str) -> tuple[FloatArray, FloatArray]:
-    rows = _rows(text, file)
+    rows = _rows(within_rows(text, file, RecordFormatError), file)
     columns = (0, 1)
     if rows and not all(_number(cell) is not None for cell in rows[0][1][:2]):
         line, header = rows.pop(0)

@@ -15,17 +15,19 @@ Stationary frequency content except for the pulse, one component, no source, pat
 from __future__ import annotations
 
 import csv
+import io
 import math
 import random
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass.base.files import written_whole
+from seismass.base.files import write_file
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.motions.records.builtin import MICRO
 from seismass.motions.records.record import Record
@@ -208,18 +210,16 @@ def at2_text(record: Record, generator: int = 1) -> str:
 
 def write_motion(directory: Path, recipe: Recipe | SiteRecipe) -> None:
     """Write the motion of a recipe as an .AT2 file."""
-    text = at2_text(made(recipe), version(recipe))
-    with written_whole(directory / f"{recipe.name}.AT2") as temporary:
-        temporary.write_text(text, encoding="utf-8", newline="\n")
+    write_file(directory / f"{recipe.name}.AT2", at2_text(made(recipe), version(recipe)))
 
 
 def write_list(file: Path, recipes: Iterable[Recipe | SiteRecipe]) -> None:
     """Write a list of motions as `read_suite` takes it."""
-    with written_whole(file) as temporary, temporary.open("w", newline="", encoding="utf-8") as stream:
-        rows = csv.writer(stream, lineterminator="\n")
-        rows.writerow(("number", "event", "station", "file", "note"))
-        for recipe in recipes:
-            rows.writerow((recipe.number, "synthetic", "none", f"{recipe.name}.AT2", recipe.note))
+    stream = io.StringIO(newline="")
+    rows = csv.writer(stream, lineterminator="\n")
+    rows.writerow(("number", "event", "station", "file", "note"))
+    rows.writerows((recipe.number, "synthetic", "none", f"{recipe.name}.AT2", recipe.note) for recipe in recipes)
+    write_file(file, stream.getvalue())
 
 
 def forty_table() -> pl.DataFrame:
@@ -260,4 +260,4 @@ def write_suite(directory: Path) -> None:
     for name, recipes in LISTS.items():
         write_list(directory / name, recipes)
     for name, table in (("forty.parquet", forty_table()), ("forty_second.parquet", seconds_table())):
-        table.write_parquet(directory / name, compression="zstd", compression_level=19)
+        write_file(directory / name, partial(table.write_parquet, compression="zstd", compression_level=19))
