@@ -103,20 +103,22 @@ class SurveyedLoad:
         return math.sqrt(self.floor_deviation**2 + self.point_deviation**2 * averaged)
 
 
-    def distribution(self, area: float = math.inf) -> Distribution:
+    def distribution(self, area: float = math.inf, factor: float = 1.0) -> Distribution:
         """Return the distribution of the mean load of a floor (kPa): a gamma distribution, as JCSS has it.
 
         Parameters
         ----------
         area : float, default infinite
             Area of the floor (m2).
+        factor : float, default 1
+            Of all loads; one over a design live load (kPa) gives shares of it.
 
         Raises
         ------
         InvalidOption
-            The area is not positive.
+            The area or the factor is not positive.
         """
-        return gamma(self.mean, self.deviation(area))
+        return gamma(factor * self.mean, factor * self.deviation(area))
 
 
 _LOADS: Final = ("mean", "floor_deviation", "point_deviation", "reference_area", "design_load")

@@ -111,14 +111,26 @@ def _number_of_samples(samples: Any) -> int:
     return number
 
 
-def _columns(drawn: dict[str, _Drawn], number: int, method: Any, seed: Any) -> dict[str, Any]:
+def _columns(
+    drawn: dict[str, _Drawn], number: int, method: Any, seed: Any, groups: Sequence[int] = ()
+) -> dict[str, Any]:
+    """Values of axes at points; within each group of so many in turn the points are shuffled."""
     cube = points(number, sum(item.dimensions for item in drawn.values()), method, seed)
+    for size in groups if cube.shape[1] else ():
+        cube = _shuffled(cube, size, seed)
     columns: dict[str, Any] = {}
     first = 0
     for name, item in drawn.items():
         columns[name] = item.values_at(cube[:, first : first + item.dimensions])
         first += item.dimensions
     return columns
+
+
+def _shuffled(cube: FloatArray, size: int, seed: Any) -> FloatArray:
+    """Points whose order within groups of so many is random: places in a group are no strata of Sobol's points."""
+    rng = np.random.default_rng((*(seed if isinstance(seed, tuple) else (seed, 0)), size))
+    order = np.argsort(rng.random((len(cube) // size, size)), axis=1)
+    return np.take_along_axis(cube.reshape(-1, size, cube.shape[1]), order[..., None], axis=1).reshape(cube.shape)
 
 
 def _nested(
@@ -134,7 +146,7 @@ def _nested(
     number = _number_of_samples(of_motions * buildings * goods)
     start = as_count(seed, "seed", "sample", InvalidOption)
     outer = {name: item for name, item in drawn.items() if name not in OF_GOODS}
-    columns = _columns(outer, of_motions * buildings, method, start)
+    columns = _columns(outer, of_motions * buildings, method, start, (buildings,))
     if isinstance(columns.get("storeys"), tuple):
         columns["storeys"], columns["period"] = columns["storeys"]
         outer["period"] = outer["storeys"]
@@ -142,7 +154,7 @@ def _nested(
         name: np.repeat(values, goods, axis=0) if outer[name].dimensions else values for name, values in columns.items()
     }
     inner = {name: item for name, item in drawn.items() if name in OF_GOODS}
-    columns |= _columns(inner, number, method, (start, 1))
+    columns |= _columns(inner, number, method, (start, 1), (goods,))
     return number, columns | {"motion": np.repeat(np.arange(of_motions), buildings * goods) + 1}
 
 
