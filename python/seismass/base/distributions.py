@@ -1,4 +1,4 @@
-"""Distributions of unknown quantities: any frozen one of scipy.stats, some by the numbers that people state, mixtures."""
+"""Distributions of unknown quantities: any frozen one of scipy.stats, some by numbers that people state, mixtures."""
 
 from __future__ import annotations
 

@@ -22,12 +22,18 @@ def options(parser: argparse.ArgumentParser) -> None:
     what.add_argument("--occupancies", metavar="LIST", help="those of the file that are looked at (all)")
     what.add_argument("--site", type=_site, metavar="SDS:SD1", help="S_DS and S_D1 in g, in place of the file's")
     what.add_argument("--presence", choices=("jcss", "full"), help="as surveyed (jcss), or all floors full")
-    what.add_argument("--first-yield", type=_first_yield, metavar="M:SIGMA", help="real first yield over that of the design")
+    what.add_argument(
+        "--first-yield", type=_first_yield, metavar="M:SIGMA", help="real first yield over that of the design"
+    )
     add_records_options(parser.add_argument_group("motions, each at levels of the design spectrum at T"))
     asked = parser.add_argument_group("what is asked")
-    asked.add_argument("--hazard", type=Path, metavar="CSV", help="intensity (g), annual rate (illustrative, of no site)")
+    asked.add_argument(
+        "--hazard", type=Path, metavar="CSV", help="intensity (g), annual rate (illustrative, of no site)"
+    )
     asked.add_argument("--hazard-period", type=positive_option, metavar="T", help="period of its Sa, s; needed with it")
-    asked.add_argument("--limit", type=positive_option, metavar="RATIO", help="drift ratio whose rate is asked for (0.02)")
+    asked.add_argument(
+        "--limit", type=positive_option, metavar="RATIO", help="drift ratio whose rate is asked for (0.02)"
+    )
     asked.add_argument("--codes", metavar="LIST", help="codes that are compared (asce7-10,nbc,nzs1170.5,ec8)")
     asked.add_argument("--samples", type=_samples, metavar="BxG", help="buildings a motion, loads a building (8x4)")
     asked.add_argument("--quick", action="store_true", help="ten archetypes, five levels, 2x2 samples, one suite")
@@ -45,7 +51,7 @@ def run(args: argparse.Namespace) -> int:
     from seismass.motions.records import builtin_suite
     from seismass.runs.simulate import instruction_set
     from seismass.studies.evidence import evidence, example_file, read_archetypes
-    from seismass.studies.evidence.evidence import CODES
+    from seismass.studies.evidence.table import CODES
 
     if args.example:
         print(example_file().read_text(encoding="utf-8"), end="")

@@ -261,9 +261,7 @@ def _by_lateral_forces(
     for number, value in enumerate(forces.shear, start=1):
         made.entries.append(DesignEntry("V_y", number, float(value), "N", rule.clause, rule.status, "first yield"))
     shears = (forces.base_shear, None, 1.0, forces.shear)
-    return CodeDesign(
-        made.code_id, weight, period, coefficient, *shears, tuple(made.entries), tuple(made.missing)
-    )
+    return CodeDesign(made.code_id, weight, period, coefficient, *shears, tuple(made.entries), tuple(made.missing))
 
 
 def _scaled(

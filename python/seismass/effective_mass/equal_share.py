@@ -58,14 +58,14 @@ class EqualShare:
     __repr__ = short_repr
 
     def over_model(self, share: float) -> tuple[float, float, float]:
-        """Return the statistic of the real buildings over that of the model at a share, with its interval."""
-        ratio = self.real / np.interp(share, self.shares, self.model)
-        models = np.array([np.interp(share, self.shares, row) for row in self.model_draws])
-        if not len(models):
-            return float(ratio), float("nan"), float("nan")
+        """Return the statistic of the real buildings over that of the model at a share, with its interval (NaN without
+        one); infinite where that of the model is zero.
+        """
+        models = np.array([np.interp(share, self.shares, row) for row in (self.model, *self.model_draws)])
         with np.errstate(divide="ignore", invalid="ignore"):
-            low, high = interval_of((self.real_draws / models)[:, None], self.confidence)
-        return float(ratio), float(low[0]), float(high[0])
+            ratios = np.append(self.real, self.real_draws) / models
+        ends = interval_of(ratios[1:, None], self.confidence) if len(ratios) > 1 else np.full((2, 1), np.nan)
+        return float(ratios[0]), float(ends[0][0]), float(ends[1][0])
 
 
 def equal_share(
@@ -151,8 +151,9 @@ def _kind(shares: FloatArray, curve: FloatArray, target: float, least: float) ->
     whole = float(np.interp(1.0, shares, curve))
     if whole - curve[0] < FLAT * abs(curve[0]):
         return "flat"
-    found: Any = kind_of(below)
-    return found
+    found: Any = kind_of(below)  # one of four of them
+    kind: ShareKind = found
+    return kind
 
 
 def _statistic(values: FloatArray, counts: FloatArray, statistic: str, probability: float) -> FloatArray:

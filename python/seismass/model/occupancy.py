@@ -102,7 +102,6 @@ class SurveyedLoad:
         averaged = min(1.0, self.reference_area / size)
         return math.sqrt(self.floor_deviation**2 + self.point_deviation**2 * averaged)
 
-
     def distribution(self, area: float = math.inf, factor: float = 1.0) -> Distribution:
         """Return the distribution of the mean load of a floor (kPa): a gamma distribution, as JCSS has it.
 

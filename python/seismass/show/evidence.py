@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import textwrap
 from collections.abc import Iterator
@@ -11,9 +10,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 import matplotlib as mpl
 import polars as pl
+from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from markupsafe import Markup
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import as_path
@@ -22,10 +21,10 @@ from seismass.media.result import PAGE, named_figure, write_folder
 from seismass.media.roles import ADVISED, CODE, GREEN, GREY, INK, PURPLE, SLIDE, VERMILION
 from seismass.media.style import STYLE
 from seismass.media.svg import figure_html, figure_svgs
-from seismass.media.text_table import ends_text, number_text, text_table
+from seismass.media.text_table import number_text, text_table
 from seismass.model.codes import CODE_NAMES
-from seismass.studies.evidence.definitions import DEFINITIONS
-from seismass.studies.evidence.evidence import NUMBERS, RIGHT, ROUND
+from seismass.studies.evidence.definitions import DEFINITIONS, MCE
+from seismass.studies.evidence.table import NUMBERS, RIGHT, ROUND
 
 if TYPE_CHECKING:
     from seismass.studies.evidence import Evidence
@@ -96,18 +95,18 @@ def sentences(result: Evidence) -> list[str]:
         )
         known = of_kind.drop_nulls("lambda")
         for definition, what in (("d", "rate"), ("a_mean", "drift")):
-            one = known.filter(definition=definition)["lambda"]
+            one = known.filter(definition=definition)["lambda"].to_numpy()
             if len(one):
                 factors.append(f"{one.mean():.2f} [{one.min():.2f}-{one.max():.2f}] in {words} ({what})")
     second = f"Sliding alone leaves of the share that the same goods would have if fixed: {', '.join(factors)}."
     full = [f"{row['d']:.2f} in {row['archetype']}" for row in result.tables["full"].iter_rows(named=True) if row["d"]]
     third = f"Floors that are always full need, for the rate: {_listed(full)}."
-    collapse = result.tables["fragility"].filter(suite="first", model="real", level=1.5)["collapsed"]
+    of_mce = result.tables["fragility"].filter(suite="first", model="real", level=MCE)["collapsed"].to_numpy()
     fourth = (
-        "Not known: weights of the contacts and the scatter of their friction are assumptions, surveys have one row for "
-        "all storage, goods are rigid on floors (no racks), in one direction; the archetypes are shear buildings without "
-        f"columns that continue and collapse under the MCE with a probability of {collapse.min():.2f} to "
-        f"{collapse.max():.2f}, so that absolute rates are not to be quoted."
+        "Not known: weights of the contacts and the scatter of their friction are assumptions; surveys have one row for "
+        "all storage; goods are rigid on floors (no racks), in one direction; they are shear buildings without "
+        f"columns that continue and collapse under the MCE with a probability of {of_mce.min():.2f} to "
+        f"{of_mce.max():.2f}, so that absolute rates are not to be quoted."
     )
     return [first, second, third, fourth]
 
@@ -141,15 +140,15 @@ def assumptions(result: Evidence) -> list[str]:
         f"Site: S_DS {setting['sds']:g} g, S_D1 {setting['sd1']:g} g; design by {CODE_NAMES[setting['code']]}, lateral "
         "forces, period C_u T_a, I = 1.",
         f"Shares of the design live load: {definitions}; V base shear at the design level; drift limit "
-        f"{100.0 * setting['limit']:g} %, drifts capped at that of the collapse. A dash: too rare for {metadata['runs']} "
-        "runs.",
+        f"{100.0 * setting['limit']:g} %, drifts capped at that of the collapse. A dash: too rare for "
+        f"{metadata['runs']} runs.",
         f"Springs: first yield {setting['first_yield']:g} V_y (sigma {setting['first_yield_sigma']:g}), second slope "
         f"{setting['second_slope']:g} (sigma {setting['second_slope_sigma']:g}), ultimate {setting['overstrength']:g} "
         f"times, then flat; P-Delta{'' if setting['p_delta'] else ' left out'}.",
         f"Presence: JCSS surveys, floors of {setting['area']:g} m2, correlated by {setting['correlation']:g}, at most "
         f"{setting['most_present']:g} of the design live load.",
-        f"Friction: contacts with weights (assumed), sigma {setting['friction_sigma']:g}, mu_k = {setting['kinetic']:g} "
-        "mu_s, one for a building.",
+        f"Friction: contacts with weights (assumed), sigma {setting['friction_sigma']:g}, mu_k = "
+        f"{setting['kinetic']:g} mu_s, one for a building.",
         f"Motions: {metadata['motions'][0]} of {metadata['stations'][0]} stations ({metadata['suites'][0]}), each at "
         f"{', '.join(f'{level:g}' for level in setting['levels'])} of the design spectrum at T.",
         f"Hazard over the design level: {hazard}; 1.5 is the MCE.",
@@ -167,7 +166,7 @@ def evidence_text(result: Evidence) -> str:
         *text_table(_cells(result)),
         "",
     ]
-    wrapped = {"initial_indent": "- ", "subsequent_indent": "  "}
+    wrapped: dict[str, Any] = {"initial_indent": "- ", "subsequent_indent": "  "}
     for paragraph in sentences(result):
         lines += textwrap.wrap(paragraph, WIDTH, **wrapped)
     lines += ["", "Annual rate of the drift limit, real over model, by rule", *(f"  {x}" for x in rule_lines(result))]
@@ -190,8 +189,10 @@ def evidence_figure(result: Evidence, name: str | None = None) -> Figure:
     if named_figure(result, name) == "tornado":
         return _tornado(result)
     archetypes = result.tables["archetypes"].with_row_index("place")
-    with mpl.rc_context({**STYLE, "font.size": 7.5, "ytick.labelsize": 6.5, "xtick.labelsize": 7.0}):
-        figure = Figure(figsize=(8.27, 1.6 + 0.17 * (archetypes.height + 2 * archetypes["occupancy"].n_unique())))
+    small: dict[str, Any] = {"font.size": 7.5, "axes.labelsize": 7.0, "ytick.labelsize": 6.5, "xtick.labelsize": 7.0}
+    with mpl.rc_context(STYLE | small):
+        height = 1.5 + 0.155 * (archetypes.height + archetypes["occupancy"].n_unique())
+        figure = Figure(figsize=(8.27, height))
         left, right = figure.subplots(1, 2, sharey=True, width_ratios=(1.35, 1.0))
         places, ticks = _places(archetypes)
         _draw_shares(left, result, archetypes, places)
@@ -202,10 +203,12 @@ def evidence_figure(result: Evidence, name: str | None = None) -> Figure:
             axes.grid(axis="x", color=GREY, alpha=0.3, linewidth=0.4)
             axes.tick_params(axis="y", length=0)
             axes.spines[["top", "right"]].set_visible(False)
-            axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.07), ncols=2, frameon=False, fontsize=6.5)
+            below = (0.0, -0.4 / (height - 1.27))
+            columns = 3 if axes is left else 2
+            axes.legend(loc="upper left", bbox_to_anchor=below, ncols=columns, frameon=False, fontsize=6.5)
         title = f"Share of the design live load that acts as mass, {archetypes.height} archetypes"
-        figure.suptitle(f"{SYNTHETIC}\n{title}" if result.metadata["synthetic"] else title, fontsize=8.5)
-        figure.subplots_adjust(left=0.24, right=0.98, top=0.93, bottom=0.13, wspace=0.05)
+        figure.suptitle(f"{SYNTHETIC}\n{title}" if result.metadata["synthetic"] else title, fontsize=8.5, y=0.99)
+        figure.subplots_adjust(left=0.21, right=0.98, top=1.0 - 0.42 / height, bottom=0.85 / height, wspace=0.05)
     return figure
 
 
@@ -240,7 +243,9 @@ def _draw_shares(axes: Axes, result: Evidence, archetypes: pl.DataFrame, places:
         span = [min(ends) - 0.5, max(ends) + 0.5]
         marks = (("present", "present", INK, "--"), ("code", "design_fraction", CODE.colour, "-"))
         for key, column, colour, line in marks:
-            axes.plot([rows[column][0]] * 2, span, color=colour, linestyle=line, linewidth=1.0, label=labels.pop(key, None))
+            axes.plot(
+                [rows[column][0]] * 2, span, color=colour, linestyle=line, linewidth=1.0, label=labels.pop(key, None)
+            )
         axes.text(1.02, min(ends) - 0.55, str(occupancy[0]), ha="right", va="bottom", weight="bold", fontsize=7.0)
     axes.set_xlim(-0.02, 1.04)
     axes.set_xlabel("share of the design live load that acts as mass")
@@ -256,18 +261,22 @@ def _draw_rates(axes: Axes, result: Evidence, places: dict[str, float]) -> None:
     for rule, (marker, colour) in looks.items():
         rows = rates.filter(code_id=rule)
         heights = [places[name] for name in rows["archetype"]]
-        axes.plot(rows["real_over_model"], heights, marker, color=colour, markersize=4.0, markerfacecolor="none", label=rule)
+        axes.plot(
+            rows["real_over_model"], heights, marker, color=colour, markersize=4.0, markerfacecolor="none", label=rule
+        )
     axes.set_xscale("log")
     axes.set_xticks([0.1, 0.2, 0.5, 1.0, 2.0], ["0.1", "0.2", "0.5", "1", "2"])
+    axes.set_xlim(right=3.0)
     axes.minorticks_off()
-    axes.set_xlabel(f"annual rate of {100.0 * result.metadata['setting']['limit']:g} % drift, real / model (above 1: unsafe)")
+    limit = f"{100.0 * result.metadata['setting']['limit']:g} %"
+    axes.set_xlabel(f"annual rate of {limit} drift, real / model (above 1: unsafe)")
 
 
 def _tornado(result: Evidence) -> Figure:
     """What moves share (d) of one archetype of each occupancy and class."""
     table = result.tables["vary"]
     groups = table.partition_by("occupancy", "class", maintain_order=True)
-    with mpl.rc_context({**STYLE, "font.size": 7.0, "ytick.labelsize": 6.0, "xtick.labelsize": 6.5}):
+    with mpl.rc_context(STYLE | {"font.size": 7.0, "ytick.labelsize": 6.0, "xtick.labelsize": 6.5}):
         figure = Figure(figsize=(8.27, 2.4 * -(-len(groups) // 2)), layout="constrained")
         panels = figure.subplots(-(-len(groups) // 2), 2, squeeze=False).ravel()
         for axes, rows in zip(panels, groups, strict=False):
@@ -275,7 +284,9 @@ def _tornado(result: Evidence) -> Figure:
             for height, (name, low, high) in enumerate(bars):
                 axes.plot([low, high], [height, height], color=SLIDE.colour, linewidth=5.0, solid_capstyle="butt")
                 axes.plot(low, height, "|", color=INK, markersize=7.0)
-                axes.text(-0.02, height, name, ha="right", va="center", fontsize=6.0, transform=axes.get_yaxis_transform())
+                axes.text(
+                    -0.02, height, name, ha="right", va="center", fontsize=6.0, transform=axes.get_yaxis_transform()
+                )
             axes.set_ylim(len(bars) - 0.4, -0.6)
             axes.set_yticks([])
             axes.set_title(rows["archetype"][0], fontsize=7.0)
@@ -319,15 +330,29 @@ def _page(result: Evidence, drawings: dict[str, str]) -> str:
     formats = {name: ".3g" for name, kind in result.tables["archetypes"].schema.items() if kind == pl.Float64}
     archetypes = result.tables["archetypes"].drop("occupancy", "class")
     sections = [
-        Section("Archetypes", [table_html(archetypes, "Numbers of the designs, for a check by hand.", formats=formats)]),
+        Section(
+            "Archetypes", [table_html(archetypes, "Numbers of the designs, for a check by hand.", formats=formats)]
+        ),
         Section("Rules", [bullets_html(rule_lines(result))]),
-        Section("Full floors", [table_html(result.tables["full"], "Every floor has its design live load.", formats={
-            name: ".2f" for name, kind in result.tables["full"].schema.items() if kind == pl.Float64})]),
+        Section(
+            "Full floors",
+            [
+                table_html(
+                    result.tables["full"],
+                    "Every floor has its design live load.",
+                    formats={name: ".2f" for name, kind in result.tables["full"].schema.items() if kind == pl.Float64},
+                )
+            ],
+        ),
     ]
     if "tornado" in drawings:
         alt = "Bars: the share of an archetype at both ends of each input."
-        sections.append(Section("What moves the share", [figure_html(drawings["tornado"], "One input at a time.", alt)]))
-    subtitle = f"S_DS {site['sds']:g} g, S_D1 {site['sd1']:g} g; {metadata['motions'][0]} motions of {metadata['suites'][0]}"
+        sections.append(
+            Section("What moves the share", [figure_html(drawings["tornado"], "One input at a time.", alt)])
+        )
+    subtitle = (
+        f"S_DS {site['sds']:g} g, S_D1 {site['sd1']:g} g; {metadata['motions'][0]} motions of {metadata['suites'][0]}"
+    )
     return page_html("How much of the design live load acts as mass", sections, subtitle=subtitle, lead=lead)
 
 

@@ -8,7 +8,7 @@ from seismass.studies.evidence.archetypes import (
     example_file,
     read_archetypes,
 )
-from seismass.studies.evidence.evidence import Evidence, default_hazard, evidence
+from seismass.studies.evidence.table import Evidence, default_hazard, evidence
 
 __all__ = [
     "Archetype",

@@ -230,7 +230,8 @@ def read_archetypes(path: str | os.PathLike[str] | None = None) -> tuple[tuple[A
         tables["design"], {"drift_limit": POSITIVE, "area_m2": POSITIVE, "roof_dead_load_kpa": POSITIVE}, "code"
     )
     code = tables["design"].text("code") or "asce7-10"
-    setting = Setting(*site, code, *design, *_numbers(tables["random"], _RANDOM))
+    random: dict[str, Any] = dict(zip(_RANDOM, _numbers(tables["random"], _RANDOM), strict=True))
+    setting = Setting(site[0], site[1], code, design[0], design[1], design[2], **random)
     systems = {name: _system(tables["systems"].table(name), name, code) for name in tables["systems"].values}
     archetypes = []
     for name in tables["occupancies"].values:
@@ -256,10 +257,10 @@ def _numbers(table: Table, needs: dict[str, Need], *also: str) -> list[float]:
 
 
 def _system(table: Table, name: str, code: str) -> System:
-    R, C_d, collapse = _numbers(table, {"R": POSITIVE, "C_d": POSITIVE, "collapse": POSITIVE}, "period")
+    numbers = _numbers(table, {"R": POSITIVE, "C_d": POSITIVE, "collapse": POSITIVE}, "period")
     period = table.text("period") or "other"
     code_period(code, period, height=10.0, storeys=3, s_d1=0.6)  # refuses a system that is not known
-    return System(name, R, C_d, period, collapse)
+    return System(name, numbers[0], numbers[1], period, numbers[2])
 
 
 def _occupancy(table: Table, name: str) -> Occupancy:
@@ -270,7 +271,7 @@ def _occupancy(table: Table, name: str) -> Occupancy:
     for key in contacts.values:
         number = key.replace(".", "", 1).isdigit()
         parts.append((float(key) if number else friction_pair(key).mu_s, contacts.number(key, need=NOT_NEGATIVE)))
-    return Occupancy(name, surveyed_load(table.text("survey")), *loads, tuple(parts))
+    return Occupancy(name, surveyed_load(table.text("survey")), loads[0], loads[1], loads[2], tuple(parts))
 
 
 MOST_STOREYS: Final = 50

@@ -81,7 +81,10 @@ class Answer:
     def ratio(self, quantity: str, fraction: float) -> tuple[float | None, float | None, float | None]:
         """Return real over model of a quantity with a fraction in the model, with its interval; None where rare."""
         known = self.acceleration if quantity == "floor_acceleration" else self.shares[QUANTITIES[quantity]]
-        return (None, None, None) if known.kind == "rare" else known.over_model(fraction)
+        if known.kind == "rare":
+            return None, None, None
+        ratio, low, high = (value if np.isfinite(value) else None for value in known.over_model(fraction))
+        return ratio, low, high
 
     def share_rows(self) -> Iterator[dict[str, Any]]:
         """Yield one row per definition."""
@@ -116,7 +119,7 @@ def answer_of(table: pl.DataFrame, question: Question, *, convergence: bool = Tr
     models, real = gathered(table, "model"), gathered(table, "real")
     shares = _shares(models, real, question) | dict(_of_designs(table, question))
     design = question.level(1.0)
-    acceleration = (runs.at(design, "acceleration") for runs in (models, real))
+    acceleration = models.at(design, "acceleration"), real.at(design, "acceleration")
     rows = []
     for name, (of_buildings, of_goods) in PARTS.items() if convergence else ():
         sizes = of_buildings * question.setting.samples[0], of_goods * question.setting.samples[1]
@@ -129,7 +132,7 @@ def answer_of(table: pl.DataFrame, question: Question, *, convergence: bool = Tr
     return Answer(
         shares,
         _shares(models, gathered(table, "fixed"), question),
-        _share(*acceleration, question),
+        _share(question, *acceleration),
         float(real.at(design, "slides").mean()),
         list(_fragility_rows(models, real, question)),
         rows,
@@ -140,27 +143,31 @@ def _shares(models: Runs, real: Runs, question: Question) -> dict[str, EqualShar
     """Shares by definition, of real buildings and models."""
     design, mce, limit = question.level(1.0), question.level(MCE), question.setting.limit
     drifts = models.at(design), real.at(design)
-    exceeds = tuple(drift > limit for drift in drifts)
+    exceeds = (drifts[0] > limit).astype(np.float64), (drifts[1] > limit).astype(np.float64)
     collapses = models.at(mce, "collapsed"), real.at(mce, "collapsed")
     shears = models.at(design, "base_shear"), real.at(design, "base_shear")
     shares = {
-        "a_mean": _share(*drifts, question),
-        "a_ln": _share(*drifts, question, statistic="ln mean"),
-        "b": _share(*exceeds, question, least=RARE),
-        "c": _share(*collapses, question, least=RARE),
-        "base_shear": _share(*shears, question),
-        "q84": _share(*drifts, question, statistic="quantile"),
+        "a_mean": _share(question, *drifts),
+        "a_ln": _share(question, *drifts, statistic="ln mean"),
+        "b": _share(question, *exceeds, least=RARE),
+        "c": _share(question, *collapses, least=RARE),
+        "base_shear": _share(question, *shears),
+        "q84": _share(question, *drifts, statistic="quantile"),
     }
     for name, quantity, most in (("d", "drift", limit), ("rate_collapse", "collapsed", 0.5)):
-        rates = (_rates(runs, quantity, most, question) for runs in (models, real))
+        rates = _rates(models, quantity, most, question), _rates(real, quantity, most, question)
         is_rare = (real.at(-1, quantity) > most).mean() < RARE
-        shares[name] = _share(*rates, question, least=np.inf if is_rare else -np.inf)
+        shares[name] = _share(question, *rates, least=np.inf if is_rare else -np.inf)
     return shares
 
 
-def _share(models: FloatArray, real: FloatArray, question: Question, **options: Any) -> EqualShare:
+def _share(question: Question, models: FloatArray, real: FloatArray, **options: Any) -> EqualShare:
     """Share of values of models and of real buildings, shape (shares, motions, ...); real ones have one share."""
-    how = {"cluster_of": question.cluster_of, "resamples": question.resamples, "seed": question.setting.seed}
+    how: dict[str, Any] = {
+        "cluster_of": question.cluster_of,
+        "resamples": question.resamples,
+        "seed": question.setting.seed,
+    }
     return equal_share(question.setting.shares, models, real[0], **how, **options)
 
 

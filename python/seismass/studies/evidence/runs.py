@@ -132,7 +132,7 @@ def _sampled(
     motions: int,
     goods: int,
     crossed: dict[str, Any],
-    **shares: float,
+    **shares: Any,
 ) -> Grid:
     """Buildings with goods as they are: strengths of every building, friction and loads of every draw of goods."""
     return Grid.sample(

@@ -58,8 +58,8 @@ class Variant:
 
 def variants(setting: Setting, suites: Sequence[Suite], archetypes: Sequence[Archetype]) -> list[Variant]:
     """Return every archetype with every input at both ends, the archetype as it is first."""
-    first = suites[0]
-    halves = [replace(first, records=part) for part in (first[: len(first) // 2], first[len(first) // 2 :])]
+    first, middle = suites[0], len(suites[0]) // 2
+    halves = [replace(first, records=part) for part in (first.records[:middle], first.records[middle:])]
     rows = []
     for each in archetypes:
         for name, ends in CHANGES.items():

@@ -42,7 +42,7 @@ STEP: Final = 0.05
 """To which round numbers are rounded."""
 RIGHT: Final = (0.8, 1.25)
 """Rate, real over model, between which a rule is right."""
-QUICK: Final = {"levels": (0.5, 1.0, 1.5, 2.25, 3.3), "samples": (2, 2)}
+QUICK: Final[dict[str, Any]] = {"levels": (0.5, 1.0, 1.5, 2.25, 3.3), "samples": (2, 2)}
 """Settings of a quick run."""
 _QUICK_ARCHETYPES: Final = 10
 ROUND: Final = "round numbers"
@@ -402,7 +402,10 @@ def _tables(
         for each in archetypes
         for row in answers[part.name, each].fragility
     ]
-    changes = pl.DataFrame([row for each in archetypes for row in answers["first", each].convergence])
+    changes = pl.DataFrame(
+        [row for each in archetypes for row in answers["first", each].convergence],
+        schema={"sample": pl.String, "definition": pl.String, "change": pl.Float64},
+    )
     convergence = changes.group_by("sample", "definition", maintain_order=True).agg(
         rms_change=(pl.col("change").drop_nans() ** 2).mean().sqrt(), archetypes=pl.len()
     )
@@ -427,7 +430,7 @@ def _round_numbers(shares: pl.DataFrame) -> dict[tuple[str, str], float]:
     both = shares.filter(pl.col("suite") == "first", pl.col("definition").is_in(["a_mean", "d"]))
     means = both.group_by("occupancy", "class", "definition").agg(pl.col("share").mean())
     means = means.group_by("occupancy", "class").agg(pl.col("share").mean())
-    return {(name, kind): round(share / STEP) * STEP for name, kind, share in means.iter_rows()}
+    return {(name, kind): round(share / STEP) * STEP for name, kind, share in means.drop_nulls().iter_rows()}
 
 
 def _factors(shares: pl.DataFrame, present: Mapping[Archetype, float]) -> dict[str, float]:
@@ -437,7 +440,7 @@ def _factors(shares: pl.DataFrame, present: Mapping[Archetype, float]) -> dict[s
         factor=pl.col("share") / pl.col("archetype").replace_strict(over, return_dtype=pl.Float64)
     )
     means = both.group_by("class").agg(pl.col("factor").mean())
-    return {kind: round(value / STEP) * STEP for kind, value in means.iter_rows()}
+    return {kind: round(value / STEP) * STEP for kind, value in means.drop_nulls().iter_rows()}
 
 
 def _fractions(
@@ -453,8 +456,10 @@ def _fractions(
     found |= {f"{number:g} everywhere": number for number in NUMBERS}
     stored = use in ("storage", "archive")
     found |= {f"{number:g} storage, 0.3": number if stored else 0.3 for number in (0.6, 0.8)}
-    found |= {"mean present": present, BY_CLASS: factors[archetype.kind] * present}
-    return found | {ROUND: rounds[archetype.occupancy.name, archetype.kind]}
+    place = archetype.occupancy.name, archetype.kind
+    found |= {"mean present": present}
+    found |= {BY_CLASS: factors[archetype.kind] * present} if archetype.kind in factors else {}
+    return found | ({ROUND: rounds[place]} if place in rounds else {})
 
 
 def _summary(
@@ -480,7 +485,7 @@ def _summary(
             columns[f"lambda_{name}"] = pl.col("lambda").mean()
         summary = summary.join(known.group_by(keys).agg(**columns), on=keys, how="left", maintain_order="left")
     summary = summary.with_columns(
-        round=pl.Series([rounds[name, kind] for name, kind in summary.select(keys).iter_rows()])
+        round=pl.Series([rounds.get((name, kind)) for name, kind in summary.select(keys).iter_rows()], dtype=pl.Float64)
     )
     rates = ratios.filter(pl.col("suite") == "first", pl.col("quantity") == "rate").drop_nulls("real_over_model")
     for rule in (code, *(f"{number:g} everywhere" for number in NUMBERS), ROUND):
