@@ -266,7 +266,7 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_a_recorded_table_agrees_with_an_independent_study(shared: Path) -> None:
-    """36 recorded components, light storage, one storey, R 3.25. Another study of the question, with samples of its own:
+    """36 recorded components, light storage, one storey, R 3.25. Another study of the question, with own samples:
     share of mean drift 0.37 in [0.33, 0.42], of the rate of 2 % 0.33 in [0.26, 0.42] (90 % over stations).
     """
     suite = sm.read_suite(shared / "records" / "fema_p695_far_field")

@@ -103,8 +103,8 @@ def sentences(result: Evidence) -> list[str]:
     third = f"Floors that are always full need, for the rate: {_listed(full)}."
     of_mce = result.tables["fragility"].filter(suite="first", model="real", level=MCE)["collapsed"].to_numpy()
     fourth = (
-        "Not known: weights of the contacts and the scatter of their friction are assumptions; surveys have one row for "
-        "all storage; goods are rigid on floors (no racks), in one direction; they are shear buildings without "
+        "Not known: weights of the contacts and the scatter of their friction are assumptions; surveys have one row "
+        "for all storage; goods are rigid on floors (no racks), in one direction; they are shear buildings without "
         f"columns that continue and collapse under the MCE with a probability of {of_mce.min():.2f} to "
         f"{of_mce.max():.2f}, so that absolute rates are not to be quoted."
     )
