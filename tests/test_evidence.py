@@ -72,7 +72,7 @@ def test_shares_are_those_of_another_time_stepping() -> None:
     models, real = runs.gathered(table, "model"), runs.gathered(table, "real")
     own = setting.designed(archetype)
     building = own.building
-    motions = runs.scaled(suite, setting, own.period)
+    motions = runs.scaled(suite, setting, own.design.period)
     sampled = runs._sampled(archetype, setting, own, 3, 4, {"scale": [1.0]})
     drawn, present = sampled.table(), runs._mean_presence(sampled)
     of_models = runs._attached(archetype, setting, own, 3, present, {"attached": setting.shares}).table()

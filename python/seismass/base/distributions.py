@@ -75,8 +75,6 @@ def gamma(mean: float, deviation: float) -> Distribution:
 
 @dataclass(frozen=True)
 class _Bounded:
-    """A distribution whose larger values are replaced by a bound."""
-
     distribution: Distribution
     most: float
 
@@ -91,13 +89,10 @@ def bounded(distribution: Distribution, most: float) -> Distribution:
 
 @dataclass(frozen=True)
 class _Mixture:
-    """One of several distributions or numbers, each with a probability."""
-
     parts: tuple[Any, ...]
     weights: tuple[float, ...]
 
-    def ppf(self, q: Any) -> Any:
-        """Return quantiles, by bisection between the least and the largest of the parts."""
+    def ppf(self, q: Any) -> Any:  # by bisection between the least and the largest of the parts
         level = np.asarray(q, dtype=np.float64)
         ends = np.array([np.broadcast_to(p if _is_number(p) else p.ppf(level), level.shape) for p in self.parts])
         low, high = ends.min(axis=0), ends.max(axis=0)
@@ -113,19 +108,12 @@ class _Mixture:
 
 
 def mixture(parts: Sequence[Any], weights: Sequence[float]) -> Distribution:
-    """Return a mixture: the friction of goods that are of one of several contacts, each with its scatter.
+    """Return a mixture of frozen distributions of scipy.stats or numbers: the friction of one of several contacts.
 
     Parameters
     ----------
-    parts : sequence of distribution or float
-        Frozen distributions of scipy.stats, or numbers.
-    weights : sequence of float
-        Their probabilities; they are divided by their sum.
-
-    Raises
-    ------
-    InvalidOption
-        There are not as many weights as parts, or a weight is negative.
+    parts, weights
+        The distributions or numbers, and their probabilities, which are divided by their sum.
 
     Examples
     --------

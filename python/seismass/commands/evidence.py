@@ -10,7 +10,13 @@ from typing import Any
 from seismass._kernel import VERSION
 from seismass.commands.answer_output import give_answer
 from seismass.commands.frame import Command, progress
-from seismass.commands.options import add_answer_options, add_records_options, positive_option, read_motions
+from seismass.commands.options import (
+    add_answer_options,
+    add_records_options,
+    numbers_option,
+    positive_option,
+    read_motions,
+)
 from seismass.commands.parser import RUNS
 
 
@@ -20,11 +26,9 @@ def options(parser: argparse.ArgumentParser) -> None:
     what = parser.add_argument_group("archetypes")
     what.add_argument("--archetypes", type=Path, metavar="FILE", help="file of archetypes, .toml or .json (the 29)")
     what.add_argument("--occupancies", metavar="LIST", help="those of the file that are looked at (all)")
-    what.add_argument("--site", type=_site, metavar="SDS:SD1", help="S_DS and S_D1 in g, in place of the file's")
+    what.add_argument("--site", type=_two, metavar="SDS:SD1", help="S_DS and S_D1 in g, in place of the file's")
     what.add_argument("--presence", choices=("jcss", "full"), help="as surveyed (jcss), or all floors full")
-    what.add_argument(
-        "--first-yield", type=_first_yield, metavar="M:SIGMA", help="real first yield over that of the design"
-    )
+    what.add_argument("--first-yield", type=_two, metavar="M:SIGMA", help="real first yield over that of the design")
     add_records_options(parser.add_argument_group("motions, each at levels of the design spectrum at T"))
     asked = parser.add_argument_group("what is asked")
     asked.add_argument(
@@ -113,29 +117,13 @@ def _hazard(args: argparse.Namespace, setting: Any) -> Any:
     return HazardCurve(curve.sa_g / unit, curve.annual_rate, label=f"{curve.label}, Sa({args.hazard_period:g} s)")
 
 
-def _two(text: str, separator: str, need: str) -> tuple[float, float]:
-    try:
-        first, second = (float(part) for part in text.split(separator))
-    except ValueError:
-        first = second = 0.0
-    if not (0.0 < first < float("inf") and 0.0 < second < float("inf")):
-        raise argparse.ArgumentTypeError(f"must be {need}; got {text!r}")
-    return first, second
-
-
-def _site(text: str) -> tuple[float, float]:
-    return _two(text, ":", "S_DS:S_D1, two positive numbers in g")
-
-
-def _first_yield(text: str) -> tuple[float, float]:
-    return _two(text, ":", "MEDIAN:SIGMA, two positive numbers")
+def _two(text: str) -> tuple[float, float]:
+    """Read two positive numbers with a colon between."""
+    return numbers_option(2, above=0.0)(text.replace(":", " "))  # type: ignore[return-value]
 
 
 def _samples(text: str) -> tuple[int, int]:
-    need = "BxG, two whole numbers above zero"
-    buildings, goods = _two(text, "x", need)
-    if not (buildings.is_integer() and goods.is_integer()):
-        raise argparse.ArgumentTypeError(f"must be {need}; got {text!r}")
+    buildings, goods = numbers_option(2, least=1.0)(text.replace("x", " "))
     return int(buildings), int(goods)
 
 

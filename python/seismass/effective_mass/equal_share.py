@@ -14,9 +14,7 @@ from seismass.base.values import FloatArray, as_number, brief, frozen, is_one_of
 from seismass.effective_mass.models import bootstrap_counts, interpolated, is_below, kind_of
 
 ShareStatistic: TypeAlias = Literal["mean", "ln mean", "quantile"]
-"""Mean, exponential of the mean logarithm, or a quantile over motions and samples."""
 ShareKind: TypeAlias = Literal["root", "multiple", "zero", "one", "rare", "flat"]
-"""How a share came about; see `EqualShare`."""
 FLAT: Final = 0.03
 """A statistic that rises by less from no live load to the whole design live load does not determine a share."""
 RARE: Final = 0.02
@@ -30,19 +28,15 @@ class EqualShare:
     Attributes
     ----------
     value : float
-        The smallest share from which on the statistic of the model is not below the real one, linear between shares;
-        NaN where the statistic is rare.
+        The smallest share from which on the model's statistic is not below the real one, linear between shares; NaN
+        where it is rare.
     interval : tuple of float or None
-        Percentile interval of a bootstrap over clusters of motions, real buildings and models drawn together; None with
-        one cluster or where the statistic is rare.
+        Percentile interval of a bootstrap over clusters of motions; None with one cluster or where it is rare.
     kind : {"root", "multiple", "zero", "one", "rare", "flat"}
-        "root": one crossing; "multiple": several, the largest counts; "zero" and "one": the model is above, or below,
-        at all shares; "rare": the statistic of the real buildings is below what the runs can tell; "flat": from no to
-        the whole load the statistic rises by less than 3 %, or falls.
-    real : float
-        Statistic of the real buildings.
-    shares, model : ndarray, shape (shares,)
-        Shares, and the statistic of the models.
+        One crossing; several, the largest counts; the model is above, or below, at all shares; the real statistic is
+        below what the runs can tell; it rises by less than 3 % from no load to the whole design live load.
+    real, shares, model
+        Statistic of the real buildings; shares, and the statistic of the models, shape (shares,).
     """
 
     value: float
@@ -58,9 +52,7 @@ class EqualShare:
     __repr__ = short_repr
 
     def over_model(self, share: float) -> tuple[float, float, float]:
-        """Return the statistic of the real buildings over that of the model at a share, with its interval (NaN without
-        one); infinite where that of the model is zero.
-        """
+        """Return real over model at a share, with its interval (NaN without one); infinite where the model has zero."""
         models = np.array([np.interp(share, self.shares, row) for row in (self.model, *self.model_draws)])
         with np.errstate(divide="ignore", invalid="ignore"):
             ratios = np.append(self.real, self.real_draws) / models
@@ -87,22 +79,17 @@ def equal_share(
     ----------
     shares : array_like, shape (shares,)
         Shares of the models in increasing order.
-    model : array_like, shape (shares, motions, ...)
-        What is looked at, of every run of the models: capped drifts, forces, 0 or 1 for a limit that is exceeded (the
-        statistic is a probability), or such numbers times their part of an annual rate (`risk.stripe_weights`).
-    real : array_like, shape (motions, ...)
-        The same of the real buildings; samples behind the motions may be others than those of the models.
-    statistic : {"mean", "ln mean", "quantile"}, default "mean"
-        What is taken over motions and samples.
-    probability : float, default 0.84
-        Of the quantile.
+    model, real : array_like, shapes (shares, motions, ...) and (motions, ...)
+        What is looked at, of every run: capped drifts, forces, 0 or 1 for a limit that is exceeded (a probability), or
+        these times their part of an annual rate (`risk.stripe_weights`). Samples of both may differ.
+    statistic, probability
+        "mean", "ln mean" or "quantile" over motions and samples; the probability of the quantile.
     cluster_of : ndarray of int, shape (motions,), optional
-        Number of the station or earthquake of each motion, from 0; motions of one are resampled together. By default
-        each motion is its own.
+        Number of the station or earthquake of each motion, from 0, by which motions are resampled; default each alone.
     least : float, optional
         A statistic of the real buildings below it is "rare".
     confidence, resamples, seed
-        Of the bootstrap.
+        Of the bootstrap, real buildings and models drawn together.
 
     Raises
     ------
@@ -118,8 +105,7 @@ def equal_share(
     """
     owner = "equal share"
     if not is_one_of(statistic, get_args(ShareStatistic)):
-        requirement = f"one of {', '.join(get_args(ShareStatistic))}"
-        raise refusal(InvalidOption, "statistic", owner, requirement, brief(statistic))
+        raise refusal(InvalidOption, "statistic", owner, "one of mean, ln mean, quantile", brief(statistic))
     level = as_number(probability, "probability", owner, InvalidOption)
     at, of_model, of_real = (np.asarray(values, dtype=np.float64) for values in (shares, model, real))
     if of_model.shape[:2] != (len(at), len(of_real)) or not (np.diff(at) > 0.0).all():

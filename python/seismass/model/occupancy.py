@@ -107,15 +107,8 @@ class SurveyedLoad:
 
         Parameters
         ----------
-        area : float, default infinite
-            Area of the floor (m2).
-        factor : float, default 1
-            Of all loads; one over a design live load (kPa) gives shares of it.
-
-        Raises
-        ------
-        InvalidOption
-            The area or the factor is not positive.
+        area, factor : float, optional
+            Area of the floor (m2); factor of all loads: one over a design live load (kPa) gives shares of it.
         """
         return gamma(factor * self.mean, factor * self.deviation(area))
 

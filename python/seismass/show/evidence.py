@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import textwrap
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -47,57 +46,43 @@ _MARKS: Final = {
 def _cells(result: Evidence) -> list[list[str]]:
     """The table of the sheet: head, and a row for each occupancy and class."""
     code = result.metadata["codes"][0]
-    stem = f"rate_{code}"
     numbers = [f"{number:g}" for number in NUMBERS]
-    head = ["occupancy, system", "n", "present", "(a)", "(d) [archetypes] {stations}", "V", "(e)", "round"]
-    rows = [[*head, code, f"rate with {code}", *numbers, "round"]]
+    head = ["occupancy, system", "n", "present", "(a)", "(d) [archetypes] {stations}", "V", "(e)", "round", code]
+    rows = [[*head, f"rate with {code}", *numbers, "round"]]
     for row in result.table.iter_rows(named=True):
-        share = (
-            f"{number_text(row['d'])}{_range(row['d_least'], row['d_most'])}"
-            f" {{{number_text(row['d_low'])}-{number_text(row['d_high'])}}}"
-        )
-        rows.append(
-            [
-                f"{row['occupancy']} ({row['live_kpa']:g} kPa), {row['class']}",
-                str(row["archetypes"]),
-                *(number_text(row[name]) for name in ("present", "a_mean")),
-                "-" if row["d"] is None else share,
-                *(number_text(row[name]) for name in ("base_shear", "e_d", "round", "code_fraction")),
-                f"{number_text(row[stem])}{_range(row[f'{stem}_least'], row[f'{stem}_most'])}",
-                *(number_text(row[f"rate_{number}"]) for number in numbers),
-                number_text(row["rate_round_numbers"]),
-            ]
-        )
+        text = {name: number_text(value) for name, value in row.items() if not isinstance(value, str)}
+        share = f"{text['d']} [{text['d_least']}-{text['d_most']}] {{{text['d_low']}-{text['d_high']}}}"
+        ends = f" [{text[f'rate_{code}_least']}-{text[f'rate_{code}_most']}]"
+        cells = [f"{row['occupancy']} ({row['live_kpa']:g} kPa), {row['class']}", str(row["archetypes"])]
+        cells += [text["present"], text["a_mean"], "-" if row["d"] is None else share]
+        cells += [text[name] for name in ("base_shear", "e_d", "round", "code_fraction")]
+        cells += [text[f"rate_{code}"] + (ends if row[f"rate_{code}"] is not None else "")]
+        rows.append([*cells, *(text[f"rate_{number}"] for number in numbers), text["rate_round_numbers"]])
     return rows
-
-
-def _range(least: float | None, most: float | None) -> str:
-    return "" if least is None or most is None else f" [{least:.2f}-{most:.2f}]"
 
 
 def sentences(result: Evidence) -> list[str]:
     """Return four sentences that the numbers make: unsafe and over-safe rows of the code, sliding, full floors, and
     what is not known.
     """
-    table, code = result.table, result.metadata["codes"][0]
-    name, stem = CODE_NAMES[code], f"rate_{code}"
-    rows = [(row, row[stem]) for row in table.iter_rows(named=True) if row[stem] is not None]
-    unsafe = [f"{_who(row)} ({ratio:.2f})" for row, ratio in rows if ratio > _UNSAFE]
-    safe = [f"{_who(row)} ({ratio:.2f})" for row, ratio in rows if ratio < 1.0 / _OVERSAFE]
+    code = result.metadata["codes"][0]
+    rates = result.table.drop_nulls(f"rate_{code}").rename({f"rate_{code}": "rate"})
+    words = pl.format("{}, {} ({})", "occupancy", "class", pl.col("rate").round(2))
+    unsafe, safe = (
+        rates.filter(rows).select(words).to_series().to_list()
+        for rows in (pl.col("rate") > _UNSAFE, pl.col("rate") < 1.0 / _OVERSAFE)
+    )
     first = (
-        f"With the fraction of {name} the annual rate of the drift limit is more than {_UNSAFE:g} times that of the "
-        f"model in {_listed(unsafe)}, and less than 1/{_OVERSAFE:g} of it in {_listed(safe)}."
+        f"With the fraction of {CODE_NAMES[code]} the annual rate of the drift limit is more than {_UNSAFE:g} times "
+        f"that of the model in {_listed(unsafe)}, and less than 1/{_OVERSAFE:g} of it in {_listed(safe)}."
     )
     factors = []
-    for kind, words in WORDS.items():
-        of_kind = result.tables["shares"].filter(
-            pl.col("suite") == "first", pl.col("class") == kind, pl.col("definition").is_in(["a_mean", "d"])
-        )
-        known = of_kind.drop_nulls("lambda")
+    known = result.tables["shares"].filter(suite="first").drop_nulls("lambda")
+    for kind, name in WORDS.items():
         for definition, what in (("d", "rate"), ("a_mean", "drift")):
-            one = known.filter(definition=definition)["lambda"].to_numpy()
+            one = known.filter(pl.col("class") == kind, definition=definition)["lambda"].to_numpy()
             if len(one):
-                factors.append(f"{one.mean():.2f} [{one.min():.2f}-{one.max():.2f}] in {words} ({what})")
+                factors.append(f"{one.mean():.2f} [{one.min():.2f}-{one.max():.2f}] in {name} ({what})")
     second = f"Sliding alone leaves of the share that the same goods would have if fixed: {', '.join(factors)}."
     full = [f"{row['d']:.2f} in {row['archetype']}" for row in result.tables["full"].iter_rows(named=True) if row["d"]]
     third = f"Floors that are always full need, for the rate: {_listed(full)}."
@@ -109,10 +94,6 @@ def sentences(result: Evidence) -> list[str]:
         f"{of_mce.max():.2f}, so that absolute rates are not to be quoted."
     )
     return [first, second, third, fourth]
-
-
-def _who(row: dict[str, Any]) -> str:
-    return f"{row['occupancy']}, {row['class']}"
 
 
 def _listed(items: list[str]) -> str:
@@ -160,28 +141,22 @@ def assumptions(result: Evidence) -> list[str]:
 def evidence_text(result: Evidence) -> str:
     """Return `Evidence.text`."""
     lines = [SYNTHETIC, ""] if result.metadata["synthetic"] else []
-    lines += [
-        f"Share of the design live load that acts as mass: {result.table['archetypes'].sum()} archetypes, "
-        f"{result.metadata['motions'][0]} motions of {result.metadata['suites'][0]}",
-        *text_table(_cells(result)),
-        "",
-    ]
-    wrapped: dict[str, Any] = {"initial_indent": "- ", "subsequent_indent": "  "}
-    for paragraph in sentences(result):
-        lines += textwrap.wrap(paragraph, WIDTH, **wrapped)
-    lines += ["", "Annual rate of the drift limit, real over model, by rule", *(f"  {x}" for x in rule_lines(result))]
-    lines += ["", "Samples: rms change of a share over the archetypes, part of the sample against all of it"]
+    counted = f"{result.table['archetypes'].sum()} archetypes, {_motions(result)}"
+    lines += [f"Share of the design live load that acts as mass: {counted}", *text_table(_cells(result)), ""]
+    lines += [*_bullets(sentences(result)), "", "Annual rate of the drift limit, real over model, by rule"]
+    lines += [*(f"  {line}" for line in rule_lines(result)), ""]
+    lines += ["Samples: rms change of a share over the archetypes, part of the sample against all of it"]
     changes = result.tables["convergence"].filter(pl.col("definition").is_in(["a_mean", "d", "base_shear"]))
-    for name in changes["sample"].unique(maintain_order=True):
-        words = ", ".join(
-            f"{row['definition']} {number_text(row['rms_change'], '.3f')}"
-            for row in changes.filter(sample=name).iter_rows(named=True)
-        )
-        lines.append(f"  {name}: {words}")
-    lines += ["", "Assumptions"]
-    for paragraph in assumptions(result):
-        lines += textwrap.wrap(paragraph, WIDTH, **wrapped)
-    return "\n".join(lines)
+    for rows in changes.partition_by("sample", maintain_order=True):
+        cells = zip(rows["definition"], rows["rms_change"], strict=True)
+        words = ", ".join(f"{key} {number_text(value, '.3f')}" for key, value in cells)
+        lines.append(f"  {rows['sample'][0]}: {words}")
+    return "\n".join([*lines, "", "Assumptions", *_bullets(assumptions(result))])
+
+
+def _bullets(paragraphs: list[str]) -> list[str]:
+    wrap = textwrap.TextWrapper(WIDTH, initial_indent="- ", subsequent_indent="  ")
+    return [line for paragraph in paragraphs for line in wrap.wrap(paragraph)]
 
 
 def evidence_figure(result: Evidence, name: str | None = None) -> Figure:
@@ -310,71 +285,53 @@ def _page(result: Evidence, drawings: dict[str, str]) -> str:
     """The sheets: the table, the figure and the sentences on one side of A4; archetypes and rules behind it."""
     head, *rows = _cells(result)
     names = [f"{name}{' ' * place}" if name in head[:place] else name for place, name in enumerate(head)]
-    frame = pl.DataFrame(rows, schema=names, orient="row")
-    metadata = result.metadata
+    metadata, site = result.metadata, result.metadata["setting"]
     warning = [Markup('<p class="edited"><strong>{}</strong></p>').format(SYNTHETIC)] if metadata["synthetic"] else []
     caption = (
         "Shares of the design live load, mean over the archetypes of a row; [ ] range over archetypes, { } 90 % over "
         "stations; then the annual rate of the drift limit, real over model, with fractions in the model."
     )
-    site = metadata["setting"]
     alt = "For every archetype shares by four definitions, and rates with four fractions."
     sheet = [
         *warning,
-        table_html(frame, caption),
+        table_html(pl.DataFrame(rows, schema=names, orient="row"), caption),
         figure_html(drawings["evidence"], "Shares and rates of every archetype.", alt),
         bullets_html(sentences(result)),
         text_html(" ".join(assumptions(result))),
     ]
-    lead = [Markup('<div class="sheet">{}</div>').format(Markup("\n").join(sheet))]
-    formats = {name: ".3g" for name, kind in result.tables["archetypes"].schema.items() if kind == pl.Float64}
-    archetypes = result.tables["archetypes"].drop("occupancy", "class")
+    designs = result.tables["archetypes"].drop("occupancy", "class")
     sections = [
-        Section(
-            "Archetypes", [table_html(archetypes, "Numbers of the designs, for a check by hand.", formats=formats)]
-        ),
+        Section("Archetypes", [_table(designs, "Numbers of the designs, for a check by hand.")]),
         Section("Rules", [bullets_html(rule_lines(result))]),
-        Section(
-            "Full floors",
-            [
-                table_html(
-                    result.tables["full"],
-                    "Every floor has its design live load.",
-                    formats={name: ".2f" for name, kind in result.tables["full"].schema.items() if kind == pl.Float64},
-                )
-            ],
-        ),
+        Section("Full floors", [_table(result.tables["full"], "Every floor has its design live load.")]),
     ]
     if "tornado" in drawings:
         alt = "Bars: the share of an archetype at both ends of each input."
         sections.append(
             Section("What moves the share", [figure_html(drawings["tornado"], "One input at a time.", alt)])
         )
-    subtitle = (
-        f"S_DS {site['sds']:g} g, S_D1 {site['sd1']:g} g; {metadata['motions'][0]} motions of {metadata['suites'][0]}"
-    )
+    subtitle = f"S_DS {site['sds']:g} g, S_D1 {site['sd1']:g} g; {_motions(result)}"
+    lead = [Markup('<div class="sheet">{}</div>').format(Markup("\n").join(sheet))]
     return page_html("How much of the design live load acts as mass", sections, subtitle=subtitle, lead=lead)
+
+
+def _table(table: pl.DataFrame, caption: str) -> Markup:
+    return table_html(table, caption, formats=dict.fromkeys(table.select(pl.col(pl.Float64)).columns, ".3g"))
+
+
+def _motions(result: Evidence) -> str:
+    return f"{result.metadata['motions'][0]} motions of {result.metadata['suites'][0]}"
 
 
 def write_evidence(result: Evidence, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
     """Return the files of `Evidence.write`."""
-    out = as_path(folder, "evidence", InvalidOption)
     documents = {"evidence.txt": result.text + "\n", "evidence.json": result.to_json() + "\n"}
-    drawn: dict[str, Figure] = {}
+    drawn = result.figures() if figures else {}
     if figures:
-        drawn = result.figures()
         drawings = figure_svgs(drawn)
-        documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
-        documents[PAGE] = _page(result, drawings)
-    ours = set(_ours())
-    return write_folder(
-        out, tables=result.tables, documents=documents, figures=drawn, kinds=("png",), earlier=ours.__contains__
-    )
-
-
-def _ours() -> Iterator[str]:
-    """Files of an earlier call that are removed where this one does not write them."""
-    yield PAGE
-    for name in ("evidence", "tornado"):
-        yield from (f"{name}.{kind}" for kind in ("png", "svg"))
-    yield from (f"vary.{kind}" for kind in ("parquet", "csv"))
+        documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()} | {PAGE: _page(result, drawings)}
+    ours = {PAGE, *(f"{name}.{kind}" for name in ("evidence", "tornado") for kind in ("png", "svg"))}
+    ours |= {f"vary.{kind}" for kind in ("parquet", "csv")}
+    how: dict[str, Any] = {"figures": drawn, "kinds": ("png",), "earlier": ours.__contains__}
+    out = as_path(folder, "evidence", InvalidOption)
+    return write_folder(out, tables=result.tables, documents=documents, **how)

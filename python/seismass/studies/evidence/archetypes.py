@@ -22,10 +22,7 @@ from seismass.motions.spectra import TargetSpectrum
 STIFF_BELOW: Final = 4.0
 """R below which an archetype is of the class "stiff", else "ductile"."""
 _RANDOM: Final = {
-    "first_yield": POSITIVE,
-    "first_yield_sigma": POSITIVE,
-    "second_slope": POSITIVE,
-    "second_slope_sigma": POSITIVE,
+    **dict.fromkeys(("first_yield", "first_yield_sigma", "second_slope", "second_slope_sigma"), POSITIVE),
     "overstrength": Need("a number from 1", lambda number: 1.0 <= number < np.inf),
     "friction_sigma": POSITIVE,
     "kinetic": SHARE,
@@ -59,17 +56,7 @@ class System:
 
 @dataclass(frozen=True)
 class Archetype:
-    """A building that a code designs: an occupancy, a number of storeys and a system.
-
-    Attributes
-    ----------
-    occupancy : Occupancy
-        Loads and goods.
-    storeys : int
-        Number of storeys; the roof of two and more carries no goods.
-    system : System
-        R, C_d, periods, collapse drift.
-    """
+    """A building that a code designs: an occupancy, a number of storeys, a system. Roofs of two and more are bare."""
 
     occupancy: Occupancy
     storeys: int
@@ -88,30 +75,22 @@ class Archetype:
 
 @dataclass(frozen=True)
 class Setting:
-    """Site, code and what varies at random; see the comments of `example_file`.
+    """Site, code and what varies at random, as the comments of `example_file` say, and what may be changed beside.
 
     Attributes
     ----------
-    friction_factor, presence_factor : float
-        Of all friction coefficients, and of all loads present.
-    friction : float or None
-        One coefficient for all goods, in place of their contacts.
-    scatter : bool
-        False: every floor has the mean load of the surveys.
-    full : bool
-        True: every floor has its design live load.
-    p_delta : bool
-        Second-order effects.
+    friction_factor, presence_factor, friction : float
+        Of all friction coefficients, and of all loads present; one coefficient for all goods, in place of contacts.
+    scatter, full, p_delta : bool
+        Loads scatter, or are the mean of the surveys; every floor has its design live load; second-order effects.
     design_fraction : float or None
         Fraction of the live load in all designs, in place of the code's.
     samples : tuple of int
         Buildings of each motion, and loads of each building.
     levels, shares : tuple of float
         Intensities over that of the design, 1 and 1.5 (MCE) among them; shares of the models.
-    limit : float
-        Drift ratio whose rate is asked for.
-    seed : int
-        Of the samples.
+    limit, seed
+        Drift ratio whose rate is asked for; seed of the samples.
     """
 
     sds: float
@@ -158,21 +137,11 @@ class Setting:
         dead, live = (np.full(storeys, 1e3 * load) for load in (occupancy.dead_load, occupancy.live_load))
         if storeys > 1:
             dead[-1], live[-1] = 1e3 * self.roof_dead_load, 0.0
-        return designed_building(
-            dead,
-            live,
-            self.target,
-            system.R,
-            heights=occupancy.height,
-            fraction=self.fraction(occupancy) if fraction is None else fraction,
-            area=self.area,
-            system=system.period,
-            deflection=system.C_d,
-            drift_limit=self.drift_limit,
-            code_id=self.code,
-            p_delta=self.p_delta,
-            overstrength=self.overstrength,
-        )
+        how: dict[str, Any] = {"fraction": self.fraction(occupancy) if fraction is None else fraction}
+        how |= {"heights": occupancy.height, "area": self.area, "code_id": self.code, "drift_limit": self.drift_limit}
+        how |= {"system": system.period, "deflection": system.C_d, "overstrength": self.overstrength}
+        how |= {} if self.p_delta else {"gravity_load": None}
+        return designed_building(dead, live, self.target, system.R, **how)
 
     def presence(self, occupancy: Occupancy) -> Distribution | float:
         """Share of the design live load that is on a floor."""
@@ -198,17 +167,7 @@ def example_file() -> Path:
 
 
 def read_archetypes(path: str | os.PathLike[str] | None = None) -> tuple[tuple[Archetype, ...], Setting]:
-    """Read archetypes, their site and what varies at random.
-
-    Parameters
-    ----------
-    path : path-like, optional
-        A file of TOML or JSON; by default that of the 29 archetypes that ship with the package.
-
-    Returns
-    -------
-    tuple of Archetype, Setting
-        The archetypes in the order of the file, and what they share.
+    """Read archetypes, and the site and what varies at random, from a file (TOML or JSON; default `example_file`).
 
     Raises
     ------
@@ -225,10 +184,8 @@ def read_archetypes(path: str | os.PathLike[str] | None = None) -> tuple[tuple[A
     top = load_table(Path(path) if path is not None else example_file(), "archetypes", InvalidOption)
     top.known(("site", "design", "random", "systems", "occupancies"))
     tables = {name: _table(top, name) for name in ("site", "design", "random", "systems", "occupancies")}
-    site = _numbers(tables["site"], {"sds_g": POSITIVE, "sd1_g": POSITIVE})
-    design = _numbers(
-        tables["design"], {"drift_limit": POSITIVE, "area_m2": POSITIVE, "roof_dead_load_kpa": POSITIVE}, "code"
-    )
+    site = _positive(tables["site"], "sds_g", "sd1_g")
+    design = _positive(tables["design"], "drift_limit", "area_m2", "roof_dead_load_kpa", also=("code",))
     code = tables["design"].text("code") or "asce7-10"
     random: dict[str, Any] = dict(zip(_RANDOM, _numbers(tables["random"], _RANDOM), strict=True))
     setting = Setting(site[0], site[1], code, design[0], design[1], design[2], **random)
@@ -251,21 +208,25 @@ def _table(top: Table, name: str) -> Table:
     return top.table(name)
 
 
-def _numbers(table: Table, needs: dict[str, Need], *also: str) -> list[float]:
+def _positive(table: Table, *keys: str, also: tuple[str, ...] = ()) -> list[float]:
+    return _numbers(table, dict.fromkeys(keys, POSITIVE), also)
+
+
+def _numbers(table: Table, needs: dict[str, Need], also: tuple[str, ...] = ()) -> list[float]:
     table.known((*needs, *also))
     return [table.number(key, need=need) for key, need in needs.items()]
 
 
 def _system(table: Table, name: str, code: str) -> System:
-    numbers = _numbers(table, {"R": POSITIVE, "C_d": POSITIVE, "collapse": POSITIVE}, "period")
+    numbers = _positive(table, "R", "C_d", "collapse", also=("period",))
     period = table.text("period") or "other"
     code_period(code, period, height=10.0, storeys=3, s_d1=0.6)  # refuses a system that is not known
     return System(name, numbers[0], numbers[1], period, numbers[2])
 
 
 def _occupancy(table: Table, name: str) -> Occupancy:
-    needs = {"dead_load_kpa": POSITIVE, "live_load_kpa": POSITIVE, "height_m": POSITIVE}
-    loads = _numbers(table, needs, "survey", "contacts", "buildings")
+    also = ("survey", "contacts", "buildings")
+    loads = _positive(table, "dead_load_kpa", "live_load_kpa", "height_m", also=also)
     contacts = _table(table, "contacts")
     parts = []
     for key in contacts.values:

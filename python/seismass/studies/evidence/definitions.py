@@ -57,18 +57,8 @@ class Question:
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """What the runs of an archetype say.
-
-    Attributes
-    ----------
-    shares, fixed : dict of str to EqualShare
-        Shares by definition: of goods as they are, and where none slide.
-    acceleration : EqualShare
-        That of the mean of the largest floor acceleration, for its ratios.
-    slides : float
-        Share of real runs at the design level in which goods slide.
-    fragility, convergence : list of dict
-        Rows of those tables.
+    """What the runs of an archetype say: shares by definition, of goods as they are and where none slide; that of floor
+    acceleration, for its ratios; the part of real runs at the design level in which goods slide; rows of two tables.
     """
 
     shares: dict[str, EqualShare]
@@ -78,31 +68,22 @@ class Answer:
     fragility: list[dict[str, Any]]
     convergence: list[dict[str, Any]]
 
-    def ratio(self, quantity: str, fraction: float) -> tuple[float | None, float | None, float | None]:
+    def ratio(self, quantity: str, fraction: float) -> dict[str, float | None]:
         """Return real over model of a quantity with a fraction in the model, with its interval; None where rare."""
         known = self.acceleration if quantity == "floor_acceleration" else self.shares[QUANTITIES[quantity]]
-        if known.kind == "rare":
-            return None, None, None
-        ratio, low, high = (value if np.isfinite(value) else None for value in known.over_model(fraction))
-        return ratio, low, high
+        values = (np.nan,) * 3 if known.kind == "rare" else known.over_model(fraction)
+        names = ("real_over_model", "low", "high")
+        return {name: value if np.isfinite(value) else None for name, value in zip(names, values, strict=True)}
 
     def share_rows(self) -> Iterator[dict[str, Any]]:
         """Yield one row per definition."""
         for name, share in self.shares.items():
             fixed = self.fixed.get(name)
             without = None if fixed is None or fixed.kind == "rare" else fixed.value
-            value = None if share.kind == "rare" else share.value
-            low, high = share.interval or (None, None)
-            yield {
-                "definition": name,
-                "share": value,
-                "low": low,
-                "high": high,
-                "kind": share.kind,
-                "real_value": -share.real if name.startswith("e_") else share.real,
-                "without_friction": without,
-                "lambda": value / without if value is not None and without else None,
-            }
+            value, (low, high) = None if share.kind == "rare" else share.value, share.interval or (None, None)
+            row = {"definition": name, "share": value, "low": low, "high": high, "kind": share.kind}
+            row |= {"real_value": abs(share.real), "without_friction": without}
+            yield row | {"lambda": value / without if value is not None and without else None}
 
 
 PARTS: Final = {
@@ -194,13 +175,7 @@ def _fragility_rows(models: Runs, real: Runs, question: Question) -> Iterator[di
         for place, share in enumerate(runs.shares):
             for number, level in enumerate(question.setting.levels):
                 drift = runs.at(number)[place]
-                yield {
-                    "model": model,
-                    "share": None if model == "real" else float(share),
-                    "level": level,
-                    "runs": drift.size,
-                    "exceeds": float((drift > question.setting.limit).mean()),
-                    "collapsed": float(runs.at(number, "collapsed")[place].mean()),
-                    "mean_drift": float(drift.mean()),
-                    "ln_mean_drift": float(np.log(drift).mean()),
-                }
+                row = {"model": model, "share": None if model == "real" else float(share), "level": level}
+                row |= {"runs": drift.size, "exceeds": float((drift > question.setting.limit).mean())}
+                row |= {"collapsed": float(runs.at(number, "collapsed")[place].mean())}
+                yield row | {"mean_drift": float(drift.mean()), "ln_mean_drift": float(np.log(drift).mean())}

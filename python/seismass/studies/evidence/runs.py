@@ -76,7 +76,7 @@ def solved_archetype(
     load in the model or in the design, `motion`, `building`, `goods`, `level`, and the quantities.
     """
     design = setting.designed(archetype)
-    motions = scaled(suite, setting, design.period)
+    motions = scaled(suite, setting, design.design.period)
     levels, goods = {"scale": setting.levels}, setting.samples[1]
     real = _sampled(archetype, setting, design, len(motions), goods, levels)
     present = _mean_presence(real)
@@ -112,17 +112,20 @@ def scaled(suite: Suite | Sequence[Record], setting: Setting, period: float) -> 
     return [record.motion for record in scaled_motions(suite, factors)]
 
 
-def _common(archetype: Archetype, setting: Setting, design: DesignedBuilding) -> dict[str, Any]:
-    return {
-        "building": design.building,
-        "method": "sobol",
-        "seed": setting.seed,
-        "strength": lognormal(setting.first_yield, setting.first_yield_sigma),
-        "second_slope": lognormal(setting.second_slope, setting.second_slope_sigma),
-        "floors": list(design.floors),
-        "mass_ratio": [design.load_ratio.tolist()],
-        "collapse_drift": archetype.system.collapse * archetype.occupancy.height,
-    }
+def _sample(
+    archetype: Archetype, setting: Setting, design: DesignedBuilding, samples: tuple[int, int, int], **options: Any
+) -> Grid:
+    return Grid.sample(
+        design.building,
+        samples=samples,
+        seed=setting.seed,
+        strength=lognormal(setting.first_yield, setting.first_yield_sigma),
+        second_slope=lognormal(setting.second_slope, setting.second_slope_sigma),
+        floors=list(design.floors),
+        mass_ratio=[design.load_ratio.tolist()],
+        collapse_drift=archetype.system.collapse * archetype.occupancy.height,
+        **options,
+    )
 
 
 def _sampled(
@@ -135,16 +138,10 @@ def _sampled(
     **shares: Any,
 ) -> Grid:
     """Buildings with goods as they are: strengths of every building, friction and loads of every draw of goods."""
-    return Grid.sample(
-        **_common(archetype, setting, design),
-        samples=(motions, setting.samples[0], goods),
-        occupancy=[setting.presence(archetype.occupancy)] * len(design.floors),
-        correlation=setting.correlation,
-        mu=setting.friction_of(archetype.occupancy),
-        mu_k_over_mu_s=setting.kinetic,
-        crossed=crossed,
-        **shares,
-    )
+    presence = [setting.presence(archetype.occupancy)] * len(design.floors)
+    how = {"occupancy": presence, "correlation": setting.correlation, "mu": setting.friction_of(archetype.occupancy)}
+    how |= {"mu_k_over_mu_s": setting.kinetic, "crossed": crossed}
+    return _sample(archetype, setting, design, (motions, setting.samples[0], goods), **how, **shares)
 
 
 def _attached(
@@ -156,15 +153,8 @@ def _attached(
     crossed: dict[str, Any],
 ) -> Grid:
     """Models of the same buildings: shares of the design live load as mass, the weight of what is present."""
-    return Grid.sample(
-        **_common(archetype, setting, design),
-        samples=(motions, setting.samples[0], 1),
-        occupancy=present,
-        mu=1.0,
-        sliding=0.0,
-        attached_of="design",
-        crossed=crossed,
-    )
+    how: dict[str, Any] = {"occupancy": present, "mu": 1.0, "sliding": 0.0, "attached_of": "design", "crossed": crossed}
+    return _sample(archetype, setting, design, (motions, setting.samples[0], 1), **how)
 
 
 def _mean_presence(grid: Grid) -> float:
@@ -187,7 +177,7 @@ def _peaks(
         places[name], number = number % size, number // size
     return pl.DataFrame(
         {
-            "model": pl.Series([model] * len(table), dtype=pl.Categorical).cast(pl.String),
+            "model": [model] * len(table),
             "share": np.asarray(shares)[places["share"]],
             "motion": (number + 1).astype(np.uint16),
             **{name: (places[name] + 1).astype(np.uint16) for name in ("building", "goods", "level")},

@@ -16,12 +16,12 @@ from seismass import _kernel
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
-from seismass.base.values import as_count, brief, content_hash, refusal, same_content, short_repr
+from seismass.base.values import brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import view
 from seismass.effective_mass.runs import Stages
 from seismass.media.result import Result, finite_values
 from seismass.model.codes import code_fraction
-from seismass.motions.records import Suite
+from seismass.motions.records import Suite, builtin_suite
 from seismass.runs.simulate import instruction_set
 from seismass.studies.evidence.archetypes import Archetype, Setting, read_archetypes
 from seismass.studies.evidence.definitions import MCE, QUANTITIES, Answer, Question, answer_of
@@ -35,28 +35,20 @@ if TYPE_CHECKING:
 SCHEMA_VERSION: Final = 1
 """Version of the tables; see docs/evidence.md."""
 CODES: Final = ("asce7-10", "nbc", "nzs1170.5", "ec8")
-"""Codes whose fractions are compared by default."""
 NUMBERS: Final = (0.3, 0.6, 0.8, 1.0)
-"""Plain fractions that are compared with those of codes."""
+"""Codes, and plain fractions, that are compared."""
 STEP: Final = 0.05
 """To which round numbers are rounded."""
 RIGHT: Final = (0.8, 1.25)
 """Rate, real over model, between which a rule is right."""
 QUICK: Final[dict[str, Any]] = {"levels": (0.5, 1.0, 1.5, 2.25, 3.3), "samples": (2, 2)}
-"""Settings of a quick run."""
 _QUICK_ARCHETYPES: Final = 10
 ROUND: Final = "round numbers"
 BY_CLASS: Final = "present x factor of the class"
 
 
 def default_hazard(slope: float = 2.5) -> HazardCurve:
-    """Return an illustrative hazard of no site: 1/2475 a year at the MCE, where it has a slope that grows upwards.
-
-    Parameters
-    ----------
-    slope : float, default 2.5
-        k at the MCE.
-    """
+    """Return an illustrative hazard of no site: 1/2475 a year at the MCE, where it has a slope that grows upwards."""
     ratio = np.geomspace(0.05, 8.0, 60)
     x = np.log(ratio / MCE)
     return HazardCurve(ratio, np.exp(-slope * x - 0.1 * x * x) / 2475.0, label=f"illustrative, k = {slope:g}")
@@ -69,15 +61,16 @@ class Evidence(Result):
     Attributes
     ----------
     tables : dict of str to polars.DataFrame
-        By name; docs/evidence.md has their columns: archetypes, shares, codes, fragility, convergence, summary, rules,
-        full (floors with their whole design live load), vary (where it was asked for).
+        By name; docs/evidence.md has their columns.
+    table : polars.DataFrame
+        The summary by occupancy and class of system, which the sheet shows.
     metadata : dict
-        Versions, digest, suites, hazard, setting, assumptions.
+        Versions, digest, suites, hazard, setting.
     """
 
     document: ClassVar[str] = "evidence"
 
-    tables_by_name: dict[str, pl.DataFrame] = field(repr=False)
+    frames: dict[str, pl.DataFrame] = field(repr=False)
     metadata: dict[str, Any] = field(repr=False)
 
     __repr__ = short_repr
@@ -87,68 +80,44 @@ class Evidence(Result):
     @property
     def tables(self) -> dict[str, pl.DataFrame]:
         """The tables by name."""
-        return self.tables_by_name
+        return self.frames
 
     @property
     def table(self) -> pl.DataFrame:
-        """The summary by occupancy and class of system, which the sheet shows."""
-        return self.tables_by_name["summary"]
+        """The summary by occupancy and class of system."""
+        return self.frames["summary"]
 
     @property
     @view
     def text(self) -> str:
-        """The table of the sheet and the sentences that the numbers make."""
+        """The table of the sheet, sentences that its numbers make, rules and assumptions."""
         raise NotImplementedError
 
     @property
     def figure_names(self) -> tuple[str, ...]:
         """evidence; tornado, where inputs were varied."""
-        return ("evidence", *(("tornado",) if "vary" in self.tables_by_name else ()))
+        return ("evidence", *(("tornado",) if "vary" in self.tables else ()))
 
     @view
     def plot(self, name: str | None = None) -> Figure:
-        """Return a figure: shares of every archetype with rates of fractions, or what moves them.
-
-        Parameters
-        ----------
-        name : str, optional
-            "evidence" or "tornado".
-
-        Raises
-        ------
-        InvalidOption
-            There is no such figure.
-        """
+        """Return a figure of `figure_names`: shares of archetypes with rates of fractions, or what moves shares."""
         raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
         """Return metadata, summary and rules as plain values."""
-        names = ("summary", "rules", "full")
-        found: dict[str, Any] = finite_values(
-            {**self.metadata, **{name: self.tables_by_name[name].to_dicts() for name in names}}
-        )
-        return found
+        tables = {name: self.tables[name].to_dicts() for name in ("summary", "rules", "full")}
+        document: dict[str, Any] = finite_values({**self.metadata, **tables})
+        return document
 
     @view
     def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
-        """Write tables (Parquet and CSV), evidence.json, figures (SVG) and the sheets, report.html, to a folder.
-
-        Returns
-        -------
-        list of Path
-            The files, in the order written.
-
-        Raises
-        ------
-        OSError
-            A file cannot be written; then none is changed.
-        """
+        """Write tables (Parquet and CSV), text, JSON, figures and the sheets, report.html; return the files."""
         raise NotImplementedError
 
 
 @dataclass(frozen=True)
 class _Part:
-    """A suite with the setting in which archetypes are solved under it; `name` is that of its kept parts."""
+    """A suite with the setting in which archetypes are solved under it; `name` begins those of its kept parts."""
 
     name: str
     suite: Suite
@@ -175,22 +144,19 @@ def evidence(
 
     Parameters
     ----------
-    archetypes : path or sequence of Archetype, optional
-        A file as `example_file` has it, or archetypes of `read_archetypes`; by default the 29 of that file.
+    archetypes, setting : optional
+        A file as `example_file` has it, or archetypes and setting of `read_archetypes`; by default the 29 of that file.
     suite : Suite, optional
         Motions, unscaled; by default the built-in forty, which are synthetic.
-    setting : Setting, optional
-        Site, code, distributions, samples; by default those of the file.
     hazard : HazardCurve, optional
         Annual rate of the intensity over that of the design; by default `default_hazard`, of no site.
     codes : iterable of str
         Codes whose fractions are compared.
     other : Suite, optional
         Motions on which the round numbers are judged that were found on `suite`; half as many buildings, no redesign.
-    quick : bool, default False
-        Ten archetypes, five levels, two buildings and two loads a motion: some tens of seconds, for a first look.
-    vary : bool, default False
-        Change one input at a time on one archetype of each occupancy and class: half an hour.
+    quick, vary : bool, default False
+        Ten archetypes with few samples and levels, for a first look; one input at a time changed, too, on one archetype
+        of each occupancy and class.
     resamples : int, default 300
         Of the bootstrap over stations.
     threads, progress, store
@@ -198,16 +164,14 @@ def evidence(
 
     Raises
     ------
-    InvalidOption, InvalidMotion
-        An argument is not what it must be.
-    SimulationError
-        A run could not be carried to its end.
+    InvalidOption, InvalidMotion, SimulationError
+        An argument is not what it must be; a run could not be carried to its end.
 
     Notes
     -----
-    A real building has the strengths and slopes of its sample and goods with the presence and the friction of theirs.
-    Its models have the same strengths, shares of the design live load as mass, and the weight of the mean load present.
-    Each motion is scaled to levels of the design spectrum at the period of the design.
+    A real building has the strengths of its sample, and goods with the presence and the friction of theirs. Its models
+    have the same strengths, shares of the design live load as mass, and the weight of the mean load. Motions are
+    scaled to levels of the design spectrum at the period of the design.
 
     Examples
     --------
@@ -218,100 +182,55 @@ def evidence(
     >>> found.table["occupancy"].to_list(), found.metadata["synthetic"]
     (['light storage'], True)
     """
-    if archetypes is None or isinstance(archetypes, str | os.PathLike):
-        listed, of_file = read_archetypes(archetypes)
-    else:
-        listed, of_file = tuple(archetypes), read_archetypes()[1]
+    is_file = archetypes is None or isinstance(archetypes, str | os.PathLike)
+    listed, of_file = read_archetypes(archetypes if is_file else None)  # type: ignore[arg-type]
+    listed = listed if is_file else tuple(archetypes)  # type: ignore[arg-type]
     if not listed or not all(isinstance(item, Archetype) for item in listed):
         raise refusal(InvalidOption, "archetypes", "evidence", "a file, or a list of Archetypes", brief(archetypes))
-    chosen = of_file if setting is None else setting
+    chosen = setting or of_file
     if quick:
         chosen = replace(chosen, **QUICK)
         listed = listed[:: -(-len(listed) // _QUICK_ARCHETYPES)]
-    motions = _checked_suite(suite, other)
-    curve = default_hazard() if hazard is None else hazard
-    parts = [_Part("first", motions[0], chosen, True)]
-    if len(motions) > 1:
-        fewer = replace(chosen, samples=(max(chosen.samples[0] // 2, 1), chosen.samples[1]))
-        parts.append(_Part("other", motions[1], fewer, False))
-    full = _Part("full", motions[0], replace(chosen, full=True, samples=parts[-1].setting.samples), False)
-    typical = typical_archetypes(listed)
+    suites = [builtin_suite("forty") if suite is None else suite, *([] if other is None else [other])]
+    if not all(len(each) for each in suites):
+        raise refusal(InvalidMotion, "suite", "evidence", "a Suite of records", brief(suite))
+    curve = hazard or default_hazard()
+    parts = [_Part("first", suites[0], chosen, True)]
+    fewer = replace(chosen, samples=(max(chosen.samples[0] // 2, 1), chosen.samples[1]))
+    parts += [_Part("other", each, fewer, False) for each in suites[1:]]
+    full, typical = _Part("full", suites[0], replace(fewer, full=True), False), typical_archetypes(listed)
     work = [(part, each) for part in parts for each in listed] + [(full, each) for each in typical]
-    varied = variants(chosen, motions, typical) if vary else []
+    varied = variants(fewer, suites, typical) if vary else []
     everything = [*work, *((_Part("vary", each.suite, each.setting, False), each.archetype) for each in varied)]
     total = sum(runs_of(each, part.setting, len(part.suite), part.redesign) for part, each in everything)
     stages = Stages(progress, total)
-    count = as_count(resamples, "resamples", "evidence", InvalidOption, least=1)
 
-    def solved(part: _Part, archetype: Archetype, at: HazardCurve = curve) -> Answer:
+    def solved(part: _Part, archetype: Archetype, slope: float | None = None) -> Answer:
         runs = runs_of(archetype, part.setting, len(part.suite), part.redesign)
-        tell = stages.next(runs)  # of what is kept, too
+        tell = stages.next(runs) or (lambda *_: None)
         digest = inputs_digest(part.setting, archetype, part.redesign, motion_contents(part.suite))[:24]
-        table = store.of(
-            f"{part.name}-{digest}",
-            lambda: solved_archetype(
-                archetype,
-                part.setting,
-                part.suite,
-                redesign=part.redesign,
-                threads=threads,
-                report=None if tell is None else lambda done: tell(done, runs),
-            ),
-        )
-        if tell is not None:
-            tell(runs, runs)
-        question = Question(part.setting, at, stations(part.suite), count)
+        how: dict[str, Any] = {"redesign": part.redesign, "threads": threads, "report": lambda done: tell(done, runs)}
+        make = lambda: solved_archetype(archetype, part.setting, part.suite, **how)  # noqa: E731
+        table = store.of(f"{part.name}-{digest}", make)
+        tell(runs, runs)
+        at = curve if slope is None else default_hazard(slope)
+        question = Question(part.setting, at, stations(part.suite), resamples)
         return answer_of(table, question, convergence=part.name == "first")
 
     answers = {(part.name, each): solved(part, each) for part, each in work}
     tables = _tables(listed, parts, answers, tuple(codes))
-    tables["full"] = _full_table(typical, full, answers)
+    tables["full"] = _full_table(typical, answers)
     if vary:
-        tables["vary"] = pl.DataFrame(
-            [
-                each.row(solved(part, each.archetype, curve if each.slope is None else default_hazard(each.slope)))
-                for each, (part, _) in zip(varied, everything[len(work) :], strict=True)
-            ],
-            schema_overrides={"a_mean": pl.Float64, "d": pl.Float64},
-            infer_schema_length=None,
-        )
-    synthetic = [sum(record.synthetic for record in each) for each in motions]
-    return Evidence(
-        tables,
-        {
-            "schema_version": SCHEMA_VERSION,
-            "package_version": _kernel.VERSION,
-            "instructions": instruction_set(),
-            "inputs_sha256": evidence_digest(listed, chosen, motions, curve),
-            "suites": [each.name for each in motions],
-            "motions": [len(each) for each in motions],
-            "stations": [int(stations(each).max()) + 1 for each in motions],
-            "synthetic": synthetic[0] > 0,
-            "hazard": curve.parameters,
-            "setting": asdict(chosen),
-            "quick": quick,
-            "runs": total,
-            "codes": list(codes),
-        },
-    )
-
-
-def _checked_suite(suite: Any, other: Any) -> list[Suite]:
-    from seismass.motions.records import builtin_suite
-
-    suites = [builtin_suite("forty") if suite is None else suite, *([] if other is None else [other])]
-    for each in suites:
-        if not isinstance(each, Suite) or not len(each):
-            raise refusal(InvalidMotion, "suite", "evidence", "a Suite of records", brief(each))
-    return suites
-
-
-def evidence_digest(
-    archetypes: Sequence[Archetype], setting: Setting, suites: Sequence[Suite], hazard: HazardCurve
-) -> str:
-    """Return the digest of all that the numbers depend on."""
-    contents = [motion_contents(suite) for suite in suites]
-    return inputs_digest(SCHEMA_VERSION, list(archetypes), setting, contents, hazard.parameters)
+        pairs = zip(varied, everything[len(work) :], strict=True)
+        rows = [each.row(solved(part, each.archetype, each.slope)) for each, (part, _) in pairs]
+        tables["vary"] = pl.DataFrame(rows, schema_overrides={"a_mean": pl.Float64, "d": pl.Float64})
+    contents = [motion_contents(each) for each in suites]
+    metadata = {"schema_version": SCHEMA_VERSION, "package_version": _kernel.VERSION, "instructions": instruction_set()}
+    metadata["inputs_sha256"] = inputs_digest(SCHEMA_VERSION, list(listed), chosen, contents, curve.parameters)
+    metadata |= {"suites": [each.name for each in suites], "motions": [len(each) for each in suites]}
+    metadata |= {"stations": [int(stations(each).max()) + 1 for each in suites], "hazard": curve.parameters}
+    metadata |= {"synthetic": any(record.synthetic for record in suites[0]), "setting": asdict(chosen)}
+    return Evidence(tables, metadata | {"quick": quick, "runs": total, "codes": list(codes)})
 
 
 def stations(suite: Suite) -> NDArray[np.int64]:
@@ -327,10 +246,10 @@ def stations(suite: Suite) -> NDArray[np.int64]:
 def typical_archetypes(archetypes: Sequence[Archetype]) -> list[Archetype]:
     """Return one archetype of each occupancy and class: the middle one by storeys."""
     groups: dict[tuple[str, str], list[Archetype]] = {}
-    for each in archetypes:
+    for each in sorted(archetypes, key=lambda each: (each.storeys, each.system.R)):
         groups.setdefault((each.occupancy.name, each.kind), []).append(each)
-    ordered = (sorted(group, key=lambda each: (each.storeys, each.system.R)) for group in groups.values())
-    return [group[len(group) // 2] for group in ordered]
+    middle = {group[len(group) // 2] for group in groups.values()}
+    return [each for each in archetypes if each in middle]
 
 
 def _labels(archetype: Archetype) -> dict[str, Any]:
@@ -339,30 +258,17 @@ def _labels(archetype: Archetype) -> dict[str, Any]:
 
 def _design_row(archetype: Archetype, setting: Setting, present: float, slides: float) -> dict[str, Any]:
     """Numbers of a design, for a check by hand."""
-    design = setting.designed(archetype)
-    occupancy = archetype.occupancy
-    return {
-        **_labels(archetype),
-        "storeys": archetype.storeys,
-        "R": archetype.system.R,
-        "system": archetype.system.period,
-        "height_m": archetype.storeys * occupancy.height,
-        "T_a_s": design.approximate_period,
-        "T_design_s": design.period,
-        "T_bare_s": float(design.building.periods[0]),
-        "C_s": design.design.coefficient,
-        "W_kn": 1e-3 * design.design.weight,
-        "V_design_kn": 1e-3 * float(design.design.base_shear or 0.0),
-        "k_1_kn_m": 1e-3 * float(design.building.stiffness[0]),
-        "first_yield": setting.first_yield,
-        "drift_design": float((design.checks["design_drift"] / occupancy.height).max()),  # type: ignore[arg-type]
-        "theta": float(design.checks["theta"].max()),  # type: ignore[arg-type]
-        "design_fraction": setting.fraction(occupancy),
-        "dead_kpa": occupancy.dead_load,
-        "live_kpa": occupancy.live_load,
-        "present": present,
-        "slides_at_design": slides,
-    }
+    found, occupancy, system = setting.designed(archetype), archetype.occupancy, archetype.system
+    design, building = found.design, found.building
+    drift = np.max(found.checks["design_drift"].to_numpy()) / occupancy.height
+    row = _labels(archetype) | {"storeys": archetype.storeys, "R": system.R, "system": system.period}
+    row |= {"height_m": archetype.storeys * occupancy.height, "T_a_s": found.approximate_period}
+    row |= {"T_design_s": design.period, "T_bare_s": float(building.periods[0]), "C_s": design.coefficient}
+    row |= {"W_kn": 1e-3 * design.weight, "V_design_kn": 1e-3 * float(design.yield_shear[0])}
+    row |= {"k_1_kn_m": 1e-3 * float(building.stiffness[0]), "first_yield": setting.first_yield}
+    row |= {"drift_design": float(drift), "theta": float(found.checks["theta"].to_numpy().max())}
+    row |= {"design_fraction": setting.fraction(occupancy), "dead_kpa": occupancy.dead_load}
+    return row | {"live_kpa": occupancy.live_load, "present": present, "slides_at_design": slides}
 
 
 def _tables(
@@ -374,136 +280,107 @@ def _tables(
     first, setting = parts[0], parts[0].setting
     present = {each: present_share(each, setting, len(first.suite)) for each in archetypes}
     designs = [_design_row(each, setting, present[each], answers["first", each].slides) for each in archetypes]
-    rows = [
-        {"suite": part.name, **_labels(each), **row}
-        for part in parts
-        for each in archetypes
-        for row in answers[part.name, each].share_rows()
+    places = [
+        ({"suite": part.name, **_labels(each)}, each, answers[part.name, each]) for part in parts for each in archetypes
     ]
-    numbers = {"share": pl.Float64, "low": pl.Float64, "high": pl.Float64, "lambda": pl.Float64}
-    shares = pl.DataFrame(rows, schema_overrides={**numbers, "without_friction": pl.Float64}, infer_schema_length=None)
-    rounds = _round_numbers(shares)
-    factors = _factors(shares, present)
-    rules = {each: _fractions(each, codes, rounds, factors, present[each]) for each in archetypes}
-    ratios = []
-    for part in parts:
-        for each in archetypes:
-            answer = answers[part.name, each]
-            for code, fraction in rules[each].items():
-                for quantity in (*QUANTITIES, "floor_acceleration"):
-                    ratio, low, high = answer.ratio(quantity, fraction)
-                    ends = {"real_over_model": ratio, "low": low, "high": high}
-                    labels = {"suite": part.name, **_labels(each), "code_id": code, "fraction": fraction}
-                    ratios.append({**labels, "quantity": quantity, **ends})
-    of_codes = pl.DataFrame(ratios, schema_overrides=dict.fromkeys(("real_over_model", "low", "high"), pl.Float64))
-    fragility = [
-        {"suite": part.name, **_labels(each), **row}
-        for part in parts
-        for each in archetypes
-        for row in answers[part.name, each].fragility
-    ]
-    changes = pl.DataFrame(
-        [row for each in archetypes for row in answers["first", each].convergence],
-        schema={"sample": pl.String, "definition": pl.String, "change": pl.Float64},
+    shares = _frame([labels | row for labels, _, answer in places for row in answer.share_rows()])
+    rules = _Rules.of(shares, present, codes)
+    ratios = _frame(
+        [
+            labels | {"code_id": code, "fraction": fraction, "quantity": quantity} | answer.ratio(quantity, fraction)
+            for labels, each, answer in places
+            for code, fraction in rules.fractions(each).items()
+            for quantity in (*QUANTITIES, "floor_acceleration")
+        ]
     )
-    convergence = changes.group_by("sample", "definition", maintain_order=True).agg(
-        rms_change=(pl.col("change").drop_nans() ** 2).mean().sqrt(), archetypes=pl.len()
-    )
+    changes = [row for each in archetypes for row in answers["first", each].convergence]
+    schema: Any = {"sample": pl.String, "definition": pl.String, "change": pl.Float64}
+    of_samples = pl.DataFrame(changes, schema=schema).group_by("sample", "definition", maintain_order=True)
     table = pl.DataFrame(designs)
     return {
-        "summary": _summary(table, shares, of_codes, rounds, codes[0]),
-        "rules": _rules(of_codes),
+        "summary": _summary(table, shares, ratios, rules, codes[0]),
+        "rules": _judged(ratios),
         "archetypes": table,
         "shares": shares,
-        "codes": of_codes,
-        "fragility": pl.DataFrame(fragility, infer_schema_length=None),
-        "convergence": convergence,
+        "codes": ratios,
+        "fragility": _frame([labels | row for labels, _, answer in places for row in answer.fragility]),
+        "convergence": of_samples.agg(rms_change=(pl.col("change").drop_nans() ** 2).mean().sqrt()),
     }
 
 
-def _values(shares: pl.DataFrame, definition: str) -> pl.DataFrame:
-    return shares.filter(pl.col("suite") == "first", pl.col("definition") == definition)
+def _frame(rows: list[dict[str, Any]]) -> pl.DataFrame:
+    """Rows whose first may be null where others have numbers."""
+    frame = pl.DataFrame(rows, infer_schema_length=None)
+    return frame.with_columns(pl.col(pl.Null).cast(pl.Float64))
 
 
-def _round_numbers(shares: pl.DataFrame) -> dict[tuple[str, str], float]:
-    """Mean of (a) and (d) of each occupancy and class, to the next step."""
-    both = shares.filter(pl.col("suite") == "first", pl.col("definition").is_in(["a_mean", "d"]))
-    means = both.group_by("occupancy", "class", "definition").agg(pl.col("share").mean())
-    means = means.group_by("occupancy", "class").agg(pl.col("share").mean())
-    return {(name, kind): round(share / STEP) * STEP for name, kind, share in means.drop_nulls().iter_rows()}
+@dataclass(frozen=True)
+class _Rules:
+    """Fractions of codes and of rules that the shares of the first suite make: round numbers by occupancy and class,
+    factors of the mean load present by class, both means of (a) and (d) to the next step.
+    """
 
+    codes: tuple[str, ...]
+    present: Mapping[Archetype, float]
+    rounds: dict[tuple[str, str], float]
+    factors: dict[str, float]
 
-def _factors(shares: pl.DataFrame, present: Mapping[Archetype, float]) -> dict[str, float]:
-    """Mean of (a) and (d) over the mean load present, by class of system, to the next step."""
-    over = {each.name: value for each, value in present.items()}
-    both = shares.filter(pl.col("suite") == "first", pl.col("definition").is_in(["a_mean", "d"])).with_columns(
-        factor=pl.col("share") / pl.col("archetype").replace_strict(over, return_dtype=pl.Float64)
-    )
-    means = both.group_by("class").agg(pl.col("factor").mean())
-    return {kind: round(value / STEP) * STEP for kind, value in means.drop_nulls().iter_rows()}
+    @classmethod
+    def of(cls, shares: pl.DataFrame, present: Mapping[Archetype, float], codes: tuple[str, ...]) -> _Rules:
+        """Return those of a table of shares."""
+        over = {each.name: value for each, value in present.items()}
+        both = shares.filter(pl.col("definition").is_in(["a_mean", "d"]), suite="first").drop_nulls("share")
+        both = both.with_columns(
+            factor=pl.col("share") / pl.col("archetype").replace_strict(over, return_dtype=pl.Float64)
+        )
+        means = both.group_by("occupancy", "class", "definition").agg(pl.col("share").mean())
+        means = means.group_by("occupancy", "class").agg(pl.col("share").mean())
+        rounds = {(name, kind): round(share / STEP) * STEP for name, kind, share in means.iter_rows()}
+        by_class = both.group_by("class").agg(pl.col("factor").mean())
+        return cls(codes, present, rounds, {kind: round(value / STEP) * STEP for kind, value in by_class.iter_rows()})
 
-
-def _fractions(
-    archetype: Archetype,
-    codes: tuple[str, ...],
-    rounds: Mapping[tuple[str, str], float],
-    factors: Mapping[str, float],
-    present: float,
-) -> dict[str, float]:
-    """Fractions of the design live load by the name of the code or rule."""
-    use = archetype.occupancy.survey.use
-    found = {code: code_fraction(code, use).fraction for code in codes}
-    found |= {f"{number:g} everywhere": number for number in NUMBERS}
-    stored = use in ("storage", "archive")
-    found |= {f"{number:g} storage, 0.3": number if stored else 0.3 for number in (0.6, 0.8)}
-    place = archetype.occupancy.name, archetype.kind
-    found |= {"mean present": present}
-    found |= {BY_CLASS: factors[archetype.kind] * present} if archetype.kind in factors else {}
-    return found | ({ROUND: rounds[place]} if place in rounds else {})
+    def fractions(self, archetype: Archetype) -> dict[str, float]:
+        """Fractions of the design live load by the name of the code or rule."""
+        use, kind, present = archetype.occupancy.survey.use, archetype.kind, self.present[archetype]
+        fractions = {code: code_fraction(code, use).fraction for code in self.codes}
+        fractions |= {f"{number:g} everywhere": number for number in NUMBERS}
+        stored = use in ("storage", "archive")
+        fractions |= {f"{number:g} storage, 0.3": number if stored else 0.3 for number in (0.6, 0.8)}
+        fractions |= {"mean present": present, BY_CLASS: self.factors.get(kind, np.nan) * present}
+        fractions |= {ROUND: self.rounds.get((archetype.occupancy.name, kind), np.nan)}
+        return {name: value for name, value in fractions.items() if np.isfinite(value)}
 
 
 def _summary(
-    designs: pl.DataFrame,
-    shares: pl.DataFrame,
-    ratios: pl.DataFrame,
-    rounds: Mapping[tuple[str, str], float],
-    code: str,
+    designs: pl.DataFrame, shares: pl.DataFrame, ratios: pl.DataFrame, rules: _Rules, code: str
 ) -> pl.DataFrame:
     """One row per occupancy and class: what the sheet shows."""
-    keys = ["occupancy", "class"]
-    summary = designs.group_by(keys, maintain_order=True).agg(
-        archetypes=pl.len(), live_kpa=pl.col("live_kpa").first(), present=pl.col("present").mean()
-    )
+    keys, share, ratio = ["occupancy", "class"], pl.col("share"), pl.col("real_over_model")
+    loads = {"archetypes": pl.len(), "live_kpa": pl.col("live_kpa").first(), "present": pl.col("present").mean()}
+    summary = designs.group_by(keys, maintain_order=True).agg(**loads)
+    joined = []
     for name in ("a_mean", "d", "base_shear", "e_d", "b", "c"):
-        known = _values(shares, name)
-        columns: dict[str, pl.Expr] = {name: pl.col("share").mean()}
+        columns = {name: share.mean(), f"lambda_{name}": pl.col("lambda").mean()}
         if name == "d":
-            ends = ("least", pl.col("share").min()), ("most", pl.col("share").max())
-            of_stations = ("low", pl.col("low").mean()), ("high", pl.col("high").mean())
-            columns |= {f"d_{end}": value for end, value in (*ends, *of_stations)}
-        if name in ("a_mean", "d"):
-            columns[f"lambda_{name}"] = pl.col("lambda").mean()
-        summary = summary.join(known.group_by(keys).agg(**columns), on=keys, how="left", maintain_order="left")
-    summary = summary.with_columns(
-        round=pl.Series([rounds.get((name, kind)) for name, kind in summary.select(keys).iter_rows()], dtype=pl.Float64)
-    )
-    rates = ratios.filter(pl.col("suite") == "first", pl.col("quantity") == "rate").drop_nulls("real_over_model")
+            columns |= {"d_least": share.min(), "d_most": share.max()}
+            columns |= {"d_low": pl.col("low").mean(), "d_high": pl.col("high").mean()}
+        joined.append(shares.filter(suite="first", definition=name).group_by(keys).agg(**columns))
+    rates = ratios.filter(suite="first", quantity="rate").drop_nulls("real_over_model")
     for rule in (code, *(f"{number:g} everywhere" for number in NUMBERS), ROUND):
         stem = "rate_" + rule.removesuffix(" everywhere").replace(" ", "_")
-        of_rule = rates.filter(pl.col("code_id") == rule).group_by(keys)
-        ratio = pl.col("real_over_model")
         columns = {stem: ratio.log().mean().exp()}
         if rule == code:
             columns |= {"code_fraction": pl.col("fraction").first()}
             columns |= {f"{stem}_least": ratio.min(), f"{stem}_most": ratio.max()}
-        summary = summary.join(of_rule.agg(**columns), on=keys, how="left", maintain_order="left")
-    return summary
+        joined.append(rates.filter(code_id=rule).group_by(keys).agg(**columns))
+    for each in joined:
+        summary = summary.join(each, on=keys, how="left", maintain_order="left")
+    rounds = [rules.rounds.get((name, kind)) for name, kind in summary.select(keys).iter_rows()]
+    return summary.with_columns(round=pl.Series(rounds, dtype=pl.Float64))
 
 
-def _rules(ratios: pl.DataFrame) -> pl.DataFrame:
-    """One row per suite, rule and quantity: geometric mean, range and scatter of real over model, and how many are
-    right.
-    """
+def _judged(ratios: pl.DataFrame) -> pl.DataFrame:
+    """One row per suite, rule and quantity: mean, range and scatter of real over model, and how many are right."""
     ratio = pl.col("real_over_model")
     known = ratios.filter(pl.col("quantity").is_in(["rate", "drift"])).drop_nulls("real_over_model")
     return known.group_by("suite", "code_id", "quantity", maintain_order=True).agg(
@@ -517,15 +394,14 @@ def _rules(ratios: pl.DataFrame) -> pl.DataFrame:
     )
 
 
-def _full_table(
-    archetypes: Sequence[Archetype], part: _Part, answers: Mapping[tuple[str, Archetype], Answer]
-) -> pl.DataFrame:
+def _full_table(archetypes: Sequence[Archetype], answers: Mapping[tuple[str, Archetype], Answer]) -> pl.DataFrame:
     """One row per archetype whose floors have their whole design live load: shares, and rates with fractions."""
     rows = []
     for each in archetypes:
-        answer = answers[part.name, each]
-        values = {name: answer.shares[name] for name in ("a_mean", "d")}
-        shares = {name: None if share.kind == "rare" else share.value for name, share in values.items()}
-        ratios = {f"rate_{number:g}": answer.ratio("rate", number)[0] for number in (0.25, *NUMBERS)}
-        rows.append({**_labels(each), **shares, **ratios})
-    return pl.DataFrame(rows, schema_overrides=dict.fromkeys(("a_mean", "d"), pl.Float64))
+        answer = answers["full", each]
+        shares = {
+            row["definition"]: row["share"] for row in answer.share_rows() if row["definition"] in ("a_mean", "d")
+        }
+        rates = {f"rate_{number:g}": answer.ratio("rate", number)["real_over_model"] for number in (0.25, *NUMBERS)}
+        rows.append(_labels(each) | shares | rates)
+    return _frame(rows)

@@ -124,32 +124,7 @@ def capacity_rates(capacities: ArrayLike, hazard: HazardCurve) -> RateParts:
 
 
 def stripe_weights(levels: ArrayLike, hazard: HazardCurve) -> FloatArray:
-    """Return the weight of the probability at each stripe in an annual rate: the rate is their sum of products.
-
-    Parameters
-    ----------
-    levels : array_like, shape (stripes,)
-        Intensities at which probabilities are known, increasing, in the unit of the curve.
-    hazard : HazardCurve
-        Annual rate of the intensity; it goes on by its end slopes.
-
-    Returns
-    -------
-    ndarray, shape (stripes,)
-        Annual rates (1/year).
-
-    Raises
-    ------
-    InvalidOption
-        The levels are not positive and increasing, or the hazard is no curve.
-
-    Notes
-    -----
-    The probability is linear in the logarithm of the intensity between stripes, zero at half of the lowest one, and
-    constant above the highest one: an assumption that matters where the first or last stripes carry much. By parts the
-    rate is the sum over the intervals of the increase of the probability times the mean of the hazard over the
-    logarithm, in closed form on the power laws of the curve.
-    """
+    """Return the weights of probabilities at stripes whose sum is an annual rate (1/year); see `stripe_rates`."""
     x = as_array(levels, "levels", OWNER, InvalidOption)
     if not len(x) or not (x > 0.0).all() or not (np.diff(x) > 0.0).all():
         raise refusal(InvalidOption, "levels", OWNER, "positive and increasing", brief(x.tolist()))
@@ -165,24 +140,27 @@ def stripe_weights(levels: ArrayLike, hazard: HazardCurve) -> FloatArray:
 
 
 def stripe_rates(levels: ArrayLike, probability: ArrayLike, hazard: HazardCurve) -> FloatArray:
-    """Return annual rates of probabilities at stripes; see `stripe_weights`.
+    """Return annual rates (1/year) of probabilities at stripes, of the shape behind the stripes.
 
     Parameters
     ----------
-    levels, hazard
-        As for `stripe_weights`.
+    levels : array_like, shape (stripes,)
+        Intensities, increasing, in the unit of the curve.
     probability : array_like, shape (stripes, ...)
-        Probability of exceeding a limit at each level.
-
-    Returns
-    -------
-    ndarray
-        Rates (1/year), of the shape behind the stripes.
+        Probability of exceeding a limit at each of them.
+    hazard : HazardCurve
+        Annual rate of the intensity; it goes on by its end slopes.
 
     Raises
     ------
     InvalidOption
-        As for `stripe_weights`, or there are not as many probabilities as levels.
+        An argument is not what it must be.
+
+    Notes
+    -----
+    The probability is linear in the logarithm of the intensity between stripes, zero at half of the lowest and constant
+    above the highest one: assumptions that matter where these stripes carry much. By parts the rate is the sum of the
+    increases of the probability times the mean hazard over their interval, in closed form on the curve's power laws.
 
     Examples
     --------
