@@ -17,14 +17,15 @@ RAISE = "raise the number in the same commit and say in CHANGELOG.md which featu
 
 # Ceilings are the present numbers: lower them where less is left. "top" holds the files beside the folders.
 LINES = """
-assessment 6714   base 1756   commands 4086   design 3671   design/scaling 1119   effective_mass 3073   media 1605
-model 2963   motions 382   motions/matching 1478   motions/pulses 1053   motions/records 3998
-motions/records/formats 3853   motions/records/synthetic 1150   motions/scaling 810   motions/spectra 1814   runs 3338
-runs/grid 1574   show 3133   show/animation 1518   show/assessment 2107   show/explore 289   show/plots 1836
-show/study 2022   studies 8   studies/campaign 1605   studies/fragility 3172   studies/risk 1594   studies/slip 1776
-studies/study 1783   studies/validation 1227   top 85
+assessment 6714   base 1838   commands 4236   design 3879   design/scaling 1119   effective_mass 3222   media 1605
+model 2974   motions 382   motions/matching 1478   motions/pulses 1053   motions/records 3998
+motions/records/formats 3853   motions/records/synthetic 1150   motions/scaling 810   motions/spectra 1814
+runs 3338   runs/grid 1713   show 3473   show/animation 1518   show/assessment 2107   show/explore 289
+show/plots 1836   show/study 2022   studies 8   studies/campaign 1605   studies/evidence 1147
+studies/fragility 3172   studies/risk 1657   studies/slip 1776   studies/study 1783   studies/validation 1227
+top 85
 """
-FILES, SMALL_FILES, SMALL, LONGEST = 254, 7, 60, 600  # small: fewer than 60 lines, without __init__.py
+FILES, SMALL_FILES, SMALL, LONGEST = 264, 7, 60, 600  # small: fewer than 60 lines, without __init__.py
 DOCSTRING = 3  # lines of what no user can reach
 KERNEL_RUNS = """
 effective_mass/runs.py motions/spectra/inelastic.py runs/batch.py runs/batch_tables.py runs/simulate.py

@@ -2,7 +2,7 @@
 
 from .answer import effective_mass, effective_mass_of_design
 from .design_map import EffectiveMassMap, EffectiveMassParameters, effective_mass_map
-from .equal_share import EqualShare, equal_share
+from .share import EqualShare, equal_share
 from .estimate import ByHand
 from .live_load import LiveLoadUncertainty, live_load_uncertainty
 from .models import attached_scene

@@ -22,7 +22,7 @@ from seismass.base.errors import InvalidOption
 from seismass.base.statistics import DRIFT_CAP, few_collapses
 from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import view
-from seismass.effective_mass.equal_share import equal_share
+from seismass.effective_mass.share import equal_share
 from seismass.effective_mass.models import (
     SAME_DAMPING,
     ModelDamping,

@@ -11,7 +11,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass.base.values import FloatArray
-from seismass.effective_mass.equal_share import RARE, EqualShare, equal_share
+from seismass.effective_mass.share import RARE, EqualShare, equal_share
 from seismass.studies.evidence.archetypes import Setting
 from seismass.studies.evidence.runs import Runs, gathered
 from seismass.studies.risk.annual_rate import stripe_weights
