@@ -10,11 +10,13 @@ from .effective_mass import (
     EffectiveMass,
     EffectiveMassMap,
     EffectiveMassParameters,
+    EqualShare,
     LiveLoadUncertainty,
     attached_scene,
     effective_mass,
     effective_mass_map,
     effective_mass_of_design,
+    equal_share,
     live_load_uncertainty,
 )
 from .model import codes, friction, occupancy
@@ -49,7 +51,7 @@ from .runs import (
 )
 from .show import animation, explore, plots
 from .show.animation import Animation, animate
-from .studies import campaign, fragility, risk, slip, study, validation
+from .studies import campaign, evidence, fragility, risk, slip, study, validation
 
 __version__: str
 
@@ -62,6 +64,7 @@ __all__ = [
     "EffectiveMass",
     "EffectiveMassMap",
     "EffectiveMassParameters",
+    "EqualShare",
     "Grid",
     "LiveLoadUncertainty",
     "Motion",
@@ -94,7 +97,9 @@ __all__ = [
     "effective_mass",
     "effective_mass_map",
     "effective_mass_of_design",
+    "equal_share",
     "errors",
+    "evidence",
     "explore",
     "fragility",
     "friction",

@@ -104,6 +104,7 @@ COMMANDS: Final = {
     "match": ("match", "match records to a target spectrum"),
     "pulse": ("pulse", "velocity pulses of near-fault records"),
     "map": ("effective_map", "the effective fraction of live load for many buildings: chart and rules"),
+    "evidence": ("evidence", "the table by which a code changes its fraction of the live load"),
     "campaign": ("campaign", "a study of any size: axes or samples times motions, into a folder that resumes"),
     "run": ("run", "solve one scene file"),
     "animate": ("animate", "animate a scene file or a building file"),
@@ -117,7 +118,7 @@ COMMANDS: Final = {
 GROUPS: Final = {
     "my building": ("new", "building", "slip", "fragility", "risk", "explore"),
     "motions": ("records", "spectrum", "target", "scale", "match", "pulse"),
-    "research": ("map", "campaign", "run", "animate"),
+    "research": ("map", "evidence", "campaign", "run", "animate"),
     "the paper": ("study", "validate", "report"),
     "shell": ("completion",),
 }

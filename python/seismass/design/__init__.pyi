@@ -1,6 +1,7 @@
 """Names of the module, imported when they are first used; `__init__.py` reads them here."""
 
 from . import scaling
+from .archetype import DesignedBuilding, designed_building
 from .code_design import CodeDesign, DesignEntry, design_by_code
 from .lateral_force import (
     DISTRIBUTION_CODES,
@@ -64,6 +65,7 @@ __all__ = [
     "Combination",
     "DesignDemand",
     "DesignEntry",
+    "DesignedBuilding",
     "DistributionRule",
     "DriftLimit",
     "FloorUse",
@@ -80,6 +82,7 @@ __all__ = [
     "code_period",
     "combined_modes",
     "design_by_code",
+    "designed_building",
     "distribution_table",
     "drift_limit",
     "drift_limit_table",

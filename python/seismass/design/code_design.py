@@ -1,25 +1,28 @@
-"""The strengths that a code asks for: weight, period, base shear, and modal storey shears scaled to it."""
+"""The strengths that a code asks for: weight, period, base shear, and storey shears of modes or of lateral forces."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Final, Literal, TypeAlias, get_args
 
 import numpy as np
 import polars as pl
+from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, content_hash, frozen, same_content, short_repr
+from seismass.base.values import FloatArray, brief, content_hash, frozen, is_one_of, refusal, same_content, short_repr
 from seismass.base.views import Card
-from seismass.design.lateral_force import seismic_response_coefficient
+from seismass.design.lateral_force import equivalent_lateral_forces, seismic_response_coefficient
 from seismass.design.modes import Combination, SpectrumAnalysis, response_spectrum_analysis
 from seismass.design.periods import PERIOD_CODES, code_period
 from seismass.design.rules import APPLIED, CodeRule, rule_of
 from seismass.model.codes import CODE_NAMES
 from seismass.motions.spectra import TargetSpectrum
 
+Procedure: TypeAlias = Literal["modal", "lateral-force"]
+"""How storey shears follow from a base shear."""
 LONGEST_PERIOD: Final = 10.0
 """Period (s) up to which the largest ordinate of a spectrum without S_DS is looked for."""
 LEAST_PERIOD_NZS: Final = 0.4
@@ -74,7 +77,7 @@ class CodeDesign(Card):
     base_shear : float or None
         V = C_s W (N).
     modal_shear : float or None
-        Base shear of the modes (N), reduced by R and with I, before it was scaled.
+        Base shear of the modes (N), reduced by R and with I, before it was scaled; None by lateral forces.
     scale : float
         What the modal shears were scaled up by to reach the share of V that the code asks for.
     yield_shear : ndarray, shape (storeys,)
@@ -146,8 +149,11 @@ def design_by_code(
     stiffness_matrix: FloatArray | None = None,
     combination: Combination = "srss",
     damping: float = 0.05,
+    procedure: Procedure = "modal",
+    heights: ArrayLike | None = None,
 ) -> CodeDesign:
-    """Return the strengths that a code asks for: modal storey shears by R and I, scaled to the code's base shear.
+    """Return the strengths that a code asks for: storey shears of modes by R and I, scaled to the code's base shear, or
+    those of equivalent lateral forces.
 
     Parameters
     ----------
@@ -169,11 +175,15 @@ def design_by_code(
         Mapped spectral acceleration at 1 s (g), for ASCE 7.
     stiffness_matrix, combination, damping
         As for `response_spectrum_analysis`.
+    procedure : {"modal", "lateral-force"}, default "modal"
+        Modal response spectrum analysis, or equivalent lateral forces of V over height.
+    heights : array_like, optional
+        Storey heights (m), needed for lateral forces.
 
     Raises
     ------
     InvalidScene, InvalidOption
-        An argument is out of its range.
+        An argument is out of its range, or the code's lateral forces are not known here.
 
     Notes
     -----
@@ -189,6 +199,9 @@ def design_by_code(
     >>> round(float(found.yield_shear[0] / found.base_shear), 12), found.coefficient
     (1.0, 0.25)
     """
+    if not is_one_of(procedure, get_args(Procedure)):
+        requirement = f"one of {', '.join(get_args(Procedure))}"
+        raise refusal(InvalidOption, "procedure", "design", requirement, brief(procedure))
     made = _Design(code_id)
     weight = STANDARD_GRAVITY * float(mass.sum())
     options: dict[str, Any] = {"stiffness_matrix": stiffness_matrix, "combination": combination, "damping": damping}
@@ -224,7 +237,31 @@ def design_by_code(
     if coefficient is not None and base_shear is not None:
         made.add("C_s", coefficient, rule=form)
         made.add("V", base_shear, "N", form, "C_s W")
+    if procedure == "lateral-force":
+        return _by_lateral_forces(made, mass, heights, weight, period, coefficient)
     return _scaled(made, analysis, factor, weight, period, coefficient, base_shear)
+
+
+def _by_lateral_forces(
+    made: _Design,
+    mass: FloatArray,
+    heights: ArrayLike | None,
+    weight: float,
+    period: float,
+    coefficient: float | None,
+) -> CodeDesign:
+    """The design with the storey shears of equivalent lateral forces."""
+    if coefficient is None or heights is None:
+        missing = "heights" if heights is None else "base shear"
+        raise refusal(InvalidOption, missing, "design by lateral forces", "known", "none")
+    forces = equivalent_lateral_forces(
+        STANDARD_GRAVITY * mass, heights, coefficient * weight, period, code_id=made.code_id
+    )
+    rule = forces.rule
+    for number, value in enumerate(forces.shear, start=1):
+        made.entries.append(DesignEntry("V_y", number, float(value), "N", rule.clause, rule.status, "first yield"))
+    shears = (forces.base_shear, None, 1.0, forces.shear)
+    return CodeDesign(made.code_id, weight, period, coefficient, *shears, tuple(made.entries), tuple(made.missing))
 
 
 def _scaled(

@@ -32,9 +32,9 @@ from seismass.effective_mass.models import (
     check_loaded,
     interpolated,
     over_records,
-    resampled,
 )
 from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
+from seismass.effective_mass.share import equal_share
 from seismass.media.result import Result, finite_values
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
@@ -317,19 +317,11 @@ def _equal_expected(
     shares: FloatArray, model: Peaks, sliding: Peaks, motions: NamedMotions, seed: int
 ) -> tuple[float, tuple[float, float] | None]:
     """Share whose model has the expected drift over samples and motions, and its bootstrap interval."""
-    by_record = sliding.largest.mean(axis=0)[None, :]
-    drift = over_records(model.largest, "mean")[None, :]
-    expected = np.full_like(drift, over_records(by_record, "mean")[0])
     if not few_collapses(int(sliding.collapsed.sum()), sliding.collapsed.size):
         return float("nan"), None
-    share = float(interpolated(shares, drift, expected)[0])
-    if motions.clusters < 2:
-        return share, None
-    drawn = resampled(
-        model.largest, by_record, statistic="mean", cluster_of=motions.cluster_of, resamples=RESAMPLES, seed=seed
-    )
-    low, high = np.percentile(interpolated(shares, *drawn), [5.0, 95.0])
-    return share, (float(low), float(high))
+    how: dict[str, Any] = {"cluster_of": motions.cluster_of, "resamples": RESAMPLES, "seed": seed}
+    found = equal_share(shares, model.largest, sliding.largest.T, **how)
+    return found.value, found.interval
 
 
 def _tornado(frictions: FloatArray, present: FloatArray, effective: FloatArray) -> pl.DataFrame:

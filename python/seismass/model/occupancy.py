@@ -11,6 +11,7 @@ from typing import Final
 
 import polars as pl
 
+from seismass.base.distributions import Distribution, gamma
 from seismass.base.errors import InvalidOption
 from seismass.base.files import stored_rows
 from seismass.base.values import as_number, brief, is_one_of, known_id, refusal
@@ -100,6 +101,16 @@ class SurveyedLoad:
             raise refusal(InvalidOption, "area", "surveyed load", "positive (m2)", brief(area))
         averaged = min(1.0, self.reference_area / size)
         return math.sqrt(self.floor_deviation**2 + self.point_deviation**2 * averaged)
+
+    def distribution(self, area: float = math.inf, factor: float = 1.0) -> Distribution:
+        """Return the distribution of the mean load of a floor (kPa): a gamma distribution, as JCSS has it.
+
+        Parameters
+        ----------
+        area, factor : float, optional
+            Area of the floor (m2); factor of all loads: one over a design live load (kPa) gives shares of it.
+        """
+        return gamma(factor * self.mean, factor * self.deviation(area))
 
 
 _LOADS: Final = ("mean", "floor_deviation", "point_deviation", "reference_area", "design_load")

@@ -35,13 +35,14 @@ class Column(Generic[_T]):
         return values
 
 
+MOST_OF_DESIGN: Final = 2.0
+"""Largest share of the design live load that is attached: surveys find more than that load on some floors."""
 _RANGES: Final[dict[str, tuple[type[SeismassError], str, Callable[[FloatArray], NDArray[np.bool_]]]]] = {
     "period": (InvalidScene, "a positive number", lambda v: np.isfinite(v) & (v > 0.0)),
     "strength": (InvalidScene, "a positive number", lambda v: np.isfinite(v) & (v > 0.0)),
     "R": (InvalidScene, "a positive number", lambda v: np.isfinite(v) & (v > 0.0)),
     **{name: (InvalidScene, field.requirement, field.accepts) for name, field in SHAPE_FIELDS.items()},
-    "occupancy": (InvalidScene, "a number of at least 0", lambda v: np.isfinite(v) & (v >= 0.0)),
-    "attached": (InvalidScene, "between 0 and 1", lambda v: (v >= 0.0) & (v <= 1.0)),
+    "attached": (InvalidScene, "between 0 and 2", lambda v: (v >= 0.0) & (v <= MOST_OF_DESIGN)),
     "sliding": (InvalidScene, "between 0 and 1", lambda v: (v >= 0.0) & (v <= 1.0)),
     "scale": (InvalidMotion, "a finite number", np.isfinite),
 }
@@ -157,13 +158,23 @@ def block_values(blocks: int, mass_ratio: Any, mu: Any, mu_s: Any, mu_k: Any) ->
 
 
 def share_values(
-    attached: Any, sliding: Any, occupancy: Any, mass_ratio: Any, *, of_design: bool
+    attached: Any, sliding: Any, occupancy: Any, mass_ratio: Any, *, blocks: int, of_design: bool
 ) -> dict[str, FloatArray]:
     """Return shares of the live load; of what is present no more than all is attached or slides."""
     for name, value in (("occupancy", occupancy), ("attached", attached), ("sliding", sliding)):
         if value is not None and mass_ratio is None:
             raise refusal(InvalidScene, name, "grid", "left out where mass_ratio is", brief(value))
-    values = number_values({"occupancy": occupancy, "attached": attached, "sliding": sliding})
+    values = number_values({"attached": attached, "sliding": sliding})
+    if not of_design and values.get("attached", np.zeros(1)).max() > 1.0:
+        place = int(np.argmax(values["attached"] > 1.0))
+        got = f"{values['attached'][place]:g} as value {place + 1}"
+        raise refusal(InvalidScene, "attached", "grid", "between 0 and 1", got)
+    if occupancy is not None:
+        values["occupancy"] = block_table(occupancy, "occupancy", blocks)
+        wrong = np.flatnonzero(~(values["occupancy"] >= 0.0).all(axis=1))
+        if len(wrong):
+            got = f"{brief(occupancy)} as value {wrong[0] + 1}"
+            raise refusal(InvalidScene, "occupancy", "grid", "a number of at least 0", got)
     shares = [values[name] for name in ("attached", "sliding") if name in values]
     if len(shares) == 2 and len({len(column) for column in shares} - {1}) < 2 and not of_design:
         both = shares[0] + shares[1]
@@ -380,7 +391,7 @@ class BuildingColumns:
         """Return the live load that is present over floor mass, shape (scenes, blocks)."""
         if "occupancy" not in self.columns:
             return design_load
-        return design_load * self.columns["occupancy"].of(scenes)[:, None]
+        return design_load * self.columns["occupancy"].of(scenes)
 
     def _changed(
         self, scene: IndexArray, index: int, design_load: FloatArray, designed: dict[Hashable, FloatArray]

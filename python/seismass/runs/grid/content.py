@@ -17,7 +17,7 @@ from seismass.runs.grid.columns import Column, GridAxis
 from seismass.runs.grid.grid import Grid
 from seismass.runs.grid.sample import StrengthDesign
 
-_TABLES: Final = ("mass_ratio", "mu_s", "mu_k", "yield_shear_over_weight")
+_TABLES: Final = ("mass_ratio", "occupancy", "mu_s", "mu_k", "yield_shear_over_weight")
 """Columns whose values are rows of numbers per block or storey."""
 
 

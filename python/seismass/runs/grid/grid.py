@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Final, Self, Unpack, get_args
 
 import numpy as np
@@ -89,9 +89,11 @@ class Grid(Card):
     mass_ratio : array_like, optional
         Design live load over floor mass; 0: the scene has no such block. No scene has blocks where it is left out.
     occupancy : array_like, optional
-        Share of the design live load that is present, 0 or more; 1 by default.
+        Share of the design live load that is present, 0 or more; 1 by default. A table of scenes by blocks where it
+        differs from block to block.
     attached : array_like, optional
-        Share of the live load, 0 to 1, that is attached to its floor as mass; 0 by default.
+        Share of the live load, 0 to 1, that is attached to its floor as mass; 0 by default. To 2 with `attached_of`
+        "design", as more than the design live load may be present.
     attached_of : {"present", "design"}, default "present"
         Of which live load that is a share: of what is present, as for goods that are tied down, or of the design live
         load, as for the fraction of a code, which does not know the occupancy.
@@ -294,11 +296,13 @@ class Grid(Card):
         cls,
         building: Building | Sequence[Building] | None = None,
         *,
-        samples: int,
+        samples: int | tuple[int, int, int],
         method: SampleMethod = "sobol",
         seed: int = 0,
         motions: int | None = None,
         mu_k_over_mu_s: Any = None,
+        correlation: float = 0.0,
+        crossed: Mapping[str, ArrayLike] | None = None,
         design: StrengthDesign | None = None,
         floors: ArrayLike | None = None,
         roof: Roof = "loaded",
@@ -313,8 +317,10 @@ class Grid(Card):
         ----------
         building : Building or sequence of Building, optional
             The building, or several of which each is equally likely.
-        samples : int
-            Number of scenes.
+        samples : int or tuple of int
+            Number of scenes. Three numbers are a nested sample: of each motion so many buildings, and of each building
+            so many draws of what blocks have (`mass_ratio`, `occupancy`, `attached`, `sliding` and friction); all else
+            is drawn once a building. The buildings of a seed do not depend on the number of draws of goods.
         method : {"sobol", "latin_hypercube", "random"}, default "sobol"
             Scrambled points of Sobol's sequence, balanced where their number is a power of 2; a Latin hypercube; or
             independent points. One dimension for each axis that is drawn (`scipy.stats.qmc`).
@@ -324,6 +330,11 @@ class Grid(Card):
             Number of the motions of which each scene has one, equally likely; by default each scene has every motion.
         mu_k_over_mu_s : number, list of them or distribution, optional
             Instead of `mu_k`: the kinetic coefficient over the static one, which is `mu` or `mu_s`.
+        correlation : float, default 0
+            Correlation of the normal scores of blocks whose distributions are in one list, 0 to 1.
+        crossed : mapping of str to array_like, optional
+            Other arguments of `Grid` with values each of which every sample has, in every combination; the last one
+            changes fastest.
         design, floors, roof, attached_of, damping, collapse_drift
             As for `Grid`.
         **axes
@@ -331,7 +342,7 @@ class Grid(Card):
             springs, `mass_ratio`, `occupancy`, `attached`, `sliding`, `mu`, `mu_s`, `mu_k`, `scale`. Each is a number;
             a list of values, or a table of rows, of which each is equally likely; or a distribution: anything with the
             quantiles `ppf`, as scipy.stats freezes it. Lists of `storeys` and `period` of one length are drawn
-            together. A list with distributions draws one for each block.
+            together. A list with distributions draws one for each block, of `mass_ratio`, `occupancy` and friction.
 
         Raises
         ------
@@ -353,9 +364,34 @@ class Grid(Card):
         ... )
         >>> grid.table()["mu_s"].median().__round__(2)
         0.4
+
+        Each of 40 motions with 4 buildings, each of them with 2 loads, whose floors are alike by half, at two levels:
+
+        >>> presence = sm.distributions.gamma(0.55, 0.5)
+        >>> grid = sm.Grid.sample(
+        ...     building,
+        ...     samples=(40, 4, 2),
+        ...     strength=sm.distributions.lognormal(1.5, 0.2),
+        ...     floors=[1, 2],
+        ...     mass_ratio=1.0,
+        ...     occupancy=[presence, presence],
+        ...     correlation=0.5,
+        ...     mu=0.4,
+        ...     crossed={"scale": [1.0, 1.5]},
+        ... )
+        >>> len(grid), grid.table()["strength"].n_unique()
+        (640, 160)
         """
         drawn = sampled_arguments(
-            building, axes, mu_k_over_mu_s, samples=samples, method=method, seed=seed, motions=motions
+            building,
+            axes,
+            mu_k_over_mu_s,
+            samples=samples,
+            method=method,
+            seed=seed,
+            motions=motions,
+            correlation=correlation,
+            crossed=crossed or {},
         )
         return cls(
             building,
@@ -473,7 +509,8 @@ class Grid(Card):
         period = None if settings["storeys"] is not None else settings["period"]
         values |= changing_values(self.buildings, period=period, **changing)
         shares = (settings[name] for name in ("attached", "sliding", "occupancy", "mass_ratio"))
-        values |= share_values(*shares, of_design=settings["attached_of"] == "design")
+        of_design = settings["attached_of"] == "design"
+        values |= share_values(*shares, blocks=len(self.floors), of_design=of_design)
         return values | number_values({"scale": settings["scale"]})
 
     def _set_formed(self, periods: FloatArray, damping: Any, attached_of: Any, design: Any) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, Literal, TypeAlias, get_args
 
@@ -20,8 +20,10 @@ from seismass.motions.spectra.target import target_of_parameters
 SampleMethod: TypeAlias = Literal["sobol", "latin_hypercube", "random"]
 """Scrambled points of Sobol's sequence, a Latin hypercube, or independent points."""
 METHODS: Final = get_args(SampleMethod)
-PER_BLOCK: Final = ("mass_ratio", "mu", "mu_s", "mu_k")
+PER_BLOCK: Final = ("mass_ratio", "occupancy", "mu", "mu_s", "mu_k")
 """Axes that may have a distribution of its own for each block."""
+OF_GOODS: Final = (*PER_BLOCK, "attached", "sliding", "mu_k_over_mu_s")
+"""Axes that a nested sample draws for each building several times."""
 MOST_SAMPLES: Final = 2**26
 """Most samples, each with a value per axis in memory: half a gigabyte an axis."""
 
@@ -52,7 +54,8 @@ def points(samples: int, dimensions: int, method: Any, seed: Any) -> FloatArray:
     """
     if not is_one_of(method, METHODS):
         raise refusal(InvalidOption, "method", "sample", f"one of {', '.join(METHODS)}", brief(method))
-    rng = np.random.default_rng(as_count(seed, "seed", "sample", InvalidOption))
+    stream = seed if isinstance(seed, tuple) else as_count(seed, "seed", "sample", InvalidOption)
+    rng = np.random.default_rng(stream)
     if dimensions == 0:
         return np.empty((samples, 0))
     if method == "random":
@@ -76,31 +79,83 @@ class _Drawn:
 
 
 def drawn_columns(
-    axes: dict[str, Any], samples: Any, method: Any, seed: Any, motions: Any
+    axes: dict[str, Any], samples: Any, method: Any, seed: Any, motions: Any, correlation: Any = 0.0
 ) -> tuple[int, dict[str, Any]]:
     """Return the number of samples and the values of each axis at them, as the arguments of a `Grid`; `axes` has
     constants, distributions and lists of values by the name of the argument.
     """
-    number = as_count(samples, "samples", "sample", InvalidOption, least=1)
-    if number > MOST_SAMPLES:
-        raise refusal(InvalidOption, "samples", "sample", f"at most {MOST_SAMPLES}", str(number))
-    drawn = {name: _axis(name, value) for name, value in axes.items()}
+    rho = as_number(correlation, "correlation", "sample", InvalidOption)
+    if not 0.0 <= rho <= 1.0:
+        raise refusal(InvalidOption, "correlation", "sample", "between 0 and 1", f"{rho:g}")
+    drawn = {name: _axis(name, value, rho) for name, value in axes.items()}
     if _length(axes.get("storeys")) > 1 and _length(axes.get("period")) == _length(axes.get("storeys")):
         both = [np.asarray(axes[name]) for name in ("storeys", "period")]
         del drawn["period"]
         drawn["storeys"] = _Drawn(1, lambda u: tuple(values[_index_of(u, len(values))] for values in both))
+    if isinstance(samples, tuple):
+        return _nested(drawn, samples, method, seed, motions)
+    number = _number_of_samples(samples)
     if motions is not None:
         count = as_count(motions, "motions", "sample", InvalidOption, least=1)
         drawn["motion"] = _Drawn(1, lambda u: _index_of(u, count) + 1)
+    columns = _columns(drawn, number, method, seed)
+    if isinstance(columns.get("storeys"), tuple):
+        columns["storeys"], columns["period"] = columns["storeys"]
+    return number, columns
+
+
+def _number_of_samples(samples: Any) -> int:
+    number = as_count(samples, "samples", "sample", InvalidOption, least=1)
+    if number > MOST_SAMPLES:
+        raise refusal(InvalidOption, "samples", "sample", f"at most {MOST_SAMPLES}", str(number))
+    return number
+
+
+def _columns(
+    drawn: dict[str, _Drawn], number: int, method: Any, seed: Any, groups: Sequence[int] = ()
+) -> dict[str, Any]:
+    """Values of axes at points; within each group of so many in turn the points are shuffled."""
     cube = points(number, sum(item.dimensions for item in drawn.values()), method, seed)
+    for size in groups if cube.shape[1] else ():
+        cube = _shuffled(cube, size, seed)
     columns: dict[str, Any] = {}
     first = 0
     for name, item in drawn.items():
         columns[name] = item.values_at(cube[:, first : first + item.dimensions])
         first += item.dimensions
+    return columns
+
+
+def _shuffled(cube: FloatArray, size: int, seed: Any) -> FloatArray:
+    """Points whose order within groups of so many is random: places in a group are no strata of Sobol's points."""
+    rng = np.random.default_rng((*(seed if isinstance(seed, tuple) else (seed, 0)), size))
+    order = np.argsort(rng.random((len(cube) // size, size)), axis=1)
+    return np.take_along_axis(cube.reshape(-1, size, cube.shape[1]), order[..., None], axis=1).reshape(cube.shape)
+
+
+def _nested(
+    drawn: dict[str, _Drawn], samples: tuple[Any, ...], method: Any, seed: Any, motions: Any
+) -> tuple[int, dict[str, Any]]:
+    """Columns of a nested sample: those of buildings from one stream of points, those of goods from another."""
+    if len(samples) != 3:
+        requirement = "a number, or three: of motions, of buildings of each and of goods of each"
+        raise refusal(InvalidOption, "samples", "sample", requirement, brief(samples))
+    if motions is not None:
+        raise refusal(InvalidOption, "motions", "sample", "left out where samples are nested", brief(motions))
+    of_motions, buildings, goods = (as_count(each, "samples", "sample", InvalidOption, least=1) for each in samples)
+    number = _number_of_samples(of_motions * buildings * goods)
+    start = as_count(seed, "seed", "sample", InvalidOption)
+    outer = {name: item for name, item in drawn.items() if name not in OF_GOODS}
+    columns = _columns(outer, of_motions * buildings, method, start, (buildings,))
     if isinstance(columns.get("storeys"), tuple):
         columns["storeys"], columns["period"] = columns["storeys"]
-    return number, columns
+        outer["period"] = outer["storeys"]
+    columns = {
+        name: np.repeat(values, goods, axis=0) if outer[name].dimensions else values for name, values in columns.items()
+    }
+    inner = {name: item for name, item in drawn.items() if name in OF_GOODS}
+    columns |= _columns(inner, number, method, (start, 1), (goods,))
+    return number, columns | {"motion": np.repeat(np.arange(of_motions), buildings * goods) + 1}
 
 
 def _length(value: Any) -> int:
@@ -108,11 +163,11 @@ def _length(value: Any) -> int:
     return len(value) if isinstance(value, Sequence | np.ndarray) and np.ndim(value) == 1 else 0
 
 
-def _axis(name: str, value: Any) -> _Drawn:
+def _axis(name: str, value: Any, correlation: float = 0.0) -> _Drawn:
     if isinstance(value, Distribution):
         return _Drawn(1, lambda u: _quantiles(value, u[:, 0], name))
     if isinstance(value, Sequence) and any(isinstance(item, Distribution) for item in value):
-        return _per_block(name, value)
+        return _per_block(name, value, correlation)
     try:
         values = np.asarray(value)
     except (TypeError, ValueError):
@@ -124,21 +179,33 @@ def _axis(name: str, value: Any) -> _Drawn:
     return _Drawn(1, lambda u: values[_index_of(u, len(values))])
 
 
-def _per_block(name: str, value: Sequence[Any]) -> _Drawn:
-    """One column per block, each drawn independently; numbers stay as they are."""
+def _per_block(name: str, value: Sequence[Any], correlation: float) -> _Drawn:
+    """One column per block, whose normal scores have a correlation (a Gaussian copula); numbers stay as they are."""
     if name not in PER_BLOCK:
         requirement = "one distribution (lists of them are for what blocks have)"
         raise refusal(InvalidScene, name, "sample", requirement, brief(value))
     items = [_axis(name, item) for item in value]
+    own = sum(item.dimensions for item in items)
+    shared = int(correlation > 0.0 and own > 0)
 
     def at(u: FloatArray) -> FloatArray:
+        coordinates = _correlated(u, correlation) if shared else u
         columns, first = [], 0
         for item in items:
-            columns.append(np.broadcast_to(item.values_at(u[:, first : first + item.dimensions]), len(u)))
+            columns.append(np.broadcast_to(item.values_at(coordinates[:, first : first + item.dimensions]), len(u)))
             first += item.dimensions
         return np.stack(columns, axis=1)
 
-    return _Drawn(sum(item.dimensions for item in items), at)
+    return _Drawn(own + shared, at)
+
+
+def _correlated(u: FloatArray, correlation: float) -> FloatArray:
+    """Coordinates of which each has this correlation of normal scores with the others; the last one is shared."""
+    from scipy.special import ndtr, ndtri  # slow to import
+
+    scores = ndtri(np.clip(u, _SMALLEST, 1.0 - _SMALLEST))
+    mixed = np.sqrt(1.0 - correlation) * scores[:, :-1] + np.sqrt(correlation) * scores[:, -1:]
+    return np.asarray(ndtr(mixed))
 
 
 def _index_of(u: FloatArray, values: int) -> Any:
@@ -154,10 +221,22 @@ def _quantiles(distribution: Distribution, u: FloatArray, name: str) -> FloatArr
 
 
 def sampled_arguments(
-    building: Any, axes: dict[str, Any], mu_k_over_mu_s: Any, *, samples: Any, method: Any, seed: Any, motions: Any
+    building: Any,
+    axes: dict[str, Any],
+    mu_k_over_mu_s: Any,
+    *,
+    samples: Any,
+    method: Any,
+    seed: Any,
+    motions: Any,
+    correlation: Any,
+    crossed: Mapping[str, Any],
 ) -> dict[str, Any]:
     """Return the arguments of a `Grid` of so many scenes from those of `Grid.sample`."""
-    for name in axes:
+    for name in crossed:
+        if name in axes:
+            raise refusal(InvalidScene, name, "sample", "left out where it is crossed", brief(axes[name]))
+    for name in (*axes, *crossed):
         if name not in SAMPLED:
             raise TypeError(f"Grid.sample() got an unexpected keyword argument {name!r}")
     drawn = {name: value for name, value in axes.items() if value is not None}
@@ -167,7 +246,7 @@ def sampled_arguments(
         if "mu_k" in drawn:
             raise refusal(InvalidScene, "mu_k_over_mu_s", "sample", "left out where mu_k is given", "both")
         drawn["mu_k_over_mu_s"] = mu_k_over_mu_s
-    number, columns = drawn_columns(drawn, samples, method, seed, motions)
+    number, columns = drawn_columns(drawn, samples, method, seed, motions, correlation)
     ratio = columns.pop("mu_k_over_mu_s", None)
     if ratio is not None:
         static = "mu_s" if "mu_s" in columns else "mu"
@@ -178,7 +257,19 @@ def sampled_arguments(
     if all(np.ndim(values) == 0 or len(values) != number for values in columns.values()):
         # Nothing was drawn: as many equal scenes as there are samples.
         columns["scale"] = np.full(number, columns.get("scale", 1.0))
-    return columns
+    return _crossed(columns, number, crossed) if crossed else columns
+
+
+def _crossed(columns: dict[str, Any], number: int, crossed: Mapping[str, Any]) -> dict[str, Any]:
+    """Columns of every sample with every combination of values."""
+    values = [np.atleast_1d(np.asarray(each, dtype=np.float64)) for each in crossed.values()]
+    mesh = np.meshgrid(*values, indexing="ij")
+    size = mesh[0].size
+    columns = {
+        name: each if np.ndim(each) == 0 or len(each) != number else np.repeat(each, size, axis=0)
+        for name, each in columns.items()
+    }
+    return columns | {name: np.tile(each.reshape(-1), number) for name, each in zip(crossed, mesh, strict=True)}
 
 
 def _times(ratio: Any, static: Any) -> FloatArray:

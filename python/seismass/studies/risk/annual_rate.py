@@ -123,6 +123,61 @@ def capacity_rates(capacities: ArrayLike, hazard: HazardCurve) -> RateParts:
     return RateParts(*(value.mean(axis=-1) for value in (parts.within, parts.below, parts.above, parts.above_least)))
 
 
+def stripe_weights(levels: ArrayLike, hazard: HazardCurve) -> FloatArray:
+    """Return the weights of probabilities at stripes whose sum is an annual rate (1/year); see `stripe_rates`."""
+    x = as_array(levels, "levels", OWNER, InvalidOption)
+    if not len(x) or not (x > 0.0).all() or not (np.diff(x) > 0.0).all():
+        raise refusal(InvalidOption, "levels", OWNER, "positive and increasing", brief(x.tolist()))
+    curve = check_hazard(hazard, OWNER)
+    ends = np.log(np.concatenate([[0.5 * x[0]], x]))
+    inner = np.log(curve.sa_g)
+    points = np.unique(np.concatenate([ends, inner[(inner > ends[0]) & (inner < ends[-1])]]))
+    rates = curve.rates(np.exp(points))
+    ratio = np.log(rates[:-1] / rates[1:])
+    areas = np.concatenate([[0.0], np.cumsum(np.diff(points) * (rates[:-1] - rates[1:]) / ratio)])
+    mean = np.diff(np.interp(ends, points, areas)) / np.diff(ends)
+    return np.asarray(mean - np.append(mean[1:], 0.0))
+
+
+def stripe_rates(levels: ArrayLike, probability: ArrayLike, hazard: HazardCurve) -> FloatArray:
+    """Return annual rates (1/year) of probabilities at stripes, of the shape behind the stripes.
+
+    Parameters
+    ----------
+    levels : array_like, shape (stripes,)
+        Intensities, increasing, in the unit of the curve.
+    probability : array_like, shape (stripes, ...)
+        Probability of exceeding a limit at each of them.
+    hazard : HazardCurve
+        Annual rate of the intensity; it goes on by its end slopes.
+
+    Raises
+    ------
+    InvalidOption
+        An argument is not what it must be.
+
+    Notes
+    -----
+    The probability is linear in the logarithm of the intensity between stripes, zero at half of the lowest and constant
+    above the highest one: assumptions that matter where these stripes carry much. By parts the rate is the sum of the
+    increases of the probability times the mean hazard over their interval, in closed form on the curve's power laws.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import seismass as sm
+    >>> hazard = sm.risk.HazardCurve([0.1, 1.0], [1e-2, 1e-4])
+    >>> [float(f"{rate:.3g}") for rate in sm.risk.stripe_rates([0.5, 1.0], [[0.0, 0.5], [1.0, 1.0]], hazard)]
+    [0.000216, 0.000541]
+    """
+    weights = stripe_weights(levels, hazard)
+    values = np.asarray(probability, dtype=np.float64)
+    if values.shape[:1] != weights.shape:
+        requirement = f"{len(weights)} rows, one for each level"
+        raise refusal(InvalidOption, "probability", OWNER, requirement, f"shape {values.shape}")
+    return np.asarray(np.tensordot(weights, values, 1))
+
+
 def _step_parts(capacity: FloatArray, hazard: HazardCurve) -> RateParts:
     """Parts of the rate of exceeding each of several capacities."""
     lowest, highest = hazard.annual_rate[0], hazard.annual_rate[-1]

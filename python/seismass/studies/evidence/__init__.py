@@ -1,0 +1,28 @@
+"""Evidence for a code: the share of the design live load that acts as mass, over archetypes that the code designs."""
+
+from seismass.studies.evidence.archetypes import (
+    Archetype,
+    Occupancy,
+    Setting,
+    System,
+    example_file,
+    read_archetypes,
+)
+from seismass.studies.evidence.table import Evidence, default_hazard, evidence
+
+__all__ = [
+    "Archetype",
+    "Evidence",
+    "Occupancy",
+    "Setting",
+    "System",
+    "default_hazard",
+    "evidence",
+    "example_file",
+    "read_archetypes",
+]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for completion."""
+    return list(__all__)
