@@ -201,7 +201,7 @@ def by_hand(
     coefficient = float(floor_coefficient(acceleration, strength / weight))
     factor = 1.0 if scene.other_direction is False else REDUCED_FRICTION
     reasons = exceptions(building, float((goods / (building.mass + frame_mass(scene))).max()))
-    found = ByHand(
+    result = ByHand(
         friction=mu,
         friction_factor=factor,
         period=period,
@@ -215,8 +215,8 @@ def by_hand(
         exceptions=reasons,
         estimate=0.0,
     )
-    line = float(share_by_hand(factor * mu, coefficient, found.offset))
-    return replace(found, estimate=found.staying + (1.0 - found.staying) * line)
+    line = float(share_by_hand(factor * mu, coefficient, result.offset))
+    return replace(result, estimate=result.staying + (1.0 - result.staying) * line)
 
 
 Rule: TypeAlias = Callable[[pl.DataFrame], FloatArray]

@@ -19,7 +19,7 @@ from seismass.base.values import as_path
 from seismass.media.page import Section, bullets_html, page_html, table_html, text_html
 from seismass.media.result import PAGE, named_figure, result_files
 from seismass.media.roles import ADVISED, CODE, GREEN, GREY, INK, PURPLE, SLIDE, VERMILION
-from seismass.media.style import STYLE
+from seismass.media.style import drawing
 from seismass.media.svg import figure_html, figure_svgs
 from seismass.media.text_table import number_text, text_table
 from seismass.model.codes import CODE_NAMES
@@ -166,7 +166,7 @@ def evidence_figure(result: Evidence, name: str | None = None) -> Figure:
         return _tornado(result)
     archetypes = result.tables["archetypes"].with_row_index("place")
     small: dict[str, Any] = {"font.size": 7.5, "axes.labelsize": 7.0, "ytick.labelsize": 6.5, "xtick.labelsize": 7.0}
-    with mpl.rc_context(STYLE | small):
+    with drawing(), mpl.rc_context(small):
         height = 1.5 + 0.155 * (archetypes.height + archetypes["occupancy"].n_unique())
         figure = Figure(figsize=(8.27, height))
         left, right = figure.subplots(1, 2, sharey=True, width_ratios=(1.35, 1.0))
@@ -252,7 +252,7 @@ def _tornado(result: Evidence) -> Figure:
     """What moves share (d) of one archetype of each occupancy and class."""
     table = result.tables["vary"]
     groups = table.partition_by("occupancy", "class", maintain_order=True)
-    with mpl.rc_context(STYLE | {"font.size": 7.0, "ytick.labelsize": 6.0, "xtick.labelsize": 6.5}):
+    with drawing(), mpl.rc_context({"font.size": 7.0, "ytick.labelsize": 6.0, "xtick.labelsize": 6.5}):
         figure = Figure(figsize=(8.27, 2.4 * -(-len(groups) // 2)), layout="constrained")
         panels = figure.subplots(-(-len(groups) // 2), 2, squeeze=False).ravel()
         for axes, rows in zip(panels, groups, strict=False):
