@@ -1,6 +1,6 @@
 """Rocking blocks on a yielding floor by small steps, beside what stands for them: split, sliding with b/h, attached.
 
-    python benchmarks/rocking.py [--motions N] [--step S] [--falls]
+    python benchmarks/rocking.py [--motions N] [--step S] [--falls | --warehouse]
 
 The block is rigid and rectangular, of any angle. It turns about an edge of a floor that carries it, an impact conserves
 the angular momentum about the next edge and the horizontal momentum of block and floor, and the floor feels the block's
@@ -8,7 +8,7 @@ horizontal force. Nothing of the kernel is used: the equations are stepped by th
 thousands of cases at once. Motions are the built-in forty, or recordings of the folder that SEISMASS_SHARED names.
 
 The first table holds drifts of cases in which the block rocks and does not fall; `--falls` counts falls at the design
-level, and how many of them are below Ishiyama's two limits.
+level, and how many of them are below Ishiyama's two limits; `--warehouse` has lambda of the example by b/h and model.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from __future__ import annotations
 import argparse
 import itertools
 import os
+import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,6 +25,7 @@ import numpy as np
 import polars as pl
 
 import seismass as sm
+from seismass.assessment.building_file import example_file
 from seismass.model.tipping import staying_part
 
 GRAVITY = 9.80665
@@ -260,12 +262,37 @@ def falls(records: Sequence[sm.Record], step: float) -> pl.DataFrame:
     return counts.join(ends, on=("ratio", "height"), how="left").sort("height", "ratio")
 
 
+def warehouse() -> pl.DataFrame:
+    """Return lambda of the example with mu = 0.5 by b/h of goods 1.5 m high: the model that is taken, the part that
+    stays, and lambda with the other models and with mu = b/h in place of the size.
+    """
+    tables = tomllib.loads(example_file().read_text(encoding="utf-8"))
+    del tables["goods"]["friction"]
+    rows = []
+    for ratio in (0.1, 0.2, 0.3, 0.4, 0.5, 0.6):
+        size = {"mu": 0.5, "width_m": 1.5 * ratio, "height_m": 1.5}
+        result = sm.assess(tables | {"goods": tables["goods"] | size}, resamples=1)
+        model, staying = ("slide", 0.0)
+        if result.tipping.height:
+            model, staying = result.tipping.select("model", "staying").row(0)
+        others = {
+            one.floors.removeprefix("goods that tip ").split(":")[0]: one.advised for one in result.answer.tipping
+        }
+        others = {name.split(" ")[0]: share for name, share in others.items()}
+        alone = sm.assess(tables | {"goods": tables["goods"] | {"mu": ratio, "mu_factors": [1.0, 1.0]}}, resamples=1)
+        row = {"b/h": ratio, "model": model, "staying": staying, "lambda": result.advised}
+        row |= {name: others.get(name) for name in ("slide", "split", "attached")}
+        rows.append(row | {"mu = b/h": alone.advised})
+    return pl.DataFrame(rows)
+
+
 def main() -> None:
     """Print the tables."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--motions", type=int, help="how many of the motions; default all")
     parser.add_argument("--step", type=float, default=STEP, help="step (s)")
     parser.add_argument("--falls", action="store_true", help="count falls instead")
+    parser.add_argument("--warehouse", action="store_true", help="the example by b/h instead")
     args = parser.parse_args()
     records = [scaled(record) for record in suite(args.motions)]
     with pl.Config(
@@ -277,6 +304,9 @@ def main() -> None:
         float_precision=2,
         tbl_width_chars=200,
     ):
+        if args.warehouse:
+            print(warehouse())
+            return
         if args.falls:
             print(falls(records, args.step))
             return
