@@ -67,7 +67,7 @@ class StudyResult(Result):
         One row per building and storey: drift of each model over the motions with its scatter, the underestimation, how
         much of it is due to mass and how much to sliding, and how much one motion carries.
     fractions : polars.DataFrame
-        One row per building: eta, the two estimates of the effective fraction, and the fraction itself on request.
+        One row per building: eta, the rule by hand, and the effective fraction itself on request.
     designs : polars.DataFrame
         One row per building and storey: masses, V_e, V_y, periods.
     spectrum : polars.DataFrame
