@@ -11,12 +11,20 @@ import polars as pl
 
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, content_hash, frozen, same_content, short_repr
+from seismass.base.values import (
+    FloatArray,
+    as_one_of,
+    as_positive,
+    content_hash,
+    frozen,
+    same_content,
+    short_repr,
+)
 from seismass.base.views import Card
 from seismass.design.lateral_force import seismic_response_coefficient
-from seismass.design.modes import Combination, SpectrumAnalysis, response_spectrum_analysis
+from seismass.design.modes import Combination, SpectrumAnalysis, positive, response_spectrum_analysis
 from seismass.design.periods import PERIOD_CODES, code_period
-from seismass.design.rules import APPLIED, CodeRule, rule_of
+from seismass.design.rules import APPLIED, CodeRule, known_category, rule_of
 from seismass.model.codes import CODE_NAMES
 from seismass.motions.spectra import TargetSpectrum
 
@@ -189,7 +197,12 @@ def design_by_code(
     >>> round(float(found.yield_shear[0] / found.base_shear), 12), found.coefficient
     (1.0, 0.25)
     """
-    made = _Design(code_id)
+    made = _Design(as_one_of(code_id, str, "code_id", "design", InvalidOption))
+    risk_category = known_category(risk_category)
+    as_one_of(system, str, "system", "design", InvalidOption)
+    reduction = as_positive(reduction, "reduction", "design", InvalidOption)
+    s_1 = None if s_1 is None else as_positive(s_1, "s_1", "design", InvalidOption)
+    mass = positive(mass, "mass", or_zero=True)
     weight = STANDARD_GRAVITY * float(mass.sum())
     options: dict[str, Any] = {"stiffness_matrix": stiffness_matrix, "combination": combination, "damping": damping}
     elastic = response_spectrum_analysis(mass, stiffness, target, **options)
