@@ -430,7 +430,7 @@ def test_tables_json_and_files(tmp_path: Path) -> None:
     names = {file.name for file in found.write(tmp_path)}
     assert names == {file.name for file in tmp_path.iterdir()}
     assert names == {
-        "effective_mass.json",
+        *("effective_mass.json", "files.json"),
         *(f"{table}.{form}" for table in ("curve", "storeys", "records") for form in ("parquet", "csv")),
         *(f"{figure}.{form}" for figure in ("curve", "storeys") for form in ("png", "svg")),
     }

@@ -198,7 +198,9 @@ def test_questions_are_asked_on_a_terminal(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """An answer that cannot be read is asked for again; an empty one takes the default."""
-    given = iter(["", "2", "4", "500", "-5", "5", "0.4", "1.0", "0.6", "", "6", "0.8", "timber-on-steel", "1x2@3", "0.8x2.0"])
+    given = iter(
+        ["", "2", "4", "500", "-5", "5", "0.4", "1.0", "0.6", "", "6", "0.8", "timber-on-steel", "1x2@3", "0.8x2.0"]
+    )
     asked: list[str] = []
 
     def answer(question: str) -> str:

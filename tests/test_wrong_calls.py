@@ -1,7 +1,9 @@
 """Wrong values in place of each argument of each public call: the package's own errors, or a result, and nothing else.
 
 Calls are generated: of a call that works for each callable of `CALLS`, every parameter of its signature is replaced in
-turn by each of `WRONG`. Callables that are not in `CALLS` are named in `LEFT_OUT` with the reason.
+turn by each of `WRONG`. Callables that are not in `CALLS` are named in `LEFT_OUT` with the reason. The second list is
+made from the names alone: every function of every public module, and every public method of one value of each class
+that has methods with arguments, plots among them.
 """
 
 from __future__ import annotations
@@ -10,6 +12,7 @@ import inspect
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import nullcontext
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -283,3 +286,158 @@ def test_every_public_callable_is_called() -> None:
 def test_masses_that_no_double_can_relate_are_refused() -> None:
     with pytest.raises(sm.errors.InvalidScene, match="mass of building must be in a ratio to the stiffnesses"):
         sm.design.vibration_modes([1e-300, 1e6], [1e9, 1e9])
+
+
+MODULES = [*GROUPS, "plots", "design", "occupancy"]
+WRONG_HERE = {**WRONG, "array without an axis": np.array(3.0), "three": 3, "zero": 0}
+BY_NAME: dict[str, Any] = {
+    "response": RESPONSE,
+    "scene": SCENE,
+    "scenes": SCENE,
+    "building": BUILDING,
+    "motion": MOTION,
+    "motions": SUITE,
+    "record": RECORD,
+    "records": SUITE,
+    "suite": SUITE,
+    "target": TARGET,
+    "period": 0.5,
+    "periods": [0.5, 1.0],
+    "batch": BATCH,
+    "table": BATCH,
+    "pair": PAIR,
+    "first": RECORD,
+    "second": OTHER,
+    "hazard": HAZARD,
+    "grid": GRID,
+    "limits": LIMIT,
+    "models": SCENE,
+    "years": 50.0,
+    "mu": 0.3,
+    "mass": [1e3, 1e3],
+    "stiffness": [1e6, 1e6],
+    "storeys": 2,
+    "dt": 0.01,
+    "acceleration": [0.0, 1.0, 0.0],
+    "fraction": 0.5,
+    "name": "a",
+    "sa_g": 0.2,
+    "factor": 1.0,
+    "path": "x.csv",
+    "folder": "out",
+    "weight": [1e4, 1e4],
+    "heights": [3.0, 3.0],
+}
+"""What stands for an argument without a default, by its name; 0.5 for others."""
+LONG = """
+match_suite effective_mass_map effective_mass_of_design risk_targeted_share live_load_uncertainty write_many
+multiple_stripes cloud_analysis incremental_dynamic_analysis slip_demand effective_mass assess isolate
+baker2007_orientations animate write synthetic_motion builtin_suite builtin_pairs catalogue
+"""
+"""What takes seconds where it is not refused: called in tests/test_wrong_calls.py or in tests of their own."""
+LITERALS = ("Combination", "FloorUse", "Kind", "Pattern", "Use")
+"""Types of arguments, which are not called."""
+MADE = (*RESULTS.split(), *TYPES.split(), "PlaneResponse")
+"""Classes whose values the package makes."""
+
+
+@cache
+def values() -> dict[str, Any]:
+    """A value of each class that has methods with arguments."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        intensities = {"method": "stripes", "intensities": [0.5, 1.0, 2.0], "resamples": 2}
+        return {
+            "Response": RESPONSE,
+            "Scene": SCENE,
+            "Building": BUILDING,
+            "Motion": MOTION,
+            "Record": RECORD,
+            "Pair": PAIR,
+            "TargetSpectrum": TARGET,
+            "Grid": GRID,
+            "Campaign": CAMPAIGN,
+            "HazardCurve": HAZARD,
+            "LimitState": LIMIT,
+            "EffectiveMass": sm.effective_mass(SCENE, SUITE, **SMALL),
+            "SlipDemand": sm.slip.slip_demand(SCENE, SUITE, resamples=2),
+            "ScalingResult": sm.scaling.scale_sa_t1(SUITE, TARGET, 0.5),
+            "MatchedRecord": sm.matching.match_spectrum(RECORD, TARGET, max_iterations=1),
+            "FragilityAnalysis": sm.fragility.incremental_dynamic_analysis(SCENE, SUITE, LIMIT, **intensities),
+            "AnnualRate": sm.risk.annual_rate([0.2, 0.3, 0.4], HAZARD),
+            "FrictionPair": sm.friction.friction_pair("timber-on-steel"),
+        }
+
+
+def methods(value: Any) -> Iterator[tuple[str, Callable[..., Any]]]:
+    """Public functions of a module or a value, with those of its views of plots."""
+    for name in getattr(value, "__all__", None) or dir(value):
+        if name.startswith("_") or name in LITERALS or (inspect.ismodule(value) and name in MADE):
+            continue
+        try:
+            attribute = getattr(value, name)
+        except sm.SeismassError:
+            continue  # of a base that the scene has not
+        if callable(attribute):
+            yield name, attribute
+        elif type(attribute).__name__.endswith("Plots") or name == "plot":
+            yield from ((f"{name}.{each}", function) for each, function in methods(attribute))
+
+
+def arguments(name: str, function: Callable[..., Any]) -> tuple[list[str], dict[str, Any]]:
+    """Names of the arguments of a function, and those that it needs."""
+    kinds = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
+    found = [one for one in inspect.signature(function).parameters.values() if one.kind in kinds]
+    needed = {one.name: BY_NAME.get(one.name, 0.5) for one in found if one.default is one.empty}
+    known = CALLS.get(name, (None, {}))[1]
+    return [one.name for one in found], needed | {one.name: known[one.name] for one in found if one.name in known}
+
+
+def foreign(function: Callable[..., Any], given: dict[str, Any]) -> str:
+    """What another exception a call ends in; empty where it ends in a result or in an error of the package."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            result = function(**given)
+            if isinstance(result, Iterator):
+                next(result, None)
+        except (sm.SeismassError, OSError):
+            return ""
+        except Exception as error:
+            return repr(error)[:200]
+    return ""
+
+
+CLASSES = """
+AnnualRate Building Campaign EffectiveMass FragilityAnalysis FrictionPair Grid HazardCurve LimitState
+MatchedRecord Motion Pair Record Response ScalingResult Scene SlipDemand TargetSpectrum
+"""
+
+
+@pytest.mark.parametrize("place", ["seismass", *MODULES, *CLASSES.split()])
+def test_a_wrong_value_of_whatever_a_name_leads_to_ends_in_an_error_of_the_package(place: str) -> None:
+    value = sm if place == "seismass" else getattr(sm, place) if place in MODULES else values()[place]
+    found: dict[str, str] = {}
+    number = 0
+    for name, function in methods(value):
+        last = name.rpartition(".")[2]
+        if last in LONG.split() or (inspect.isclass(function) and issubclass(function, BaseException)):
+            continue
+        try:
+            names, needed = arguments(last, function)
+        except (TypeError, ValueError):
+            continue  # a type without a signature
+        for argument in names:
+            for kind, wrong in WRONG_HERE.items():
+                if argument in ("progress", "change", "spectrum", "design", "target") and callable(wrong):
+                    continue  # what the caller's own function raises is the caller's
+                number += 1
+                said = foreign(function, needed | {argument: wrong})
+                if said:
+                    found.setdefault(f"{name}({argument}={kind})", said)
+    assert found == {}
+    assert number > 0
+
+
+def test_every_class_with_a_value_is_looked_at() -> None:
+    assert sorted(values()) == sorted(CLASSES.split())

@@ -1,21 +1,25 @@
 """Read mutated input files of every kind but records, which tools/fuzz_records.py mutates: a result or one error line.
 
 Usage: tools/fuzz_inputs.py [--count 5000] [--seed 1] [--keep DIR]. Scene, building and campaign files (TOML and
-JSON), target spectra, hazard curves, storey tables, pushover curves and workbooks, and the folders of a campaign, an
-assessment and a study. Values are put in place of others, keys and lines are moved, doubled or left out, and bytes
-are changed. A defect is an exception that is not the package's, or that of the system for a file; more than 5 s of
-processor time; or 512 MB of memory. --keep saves the file of each defect. `make fuzz` runs both programs, and a small
-run is part of the tests.
+JSON), target spectra, hazard curves, storey tables, pushover curves, workbooks, archives of records, links of the live
+page (where node is on the path), and the folders of a campaign, an assessment and a study: each change must be seen by
+their digests, and end as that of other files where it is read by force. Values are put in place of others, keys and
+lines are moved, doubled or left out, and bytes are changed. A defect is an exception that is not the package's, or that
+of the system for a file; more than 5 s of processor time; or 512 MB of memory. --keep saves the file of each defect.
+`make fuzz` runs both programs, and a small run is part of the tests.
 """
 
 from __future__ import annotations
 
 import argparse
+import atexit
 import contextlib
+import io
 import json
 import random
 import resource
 import shutil
+import subprocess
 import sys
 import tempfile
 import time
@@ -31,9 +35,10 @@ import seismass as sm
 from seismass.assessment import read_pushover, read_storey_table
 from seismass.assessment.building_file import example_file
 from seismass.base.errors import InvalidOption
+from seismass.base.folders import as_written, read_folder
 from seismass.runs.scene_file import example_scene
-from seismass.show.assessment.tables import read_assessment_tables
-from seismass.show.study.tables import read_study_tables
+from seismass.show.assessment.tables import ANIMATION, DOCUMENT, TABLES, read_assessment_tables
+from seismass.show.study.tables import READ, read_study_tables
 from seismass.studies.campaign.folder import example_description
 from seismass.studies.study import StudyParameters, run_study
 
@@ -79,6 +84,8 @@ class Kind:
     read: Callable[[Path], Any]
     folder: Path | None = None
     """Folder in which the file stands, where it is not alone."""
+    digests: bool = False
+    """Whether every change must be seen."""
 
 
 def kinds(place: Path) -> list[Kind]:
@@ -111,18 +118,34 @@ def kinds(place: Path) -> list[Kind]:
     campaign = sm.campaign.Campaign(grid, sm.Motion([1.0, -1.0, 0.0], 0.1), part_runs=2).run(place / "campaign").path
     for file in ("manifest.json", "axes.parquet", "motions.parquet", "parts/part-0000001.parquet"):
         content = (campaign / file).read_bytes()
-        found.append(Kind(f"campaign's {Path(file).name}", file, content, _verified, campaign))
+        found.append(Kind(f"campaign's {Path(file).name}", file, content, _verified, campaign, digests=True))
     assessed = place / "assessment"
     sm.assess(example_file(), mu_factors=(1.0, 1.0), resamples=2).write(assessed, figures=False)
     for file in ("assessment.json", "storeys.parquet"):
-        read = _assessment
-        found.append(Kind(f"assessment's {file}", file, (assessed / file).read_bytes(), read, assessed))
+        content = (assessed / file).read_bytes()
+        found.append(Kind(f"assessment's {file}", file, content, _assessment, assessed, digests=True))
+        found.append(Kind(f"assessment's {file}, by force", file, content, _forced_assessment, assessed))
     studied = place / "study"
     small = StudyParameters(buildings=((2, 0.38),), response_modification=(4.0,), mass_ratios=(1.0,))
     run_study(sm.builtin_suite("seven"), sm.TargetSpectrum.asce7(), small).write(studied, figures=False)
     for path in sorted(studied.iterdir()):
         if path.suffix in (".parquet", ".json"):
-            found.append(Kind(f"study's {path.name}", path.name, path.read_bytes(), read_study_tables, studied))
+            content = path.read_bytes()
+            if path.name in READ:
+                found.append(Kind(f"study's {path.name}", path.name, content, _study, studied, digests=True))
+                found.append(Kind(f"study's {path.name}, by force", path.name, content, _forced_study, studied))
+    found.append(Kind("workbook", "book.xlsx", _workbook(_SHEET), read_storey_table))
+    record = b"a\nb\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 4, DT= .01 SEC\n 0.1 0.2 -0.1 0.0\n"
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+        for number in (1, 2):
+            archive.writestr(f"RSN{number}_A_B00{number}.AT2", record.replace(b"0.2", b"0.%d" % number))
+    found.append(Kind("archive of records", "records.zip", packed.getvalue(), sm.read_suite))
+    if shutil.which("node"):
+        link = b"v=1&by=design&m=synthetic-1&d=code&n=3&T=0.47&z=0.05&O=2&r2=0.05&h=3.5&R=4&V=0.34,0.27,0.13&a=1,1,0"
+        found.append(
+            Kind("link of the live page", "link.txt", link + b"&s=0.2,0.2,0.2&k=0.2,0.2,0.2&x=1&c=0.25", Links())
+        )
     return found
 
 
@@ -136,12 +159,19 @@ _SHEET = (
 def _in_workbook(path: Path) -> None:
     """Read a workbook whose sheet is the file."""
     book = path.with_suffix(".xlsx")
-    with zipfile.ZipFile(book, "w") as archive:
+    book.write_bytes(_workbook(path.read_bytes()))
+    read_storey_table(book)
+
+
+def _workbook(sheet: bytes) -> bytes:
+    """A workbook of one sheet."""
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w") as archive:
         archive.writestr("xl/_rels/workbook.xml.rels", '<R><L Id="r" Target="worksheets/a.xml"/></R>')
         archive.writestr("xl/workbook.xml", '<w xmlns:r="q"><sheets><sheet name="A" r:id="r"/></sheets></w>')
         archive.writestr("xl/sharedStrings.xml", "<s><si><t>Story</t></si></s>")
-        archive.writestr("xl/worksheets/a.xml", path.read_bytes())
-    read_storey_table(book)
+        archive.writestr("xl/worksheets/a.xml", sheet)
+    return content.getvalue()
 
 
 def _verified(path: Path) -> None:
@@ -152,8 +182,73 @@ def _verified(path: Path) -> None:
     folder.scan().collect()
 
 
-def _assessment(path: Path) -> None:
-    read_assessment_tables(path)
+def _assessment(folder: Path, *, force: bool = False) -> None:
+    files = read_folder(folder, (DOCUMENT, ANIMATION, *(f"{name}.parquet" for name in TABLES)), force=force)
+    with as_written(folder):
+        read_assessment_tables(files)
+
+
+def _study(folder: Path, *, force: bool = False) -> None:
+    files = read_folder(folder, READ, force=force)
+    with as_written(folder):
+        read_study_tables(files)
+
+
+def _forced_assessment(folder: Path) -> None:
+    _assessment(folder, force=True)
+
+
+def _forced_study(folder: Path) -> None:
+    _study(folder, force=True)
+
+
+class Links:
+    """Opens links of the live page by its own program, and reads the scene file that it gives of each."""
+
+    PROGRAM = """
+        const vm = require("vm"), fs = require("fs");
+        const names = "{ caseOf, sceneOf, sceneFile, strengthsOf, addressOf, LIMITS, LISTS }";
+        vm.runInThisContext(fs.readFileSync(process.argv[1], "utf8") + ";globalThis.page = " + names);
+        const record = { name: "a", dt: 0.01, unit: "g", values: [0.1, -0.1] };
+        require("readline").createInterface({ input: process.stdin }).on("line", (line) => {
+          let said;
+          try {
+            const { state, remarks } = page.caseOf(JSON.parse(line));
+            for (const [key, [low, high]] of Object.entries(page.LIMITS))
+              for (const each of page.LISTS.includes(key) ? state[key] : [state[key]])
+                if (!(each >= low && each <= high)) throw new Error(`${key} is ${each}`);
+            const again = page.caseOf(page.addressOf(state));
+            if (again.remarks.length) throw new Error(again.remarks[0]);
+            const scene = page.sceneOf(state, page.strengthsOf(state, [1, 1, 1, 1].slice(0, state.storeys)));
+            const words = { height: state.height, record, scale: state.intensity, note: "" };
+            said = { file: page.sceneFile(scene, words), remarks };
+          } catch (error) {
+            said = { error: String(error) };
+          }
+          console.log(JSON.stringify(said));
+        });
+    """
+
+    def __init__(self) -> None:
+        case = Path(sm.__file__).parent / "show" / "explore" / "templates" / "case.js"
+        command = ["node", "-e", self.PROGRAM, str(case)]
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        atexit.register(self.process.kill)
+
+    def __call__(self, path: Path) -> None:
+        """Raise an error of the package where the link has remarks."""
+        assert self.process.stdin is not None
+        assert self.process.stdout is not None
+        self.process.stdin.write(json.dumps(path.read_bytes().decode("utf-8", "replace")) + "\n")
+        self.process.stdin.flush()
+        said = json.loads(self.process.stdout.readline())
+        if "error" in said:
+            raise RuntimeError(said["error"])
+        scene = path.with_suffix(".toml")
+        scene.write_text(said["file"], encoding="utf-8")
+        sm.runs.read_scene(scene)
+        if said["remarks"]:
+            raise InvalidOption(said["remarks"][0])
 
 
 def mutated(rng: random.Random, kind: Kind) -> bytes:
@@ -256,7 +351,7 @@ def outcome_of(kind: Kind, content: bytes, place: Path) -> str:
     try:
         kind.read(path if kind.folder is None else folder)
         # A campaign knows its files by their digests; the order of keys is no change.
-        seen = kind.read is not _verified or _same(content, kind.content)
+        seen = not kind.digests or (kind.read is _verified and _same(content, kind.content)) or content == kind.content
         outcome = "read" if seen else "defect: a change that is not seen"
     except (sm.SeismassError, OSError) as error:
         outcome = "refused" if len(str(error)) < LONGEST_MESSAGE else "defect: a message without end"
@@ -304,7 +399,7 @@ def main() -> int:
     tally = fuzz(args.count, args.seed)
     for name in dict.fromkeys(name for name, _ in tally.counts):
         found = {outcome: tally.counts[name, outcome] for outcome in ("read", "refused", "defect")}
-        print(f"{name:32}" + ", ".join(f"{outcome} {number}" for outcome, number in found.items()))
+        print(f"{name:40}" + ", ".join(f"{outcome} {number}" for outcome, number in found.items()))
     for number, (file, outcome, content) in enumerate(tally.defects, start=1):
         print(f"{file}: {outcome}")
         if args.keep is not None:

@@ -49,6 +49,8 @@ def fill(page: Page) -> None:
     page.marked("limits", limits())
     if page.wants("asked"):
         page.marked("asked", asked())
+    if page.wants("kinds"):
+        page.marked("kinds", kinds())
 
 
 def limits() -> str:
@@ -63,6 +65,17 @@ def asked() -> str:
     if done.returncode:
         sys.exit(f"hostile_files.py:\n{done.stdout[-3000:]}")
     return done.stdout.strip()
+
+
+def kinds() -> str:
+    """Mutate files of each kind and return what became of them."""
+    done = run("tools/fuzz_inputs.py", "--count", str(FILES), "--seed", "2026")
+    found = re.findall(r"^(\S.*?) *read +(\d+), refused +(\d+), defect +(\d+)$", done.stdout, re.MULTILINE)
+    if done.returncode or not found:
+        sys.exit(f"fuzz_inputs.py:\n{done.stdout[-3000:]}")
+    rows = [f"| {name} | {sum(map(int, counts))} | {' | '.join(counts)} |" for name, *counts in found]
+    head = ["| kind | files | read | refused in one line | defects |", "| --- | ---: | ---: | ---: | ---: |"]
+    return "\n".join([*head, *rows])
 
 
 def run(*command: str) -> subprocess.CompletedProcess[str]:
@@ -94,7 +107,7 @@ def tried() -> str:
     whole = "read, or one line of error; no other exception, none slow or large"
     for what, program in (
         ("record files mutated, of every format that is read as text", "fuzz_records.py"),
-        ("scenes, buildings, campaigns, spectra, hazard curves; folders of campaigns, assessments, studies mutated",
+        ("every other kind of input, folders of campaigns, assessments and studies, links of the live page mutated",
          "fuzz_inputs.py"),
     ):  # fmt: skip
         rows.append(f"| {what} | {mutated(program)} | {whole} | `tools/{program}` |")

@@ -24,6 +24,7 @@ FloatArray: TypeAlias = NDArray[np.float64]
 """Array of doubles; every array that a value class holds is a read-only copy."""
 
 _S = TypeVar("_S", bound=np.generic)
+_K = TypeVar("_K")
 _V = TypeVar("_V", bound="Value")
 
 
@@ -223,6 +224,28 @@ def as_number(value: Any, parameter: str, owner: str, kind: type[SeismassError])
         return float(value)
     except OverflowError:
         raise refusal(kind, parameter, owner, "a number that a double can hold", brief(value)) from None
+
+
+def is_list(value: Any) -> bool:
+    """Return whether a value is a list, a tuple or an array with an axis, and no text."""
+    return not isinstance(value, str) and (isinstance(value, Sequence) or getattr(value, "shape", ()) != ())
+
+
+def as_list(value: Any, parameter: str, owner: str, kind: type[SeismassError], requirement: str) -> list[Any]:
+    """Return the things of a list or another iterable, which no text and no array without an axis is."""
+    if isinstance(value, str) or not isinstance(value, Iterable) or getattr(value, "shape", (0,)) == ():
+        raise refusal(kind, parameter, owner, requirement, brief(value))
+    return list(value)
+
+
+def as_one_of(
+    value: Any, kinds: type[_K] | tuple[type[_K], ...], parameter: str, owner: str, kind: type[SeismassError]
+) -> _K:
+    """Return a value that is of a class, or of one of several."""
+    if not isinstance(value, kinds):
+        names = " or ".join(each.__name__ for each in (kinds if isinstance(kinds, tuple) else (kinds,)))
+        raise refusal(kind, parameter, owner, f"a {names}", brief(value))
+    return value
 
 
 def is_one_of(value: Any, words: Iterable[str]) -> bool:

@@ -12,12 +12,23 @@ from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, brief, content_hash, frozen, is_one_of, refusal, same_content, short_repr
+from seismass.base.values import (
+    FloatArray,
+    as_one_of,
+    as_positive,
+    brief,
+    content_hash,
+    frozen,
+    is_one_of,
+    refusal,
+    same_content,
+    short_repr,
+)
 from seismass.base.views import Card
 from seismass.design.lateral_force import equivalent_lateral_forces, seismic_response_coefficient
-from seismass.design.modes import Combination, SpectrumAnalysis, response_spectrum_analysis
+from seismass.design.modes import Combination, SpectrumAnalysis, positive, response_spectrum_analysis
 from seismass.design.periods import PERIOD_CODES, code_period
-from seismass.design.rules import APPLIED, CodeRule, rule_of
+from seismass.design.rules import APPLIED, CodeRule, known_category, rule_of
 from seismass.model.codes import CODE_NAMES
 from seismass.motions.spectra import TargetSpectrum
 
@@ -202,7 +213,12 @@ def design_by_code(
     if not is_one_of(procedure, get_args(Procedure)):
         requirement = f"one of {', '.join(get_args(Procedure))}"
         raise refusal(InvalidOption, "procedure", "design", requirement, brief(procedure))
-    made = _Design(code_id)
+    made = _Design(as_one_of(code_id, str, "code_id", "design", InvalidOption))
+    risk_category = known_category(risk_category)
+    as_one_of(system, str, "system", "design", InvalidOption)
+    reduction = as_positive(reduction, "reduction", "design", InvalidOption)
+    s_1 = None if s_1 is None else as_positive(s_1, "s_1", "design", InvalidOption)
+    mass = positive(mass, "mass", or_zero=True)
     weight = STANDARD_GRAVITY * float(mass.sum())
     options: dict[str, Any] = {"stiffness_matrix": stiffness_matrix, "combination": combination, "damping": damping}
     elastic = response_spectrum_analysis(mass, stiffness, target, **options)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
 from seismass.base.files import stored_rows
-from seismass.base.values import FloatArray, as_positive, frozen, known_id
+from seismass.base.values import FloatArray, as_flag, as_positive, frozen, known_id
 from seismass.base.views import Card
 from seismass.design.modes import moments, positive, positive_of_length
 from seismass.model.codes import CODE_NAMES
@@ -262,7 +262,7 @@ def seismic_response_coefficient(
     reduced = as_positive(reduction, "reduction", _OWNER, InvalidOption) / factor
     limit = second / t if t <= longest else second * longest / t**2
     coefficient = min(short, limit) / reduced
-    if minimum:
+    if as_flag(minimum, "minimum", _OWNER, InvalidOption):
         coefficient = max(coefficient, 0.044 * short * factor, 0.01)
     if s_1 is not None and as_positive(s_1, "s_1", _OWNER, InvalidOption) >= 0.6:
         coefficient = max(coefficient, 0.5 * s_1 / reduced)

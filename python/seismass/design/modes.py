@@ -178,7 +178,7 @@ def modal_correlation(periods: ArrayLike, damping: float) -> FloatArray:
     -----
     Der Kiureghian (1981), Earthquake Engng Struct. Dyn. 9:419, for equal damping ratios.
     """
-    t = np.asarray(periods, dtype=np.float64)
+    t, damping = positive(periods, "periods"), as_number(damping, "damping", "modes", InvalidOption)
     r = t[:, None] / t[None, :]
     numerator = 8.0 * damping**2 * (1.0 + r) * r**1.5
     correlation: FloatArray = numerator / ((1.0 - r**2) ** 2 + 4.0 * damping**2 * r * (1.0 + r) ** 2)
@@ -281,8 +281,8 @@ def positive(values: ArrayLike, name: str, *, or_zero: bool = False) -> FloatArr
 
 def positive_of_length(values: ArrayLike, name: str, storeys: int) -> FloatArray:
     """Return one positive number per storey; one number stands for all of them."""
-    if np.ndim(values) == 0:
-        values = np.full(storeys, as_number(values, name, "building", InvalidScene))
+    array = as_array(values, name, "building", InvalidScene, or_number=True)
+    values = array if array.ndim else np.full(storeys, float(array))
     array = positive(values, name)
     if len(array) != storeys:
         requirement = f"one number or a list of {storeys} values, one per storey"
@@ -497,6 +497,8 @@ def response_spectrum_analysis(
     modes = vibration_modes(mass, stiffness, stiffness_matrix=stiffness_matrix)
     storeys = len(modes.periods)
     h = None if heights is None else positive_of_length(heights, "heights", storeys)
+    if not callable(spectrum):
+        raise refusal(InvalidOption, "spectrum", owner, "a callable of periods", brief(spectrum))
     ordinates = as_array(spectrum(modes.periods), "spectrum", owner, InvalidOption)
     if ordinates.shape != modes.periods.shape or not (np.isfinite(ordinates) & (ordinates >= 0.0)).all():
         requirement = f"{storeys} values of at least zero, one per period"

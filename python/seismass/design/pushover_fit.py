@@ -14,9 +14,11 @@ from seismass.base.errors import InvalidOption
 from seismass.base.values import (
     FloatArray,
     as_array,
+    as_list,
     brief,
     content_hash,
     frozen,
+    is_list,
     is_one_of,
     refusal,
     same_content,
@@ -457,8 +459,10 @@ def fit_pushover(
 
 def _curves(drift: Any, shear: Any, shape: SpringShape) -> tuple[list[tuple[FloatArray, FloatArray]], tuple[str, ...]]:
     """The curves from their origin, and what of them is left out."""
-    nested = len(drift) and np.ndim(drift[0]) > 0 if hasattr(drift, "__len__") else False
-    drifts, shears = (list(drift), list(shear)) if nested else ([drift], [shear])
+    nested = is_list(drift) and len(drift) > 0 and is_list(drift[0])
+    drifts, shears = [drift], [shear]
+    if nested:
+        drifts, shears = list(drift), as_list(shear, "shear", _OWNER, InvalidOption, f"a list of {len(drift)} curves")
     if len(drifts) != len(shears):
         raise refusal(InvalidOption, "shear", _OWNER, f"a list of {len(drifts)} curves", f"{len(shears)}")
     curves, notes = [], []

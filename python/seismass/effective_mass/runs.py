@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Final, Literal, TypeAlias, get_args
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, InvalidOption, SimulationError
 from seismass.base.statistics import DRIFT_CAP, capped
-from seismass.base.values import FloatArray, as_progress, as_threads, brief, is_one_of, refusal
+from seismass.base.values import FloatArray, as_list, as_progress, as_threads, brief, is_one_of, refusal
 from seismass.model.scene import Scene
 from seismass.motions.motion import HasMotion, Motion, as_motion, motion_names
 from seismass.motions.records.pair import Pair
@@ -118,9 +118,7 @@ def named_motions(motions: Any, owner: str, scene: Scene | None = None) -> Named
     several = [motions] if isinstance(motions, Motion | HasMotion | Pair) else motions
     in_plane = scene is not None and scene.engine == "plane"
     kinds = "Pairs, or tuples of two motions" if in_plane else "Motions or Records"
-    if not isinstance(several, Iterable):
-        raise refusal(InvalidMotion, "motions", owner, f"a list of {kinds}", brief(motions))
-    listed = list(several)
+    listed = as_list(several, "motions", owner, InvalidMotion, f"a list of {kinds}")
     if not listed:
         raise refusal(InvalidMotion, "motions", owner, f"at least one of {kinds}" if in_plane else _LEAST, "none")
     others = None

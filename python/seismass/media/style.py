@@ -11,13 +11,12 @@ from functools import cache
 from typing import Any, Final
 
 import matplotlib as mpl
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import brief, counted, refusal
+from seismass.base.values import brief, counted, is_list, refusal
 from seismass.media.roles import BLOCK_COLOURS, GREY, INK, PAPER, runs_leftwards
 
 PERIOD_TICKS: Final = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0)
@@ -204,7 +203,7 @@ def axes_of_caller(ax: Any, count: int, owner: str) -> Panels:
     """Return axes that a caller gave: one for all things, or one for each."""
     if isinstance(ax, Axes):
         return Panels([ax] * count, shared=True, is_new=False)
-    listed = list(ax) if isinstance(ax, Sequence | np.ndarray) else []
+    listed = list(ax) if is_list(ax) else []
     if len(listed) != count or not all(isinstance(one, Axes) for one in listed):
         raise refusal(InvalidOption, "ax", owner, f"one Axes, or a list of {counted(count, 'Axes', 'Axes')}", brief(ax))
     return Panels(listed, shared=count == 1, is_new=False)

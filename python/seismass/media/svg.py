@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from seismass.base.errors import InvalidOption
 from seismass.base.files import Content
-from seismass.base.values import brief, refusal
+from seismass.base.values import as_one_of, brief, refusal
 from seismass.media.roles import BLUE, GREEN, GREY, INK, ORANGE, PAPER, PURPLE, SKY, VERMILION
 from seismass.media.style import drawing, lay_out
 
@@ -120,6 +120,8 @@ def inline_svg(figure: Figure | str, title: str, description: str = "", *, name:
     InvalidOption
         The title is empty, or the name is not letters, digits, hyphens and underscores, a letter first.
     """
+    for parameter, words in (("title", title), ("description", description), ("name", "" if name is None else name)):
+        as_one_of(words, str, parameter, "inline figure", InvalidOption)
     if not title.strip():
         raise refusal(InvalidOption, "title", "inline figure", "a text", brief(title))
     text = figure if isinstance(figure, str) else figure_svg(figure)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidScene
-from seismass.base.values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, refusal
+from seismass.base.values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, is_list, refusal
 from seismass.base.views import Card
 from seismass.model.building import Building
 
@@ -51,7 +51,7 @@ class Stops(Value):
 
     def __init__(self, clearance: float | Sequence[float], stiffness: float, damping: float = 0.0) -> None:
         sides: Any = clearance
-        if not isinstance(sides, Sequence | np.ndarray) or isinstance(sides, str):
+        if not is_list(sides):
             sides = (clearance, clearance)
         if len(sides) != 2:
             requirement = "one number, or two: towards minus and towards plus"
@@ -219,17 +219,18 @@ class Block(Value):
 def _velocity(velocity: float | Sequence[float] | None) -> float | tuple[float, float] | None:
     if velocity is None:
         return None
-    if not isinstance(velocity, Sequence | np.ndarray) or isinstance(velocity, str):
+    if not is_list(velocity):
         return as_number(velocity, "velocity", "block", InvalidScene)
-    if len(velocity) != 2:
+    two: Any = velocity
+    if len(two) != 2:
         raise refusal(InvalidScene, "velocity", "block", "one number, or two: in x and in y", brief(velocity))
-    x, y = (as_number(each, "velocity", "block", InvalidScene) for each in velocity)
+    x, y = (as_number(each, "velocity", "block", InvalidScene) for each in two)
     return x, y
 
 
 def _stages(wear: Any) -> tuple[tuple[float, float, float], ...]:
     requirement = "a list of (path, mu_s, mu_k)"
-    if not isinstance(wear, Sequence | np.ndarray) or isinstance(wear, str):
+    if not is_list(wear):
         raise refusal(InvalidScene, "wear", "block", requirement, brief(wear))
     if len(wear) == 0:
         return ()

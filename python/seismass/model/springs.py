@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seismass import _kernel
 from seismass.base.errors import InvalidScene
-from seismass.base.values import FloatArray, as_array, brief, frozen, is_one_of, refusal
+from seismass.base.values import FloatArray, as_array, brief, frozen, is_list, is_one_of, refusal
 
 DEFAULT_OVERSTRENGTH: Final = _kernel.DEFAULT_OVERSTRENGTH
 """Overstrength Omega, of the paper's section 4."""
@@ -294,7 +294,7 @@ def listed_storeys(backbone: Any, hysteresis: Any) -> Iterator[int]:
 
 def is_per_storey(backbone: Any) -> bool:
     """Return whether a backbone is a list with one per storey, not one for all."""
-    return isinstance(backbone, Sequence | np.ndarray) and any(
+    return is_list(backbone) and any(
         item is None or (isinstance(item, Sequence | np.ndarray) and _dimensions(item) == 2) for item in backbone
     )
 

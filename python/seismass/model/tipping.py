@@ -7,7 +7,6 @@ moves with the floor, the rest slides with mu = b/h.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Final, Literal, NamedTuple, TypeAlias
 
@@ -16,7 +15,7 @@ import numpy as np
 from seismass.base.errors import InvalidOption
 from seismass.base.files import stored_rows
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import as_number, as_positive, brief, refusal
+from seismass.base.values import as_list, as_number, as_one_of, as_positive, brief, refusal
 
 OWNER: Final = "block size"
 
@@ -126,7 +125,8 @@ def parse_size(text: str) -> BlockSize:
     >>> parse_size("1.0x1.2@0.4")
     BlockSize(width=1.0, height=1.2, centre=0.4)
     """
-    parts = re.fullmatch(r"([^x@]+)x([^x@]+)(?:@([^x@]+))?", text.strip().lower())
+    words = as_one_of(text, str, "text", "size", InvalidOption)
+    parts = re.fullmatch(r"([^x@]+)x([^x@]+)(?:@([^x@]+))?", words.strip().lower())
     try:
         if parts is None:
             raise ValueError
@@ -143,7 +143,7 @@ def as_sizes(sizes: Any, blocks: int) -> tuple[BlockSize | None, ...]:
     if sizes is None or isinstance(sizes, BlockSize):
         return (sizes,) * blocks
     requirement = f"a BlockSize, or a list of {blocks}, one per block or None"
-    listed = list(sizes) if isinstance(sizes, Iterable) and not isinstance(sizes, str) else [sizes]
+    listed = as_list(sizes, "sizes", "slip demand", InvalidOption, requirement)
     if len(listed) != blocks or not all(size is None or isinstance(size, BlockSize) for size in listed):
         raise refusal(InvalidOption, "sizes", "slip demand", requirement, brief(sizes))
     return tuple(listed)

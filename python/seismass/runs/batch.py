@@ -21,6 +21,7 @@ from seismass.base.stored_results import result_store
 from seismass.base.values import (
     as_count,
     as_flag,
+    as_list,
     as_path,
     as_progress,
     as_threads,
@@ -335,9 +336,7 @@ def checked_motions(motions: Any) -> tuple[list[Any], list[Motion], list[str]]:
 def _listed_motions(motions: Any) -> list[Any]:
     if isinstance(motions, Motion | HasMotion | Pair):
         return [motions]
-    if not isinstance(motions, Iterable):
-        raise refusal(InvalidMotion, "motions", "batch", "a list of Motions or Records", brief(motions))
-    return list(motions)
+    return as_list(motions, "motions", "batch", InvalidMotion, "a list of Motions or Records")
 
 
 def _in_any_plane(motions: list[Any]) -> list[Motion | PlaneMotion]:
@@ -424,9 +423,8 @@ class _GridBatch:
 
 
 def _listed_scenes(scenes: Any) -> list[Scene]:
-    if not isinstance(scenes, Scene | Iterable):
-        raise refusal(InvalidScene, "scenes", "batch", "a list of Scenes", brief(scenes))
-    listed = [scenes] if isinstance(scenes, Scene) else list(scenes)
+    single = isinstance(scenes, Scene)
+    listed = [scenes] if single else as_list(scenes, "scenes", "batch", InvalidScene, "a list of Scenes")
     for number, scene in enumerate(listed, start=1):
         if not isinstance(scene, Scene):
             raise refusal(InvalidScene, f"scene {number}", "batch", "a Scene", brief(scene))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.fork_check import require_polars
-from seismass.base.values import brief, refusal
+from seismass.base.values import as_list, brief, refusal
 from seismass.model.scene import Scene
 from seismass.runs.grid.columns import TABLE_COLUMNS, table_of
 from seismass.runs.grid.grid import Grid
@@ -148,7 +148,8 @@ def _of_grid(grid: Grid, table: pl.DataFrame) -> tuple[pl.DataFrame, pl.DataFram
 
 def _of_scenes(scenes: Any, table: pl.DataFrame) -> tuple[pl.DataFrame, pl.DataFrame]:
     """As `_of_grid`, of scenes that are objects."""
-    listed = [scenes] if isinstance(scenes, Scene) else list(scenes) if isinstance(scenes, Iterable) else [scenes]
+    single = isinstance(scenes, Scene)
+    listed = [scenes] if single else as_list(scenes, "scenes", "long_table", InvalidScene, "a list of Scenes")
     for number, scene in enumerate(listed, start=1):
         if not isinstance(scene, Scene):
             raise refusal(InvalidScene, f"scene {number}", "long_table", "a Scene", brief(scene))

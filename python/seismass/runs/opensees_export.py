@@ -21,6 +21,8 @@ from seismass.base.values import (
     FloatArray,
     as_array,
     as_count,
+    as_list,
+    as_one_of,
     as_path,
     brief,
     content_hash,
@@ -89,7 +91,12 @@ def write_opensees(
     ['model.py', 'README.md', 'motion-01.txt', 'model.json', 'files.json']
     """
     out = as_path(folder, "folder of OpenSees models", InvalidOption)
-    items = [as_motion(motion, f"motion {number}", "OpenSees export") for number, motion in enumerate(motions, start=1)]
+    owner = "OpenSees export"
+    listed_motions = as_list(motions, "motions", owner, InvalidOption, "Motions or Records")
+    items = [as_motion(motion, f"motion {number}", owner) for number, motion in enumerate(listed_motions, start=1)]
+    for scene in as_one_of(scenes, Mapping, "scenes", owner, InvalidOption).values():
+        as_one_of(scene, Scene, "scene", owner, InvalidScene)
+    as_one_of({} if documents is None else documents, Mapping, "documents", owner, InvalidOption)
     if not scenes or not items:
         got = "no motion" if scenes else "no scene"
         raise refusal(InvalidOption, "models", "OpenSees export", "scenes and motions, at least one of each", got)

@@ -9,7 +9,7 @@ import numpy as np
 import polars as pl
 
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import brief, refusal, short
+from seismass.base.values import as_list, brief, refusal, short
 from seismass.base.views import Card
 from seismass.model.scene import Scene
 
@@ -64,9 +64,8 @@ class SceneProduct(Card, Sequence[Scene]):
             raise refusal(InvalidOption, "axes", "scene product", "given by name, at least one", "none")
         self.axes: dict[str, tuple[Any, ...]] = {}
         for name, values in axes.items():
-            if isinstance(values, str) or not isinstance(values, Iterable):
-                raise refusal(InvalidOption, f"axis {name}", "scene product", "a list of values", brief(values))
-            self.axes[name] = tuple(value.item() if isinstance(value, np.generic) else value for value in values)
+            listed = as_list(values, f"axis {name}", "scene product", InvalidOption, "a list of values")
+            self.axes[name] = tuple(value.item() if isinstance(value, np.generic) else value for value in listed)
             if not self.axes[name]:
                 raise refusal(InvalidOption, f"axis {name}", "scene product", "at least one value", "none")
         self._shape = tuple(len(values) for values in self.axes.values())

@@ -151,7 +151,7 @@ def warn_of_doubts(scenes: Any, motions: Any) -> None:
         others = f" (and {len(doubtful) - 1} more scenes)" if len(doubtful) > 1 else ""
         warnings.warn(f"scene {number}: {'; '.join(remarks)}{others}", DoubtfulInput, stacklevel=3)
     listed = [motions] if hasattr(motions, "acceleration") else motions if hasattr(motions, "__len__") else ()
-    first = list(listed)[:MOST_LOOKED_AT]
+    first = [] if getattr(listed, "shape", None) == () else list(listed)[:MOST_LOOKED_AT]
     alone = [each for one in first for each in (one if is_motion_pair(one) else (one,))]
     strong = motion_remarks([each for each in alone if hasattr(each, "acceleration")])
     if strong:

@@ -14,6 +14,8 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
 
+from seismass.base.errors import InvalidOption
+from seismass.base.values import as_number, as_one_of
 from seismass.effective_mass.design_map import EffectiveMassMap
 from seismass.effective_mass.live_load import LiveLoadUncertainty
 from seismass.effective_mass.result import EffectiveMass
@@ -78,7 +80,8 @@ def effective_mass_figure(
 @drawing()
 def curve_figure(result: EffectiveMass, codes: Mapping[str, float] | None = None) -> Figure:
     """Drift with goods that slide over the model's, against the share attached, with its band, the answer and codes."""
-    marks = STORAGE_CODES if codes is None else codes
+    marks = STORAGE_CODES if codes is None else as_one_of(codes, Mapping, "codes", "figure", InvalidOption)
+    marks = {name: as_number(share, "share of a code", "figure", InvalidOption) for name, share in marks.items()}
     largest = result.curve.filter(pl.col("storey") == 0)
     share, ratio = largest["fraction"].to_numpy(), largest["ratio"].to_numpy()
     figure = Figure(figsize=(6.4, 4.6), layout="constrained")

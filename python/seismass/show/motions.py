@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure, SubFigure
+from matplotlib.figure import Figure, FigureBase, SubFigure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, brief, counted, refusal
+from seismass.base.values import FloatArray, as_list, as_one_of, brief, counted, refusal
 from seismass.media.result import named_figure
 from seismass.media.roles import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
 from seismass.media.style import PERIOD_TICKS, drawing, plain
@@ -320,10 +320,11 @@ def record_figure(
     if axes is not None and figure is not None:
         raise refusal(InvalidOption, "axes", "plot", "left out where a figure is given", brief(axes))
     if axes is None:
-        figure = figure or Figure(figsize=(7.0, 6.4), layout="constrained")
+        figure = Figure(figsize=(7.0, 6.4), layout="constrained") if figure is None else figure
+        as_one_of(figure, FigureBase, "figure", "plot", InvalidOption)
         panels: list[Axes] = list(figure.subplots(PANELS, 1, sharex=True))
     else:
-        panels = list(axes)
+        panels = as_list(axes, "axes", "plot", InvalidOption, f"{PANELS} Axes")
         if len(panels) != PANELS or not all(isinstance(one, Axes) for one in panels):
             raise refusal(InvalidOption, "axes", "plot", f"{PANELS} Axes", brief(axes))
     _draw(record, panels)

@@ -128,8 +128,8 @@ def scaled_suite(
 
 def given_motions(records: Any) -> list[Any]:
     """Return motions and pairs as a list."""
-    single = hasattr(records, "acceleration") or not isinstance(records, Iterable)
-    return as_motions(records, "scaling") if single else list(records)
+    several = isinstance(records, Iterable) and getattr(records, "shape", (0,)) != ()
+    return list(records) if several and not hasattr(records, "acceleration") else as_motions(records, "scaling")
 
 
 def is_pair(item: Any) -> bool:

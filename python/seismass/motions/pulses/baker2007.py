@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_count, frozen
+from seismass.base.values import FloatArray, as_count, as_number, frozen
 from seismass.motions.pulses.extraction import (
     ARRIVAL,
     CENTIMETRES,
@@ -50,6 +50,9 @@ def pulse_indicator_2007(pgv_ratio: float, energy_ratio: float) -> float:
     >>> f"{pulse_indicator_2007(0.6, 0.6):.3f}"
     '0.904'
     """
+    pgv_ratio, energy_ratio = (
+        as_number(value, "ratio", "pulse indicator", InvalidOption) for value in (pgv_ratio, energy_ratio)
+    )
     return 1.0 / (1.0 + math.exp(-23.3 + 14.6 * pgv_ratio + 20.5 * energy_ratio))
 
 

@@ -8,7 +8,8 @@ from typing import Final
 
 import numpy as np
 
-from seismass.base.values import FloatArray, frozen
+from seismass.base.errors import InvalidOption
+from seismass.base.values import FloatArray, as_number, frozen
 from seismass.motions.pulses.extraction import (
     ARRIVAL,
     CENTIMETRES,
@@ -50,6 +51,10 @@ def pulse_indicator_2014(pgv_ratio: float, energy_ratio: float, pgv_cm_s: float)
     >>> f"{pulse_indicator_2014(0.5, 0.5 * (1.0 - 0.63) / 0.777, 30.0):.3f}"
     '1.963'
     """
+    pgv_ratio, energy_ratio, pgv_cm_s = (
+        as_number(value, "ratio or peak", "pulse indicator", InvalidOption)
+        for value in (pgv_ratio, energy_ratio, pgv_cm_s)
+    )
     principal = (0.63 * pgv_ratio + 0.777 * energy_ratio - 1.208421) / 0.2462717
     peak = (pgv_cm_s - 11.58861) / 18.88015
     return (

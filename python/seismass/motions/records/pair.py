@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 import numpy as np
 
 from seismass.base.errors import InvalidMotion, InvalidOption, RecordFormatError
-from seismass.base.values import FloatArray, Value, as_number, as_path, brief, is_one_of, printable, refusal
+from seismass.base.values import FloatArray, Value, as_array, as_number, as_path, brief, is_one_of, printable, refusal
 from seismass.base.views import Card
 from seismass.motions.records.formats.labels import azimuth_of, is_vertical
 from seismass.motions.records.known import with_tables
@@ -45,6 +45,7 @@ def at_angles(first: FloatArray, second: FloatArray, degrees: FloatArray, apart:
     """
     from scipy.special import cosdg, sindg  # exact at quarter turns; slow to import
 
+    degrees = as_array(degrees, "degrees", "pair", InvalidOption, or_number=True)
     across = second if apart == 90.0 else (second - cosdg(apart) * first) / sindg(apart)
     rotated: FloatArray = np.multiply.outer(cosdg(degrees), first)
     rotated += np.multiply.outer(sindg(degrees), across)
@@ -307,6 +308,8 @@ class Pair(Value):
 
     def each(self, change: Callable[[Record], Record]) -> Pair:
         """Return the pair with every component changed in one way, as `pair.each(lambda r: r.resampled(0.005))`."""
+        if not callable(change):
+            raise refusal(InvalidOption, "change", "pair", "a callable of a Record", brief(change))
         return self.replace(**{name: change(record) for name, record in self._named().items()})
 
     def _labels(self) -> str:

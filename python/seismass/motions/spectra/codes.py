@@ -77,6 +77,7 @@ class TwoPeriod:
 
     def __call__(self, periods: FloatArray) -> FloatArray:
         """Return Sa (m/s2)."""
+        periods = as_array(periods, "periods", "target spectrum", InvalidOption, or_number=True)
         corner = self.sd1_g / self.sds_g
         t = np.maximum(periods, 0.2 * corner)
         falling = np.where(t <= self.tl, self.sd1_g / t, self.sd1_g * self.tl / t**2)

@@ -361,6 +361,8 @@ def corner_period(spectrum: Callable[[FloatArray], ArrayLike]) -> float:
     >>> round(corner_period(sm.TargetSpectrum.asce7(sds_g=1.0, sd1_g=0.6)), 6)
     0.6
     """
+    if not callable(spectrum):
+        raise refusal(InvalidOption, "spectrum", "corner period", "a callable of periods", brief(spectrum))
     accelerations = np.asarray(spectrum(CORNER_PERIODS), dtype=np.float64)
     return float(np.max(accelerations * CORNER_PERIODS) / np.max(accelerations))
 

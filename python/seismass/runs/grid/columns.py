@@ -13,7 +13,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from seismass.base.errors import InvalidMotion, InvalidScene, SeismassError
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_array, brief, content_hash, frozen, read_only, refusal, same_content
+from seismass.base.values import (
+    FloatArray,
+    as_array,
+    brief,
+    content_hash,
+    frozen,
+    is_list,
+    read_only,
+    refusal,
+    same_content,
+)
 from seismass.model.building import Building, changed_building, of_storeys_alone
 from seismass.model.springs import SHAPE_FIELDS, SpringShape
 from seismass.runs.grid.sample import StrengthDesign
@@ -114,7 +124,7 @@ def strength_table(value: Any) -> FloatArray:
     of lower buildings, are filled with NaN.
     """
     name = "yield_shear_over_weight"
-    rows = list(value) if isinstance(value, Sequence | np.ndarray) and np.ndim(_first(value)) == 1 else None
+    rows = list(value) if is_list(value) and is_list(_first(value)) else None
     if rows is None:
         table = as_array(value, name, "grid", InvalidScene, or_number=True).reshape(-1, 1)
     else:

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import quantile
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_number, brief, refusal
+from seismass.base.values import FloatArray, as_number, brief, is_one_of, refusal
 from seismass.media.roles import ALPHA, BLOCK_COLOURS, BLUE, GREY, INK, LIMIT, MU, PAPER, SKY
 from seismass.media.style import drawing, grid_lines, plain, say, single
 from seismass.studies.fragility.fragility import fit_counts
@@ -57,7 +57,7 @@ def checked_table(table: Any, columns: tuple[str, ...], owner: str) -> pl.DataFr
     if not isinstance(table, pl.DataFrame):
         raise refusal(InvalidOption, "table", owner, "a polars.DataFrame of runs", brief(table))
     for name in columns:
-        if name not in table.columns:
+        if not is_one_of(name, table.columns):
             raise refusal(InvalidOption, "column", owner, f"one of {', '.join(table.columns)}", brief(name))
     rows = table.filter(pl.col("status") != "failed") if "status" in table.columns else table
     if rows.is_empty():

@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_count, brief, is_one_of, refusal
+from seismass.base.values import FloatArray, as_count, as_list, as_one_of, brief, is_list, is_one_of, refusal
 from seismass.media.roles import BLUE, GREEN, GREY, INK, PAPER, PURPLE, VERMILION, YIELDS
 from seismass.media.style import RING, SERIES, Panels, drawing, grid_lines, panels, ring, say, single, zero_line
 from seismass.model.scene import goods_names, spring_names
@@ -48,12 +48,11 @@ def event_kinds(kinds: bool | Sequence[str], usual: tuple[str, ...], owner: str)
     """Return kinds of events: the usual ones for True, none for False, or those of a list."""
     if isinstance(kinds, bool):
         return usual if kinds else ()
-    listed = (kinds,) if isinstance(kinds, str) else tuple(kinds)
+    requirement = f"True, False or some of {', '.join(EVENT_KINDS)}"
+    listed = (kinds,) if isinstance(kinds, str) else tuple(as_list(kinds, "events", owner, InvalidOption, requirement))
     for kind in listed:
         if not is_one_of(kind, EVENT_KINDS):
-            raise refusal(
-                InvalidOption, "events", owner, f"True, False or some of {', '.join(EVENT_KINDS)}", brief(kind)
-            )
+            raise refusal(InvalidOption, "events", owner, requirement, brief(kind))
     return listed
 
 
@@ -109,6 +108,7 @@ def events(response: Response, *, ax: Axes | None = None) -> Figure:
     InvalidOption
         The run has no event log, or `ax` is not an Axes.
     """
+    as_one_of(response, Response, "response", "figure", InvalidOption)
     log = response.event_log
     blocks, rows = goods_names(response.scene), list(spring_names(response.scene))
     springs = len(rows)
@@ -185,6 +185,7 @@ def drift(
     InvalidOption
         The run has no histories, there is no such storey or kind of events, or `ax` does not fit the panels.
     """
+    as_one_of(response, Response, "response", "figure", InvalidOption)
     numbers_drawn = numbers(storeys, response.scene.storeys, "storeys", "drift figure")
     place = panels(ax, len(numbers_drawn), "drift figure")
     histories(
@@ -230,6 +231,7 @@ def slip(
     InvalidOption
         The run has no histories, there is no such block or kind of events, or `ax` does not fit the panels.
     """
+    as_one_of(response, Response, "response", "figure", InvalidOption)
     places = goods_names(response.scene)
     numbers_drawn = numbers(blocks, len(places), "blocks", "slip figure")
     place = panels(ax, len(numbers_drawn), "slip figure")
@@ -280,6 +282,7 @@ def acceleration(
     InvalidOption
         The run has no such histories, there is no such floor or kind of events, or `ax` does not fit the panels.
     """
+    as_one_of(response, Response, "response", "figure", InvalidOption)
     numbers_drawn = numbers(floors, response.scene.storeys, "floors", "acceleration figure")
     place = panels(ax, len(numbers_drawn), "acceleration figure")
     histories(
@@ -303,7 +306,8 @@ def numbers(value: int | Sequence[int] | None, count: int, parameter: str, owner
         raise refusal(InvalidOption, parameter, owner, "in a scene that has any", "a scene without")
     if value is None:
         return list(range(1, count + 1))
-    listed = list(value) if isinstance(value, Sequence | np.ndarray) and not isinstance(value, str) else [value]
+    values: Any = value
+    listed = list(values) if is_list(values) else [values]
     counts = [as_count(one, parameter, owner, InvalidOption, least=1) for one in listed]
     if not counts or max(counts) > count:
         raise refusal(InvalidOption, parameter, owner, f"numbers counted from 1 to {count}", brief(value))
@@ -410,6 +414,7 @@ def energy(response: Response, *, points: int = DEFAULT_POINTS, ax: Axes | None 
     InvalidOption
         There are fewer than two points, or `ax` is not an Axes.
     """
+    as_one_of(response, Response, "response", "figure", InvalidOption)
     times, runs = _shortened(response, points, "energy figure", energy=True)
     stated = response.scene.building is None or response.scene.building.mass_is_stated
     scale, unit = (1e-3, "kJ") if stated else (1.0, "J for floors of 1 kg")
@@ -476,6 +481,7 @@ def slip_path(
     InvalidOption
         There is no such block, there are fewer than two points, or `ax` is not an Axes.
     """
+    as_one_of(response, Response, "response", "figure", InvalidOption)
     places = goods_names(response.scene)
     numbers_drawn = numbers(blocks, len(places), "blocks", "figure of slip paths")
     times, runs = _shortened(response, points, "figure of slip paths", energy=False)

@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, brief, refusal
+from seismass.base.values import FloatArray, as_one_of, brief, refusal
 from seismass.design import Pushover
 from seismass.media.roles import BLUE, GREY, INK, LIMIT, PURPLE, VERMILION
 from seismass.media.style import SERIES, columns, drawing, grid_lines, panels, say, single, zero_line
@@ -72,6 +72,7 @@ def loops(
     InvalidOption
         The run has no such histories, there is no such storey or kind of events, or `ax` does not fit the panels.
     """
+    as_one_of(response, Response, "response", "figure", InvalidOption)
     owner = "figure of loops"
     numbers_drawn = numbers(storeys, response.scene.storeys, "storeys", owner)
     kinds = event_kinds(events, ("yield", "unload", "reload", "close", "open"), owner)
@@ -155,6 +156,7 @@ def pushover(path: Pushover, *, labels: bool = True, ax: Axes | None = None) -> 
     InvalidOption
         `ax` is not an Axes.
     """
+    as_one_of(path, Pushover, "path", "pushover figure", InvalidOption)
     place = single(ax, "pushover figure")
     axes = place.axes[0]
     roof, shear = 1e3 * path.roof_displacement, path.base_shear / path.weight
@@ -226,6 +228,7 @@ def contacts(
     InvalidOption
         The run has no event log, no block has stops or one that is named has none, or `ax` does not fit the panels.
     """
+    as_one_of(response, Response, "response", "figure", InvalidOption)
     owner, goods = "figure of contacts", response.scene.goods
     stopped = [number for number, block in enumerate(goods, start=1) if block.stops is not None]
     if not stopped:
@@ -298,6 +301,7 @@ def rack_drift(
     InvalidOption
         The run has no histories, there is no such rack or kind of events, or `ax` does not fit the panels.
     """
+    as_one_of(response, Response, "response", "figure", InvalidOption)
     owner, scene = "rack drift figure", response.scene
     wanted = numbers(racks, len(scene.racks), "racks", owner)
     places, names = rack_levels(scene), spring_names(scene)
@@ -347,6 +351,7 @@ def rack_profile(
     InvalidOption
         There is no such rack, or `ax` does not fit the panels.
     """
+    as_one_of(response, Response, "response", "figure", InvalidOption)
     owner, scene = "rack profile", response.scene
     numbers_drawn = numbers(racks, len(scene.racks), "racks", owner)
     building = scene.building

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import quantile
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_number, brief, is_one_of, refusal
+from seismass.base.values import FloatArray, as_array, as_list, as_number, as_one_of, brief, is_one_of, refusal
 from seismass.media.roles import BLUE, GREY, INK, LIMIT
 from seismass.media.style import PERIOD_TICKS, SERIES, columns, drawing, grid_lines, say, single
 from seismass.motions.motion import Motion
@@ -75,14 +75,21 @@ def profile(
     InvalidOption
         There is no building or no such quantity, a limit is not a number or has no panel, or `ax` does not fit them.
     """
+    as_one_of(response, Response, "response", "figure", InvalidOption)
     owner = "profile"
-    names = [quantities] if isinstance(quantities, str) else list(quantities)
+    what = "some of drift, acceleration, shear, slip"
+    names = (
+        [quantities] if isinstance(quantities, str) else as_list(quantities, "quantities", owner, InvalidOption, what)
+    )
     known = _quantities(response)
     for name in names:
         if not is_one_of(name, ("drift", "acceleration", "shear", "slip")):
-            raise refusal(InvalidOption, "quantities", owner, "some of drift, acceleration, shear, slip", brief(name))
+            raise refusal(InvalidOption, "quantities", owner, what, brief(name))
     shown = [name for name in names if name in known]
-    bounds = {name: as_number(value, "limit", owner, InvalidOption) for name, value in (limits or {}).items()}
+    if not shown:
+        raise refusal(InvalidOption, "quantities", owner, f"some of {', '.join(known)}", brief(quantities))
+    stated = {} if limits is None else as_one_of(limits, Mapping, "limits", owner, InvalidOption)
+    bounds = {name: as_number(value, "limit", owner, InvalidOption) for name, value in stated.items()}
     for name in bounds:
         if name not in shown:
             raise refusal(InvalidOption, "limits", owner, f"for some of {', '.join(shown)}", brief(name))
@@ -195,6 +202,7 @@ def floor_spectra(
         The run has no such histories or collapsed, there is no such floor, a period or the damping is out of its range,
         or `ax` is not an Axes.
     """
+    as_one_of(response, Response, "response", "figure", InvalidOption)
     owner = "floor spectra"
     numbers_drawn = numbers(floors, response.scene.storeys, "floors", owner)
     every = response._asked("floor spectra", "histories", stored="every")
@@ -202,7 +210,7 @@ def floor_spectra(
         raise refusal(InvalidOption, "histories", owner, "True, a row at every sample", str(every))
     if response.status != "completed":
         raise refusal(InvalidOption, "response", owner, "that of a completed run", response.status)
-    period_values = SPECTRUM_PERIODS if periods is None else np.asarray(periods, dtype=float)
+    period_values = SPECTRUM_PERIODS if periods is None else as_array(periods, "periods", owner, InvalidOption)
     ground = response.motion
     motions = [Motion(response.floor_acceleration[:, number - 1], ground.dt) for number in numbers_drawn]
     spectra = response_spectrum([ground, *motions], period_values, damping) / STANDARD_GRAVITY

@@ -19,6 +19,7 @@ from seismass.base.input_table import Table
 from seismass.base.values import (
     as_count,
     as_flag,
+    as_list,
     as_name,
     as_number,
     brief,
@@ -71,9 +72,7 @@ def stored_columns(columns: Iterable[str] | None, peaks_only: bool) -> tuple[str
     known = [name for name in UNITS if not (peaks_only and name in RESIDUALS)]
     if columns is None:
         return tuple(known)
-    if isinstance(columns, str) or not isinstance(columns, Iterable):
-        raise refusal(InvalidOption, "columns", "campaign", "a list of names", brief(columns))
-    wanted = list(columns)
+    wanted = as_list(columns, "columns", "campaign", InvalidOption, "a list of names")
     for name in wanted:
         if not is_one_of(name, known):
             note = " (left out where peaks_only is chosen)" if is_one_of(name, RESIDUALS) else ""

@@ -10,7 +10,7 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import FloatArray, as_positive, brief, is_one_of, refusal
+from seismass.base.values import FloatArray, as_list, as_positive, brief, is_one_of, refusal
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping
 from seismass.model.scene import Scene
 from seismass.motions.motion import HasMotion, Motion, MotionLike
@@ -373,9 +373,11 @@ def _stripes(stripes: Any, owner: str) -> tuple[list[Any], list[IndexArray], Flo
     listed: list[Any] = []
     indices = []
     for level, value in ordered:
-        listed_motions = [value] if isinstance(value, Motion | HasMotion) else value
-        if not isinstance(listed_motions, Iterable) or not (listed_motions := list(listed_motions)):
-            raise refusal(InvalidMotion, f"motions at {level:g}", owner, "a list of Motions or Records", brief(value))
+        what, need = f"motions at {level:g}", "a list of Motions or Records"
+        single = isinstance(value, Motion | HasMotion)
+        listed_motions = [value] if single else as_list(value, what, owner, InvalidMotion, need)
+        if not listed_motions:
+            raise refusal(InvalidMotion, what, owner, need, brief(value))
         for motion in listed_motions:
             if id(motion) not in number:
                 number[id(motion)] = len(listed)

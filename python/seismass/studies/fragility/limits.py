@@ -11,7 +11,18 @@ import polars as pl
 
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_count, as_number, as_positive, brief, is_one_of, refusal
+from seismass.base.values import (
+    FloatArray,
+    as_array,
+    as_count,
+    as_list,
+    as_number,
+    as_one_of,
+    as_positive,
+    brief,
+    is_one_of,
+    refusal,
+)
 from seismass.effective_mass.runs import named_motions
 from seismass.model.scene import Scene
 from seismass.motions.motion import MotionLike
@@ -167,7 +178,7 @@ class LimitState:
 
     def applies(self, scene: Scene) -> bool:
         """Whether a model has the quantity: one without goods that slide has no slip."""
-        blocks = len(scene.blocks)
+        blocks = len(as_one_of(scene, Scene, "scene", "limit state", InvalidScene).blocks)
         return self.quantity not in _OF_BLOCKS or (blocks > 0 if self.block is None else self.block <= blocks)
 
     def check(self, scene: Scene, owner: str) -> None:
@@ -180,6 +191,7 @@ class LimitState:
         InvalidScene
             It is one of ratios, and the building has no heights, or there is no building.
         """
+        as_one_of(scene, Scene, "scene", owner, InvalidScene)
         if self.quantity in _OF_BLOCKS:
             return
         if scene.building is None:
@@ -205,7 +217,7 @@ class LimitState:
             Demand: ratio, m or g; 1 or 0 for a collapse. Infinite in a collapsed run unless `collapsed` is "peak", NaN
             in a failed one and where the scene has no such block.
         """
-        status = table["status"]
+        status = as_one_of(table, pl.DataFrame, "table", "limit state", InvalidOption)["status"]
         collapsed = (status == "collapsed").to_numpy()
         if self.quantity == "collapse":
             return np.where((status == "failed").to_numpy(), np.nan, collapsed.astype(np.float64))
@@ -234,7 +246,8 @@ class LimitState:
 
     def exceeded(self, demand: FloatArray) -> FloatArray:
         """Return 1 where a demand exceeds the limit, 0 where not, NaN where it is NaN."""
-        return np.where(np.isnan(demand), np.nan, (demand > self.value).astype(np.float64))
+        values = as_array(demand, "demand", "limit state", InvalidOption, or_number=True)
+        return np.where(np.isnan(values), np.nan, (values > self.value).astype(np.float64))
 
     def to_dict(self) -> dict[str, Any]:
         """Return what defines it, with its name and text."""
@@ -244,9 +257,7 @@ class LimitState:
 def as_limits(limits: Any, owner: str) -> tuple[LimitState, ...]:
     """Return limit states: at least one, and none twice."""
     listed = [limits] if isinstance(limits, LimitState) else limits
-    if not isinstance(listed, Iterable):
-        raise refusal(InvalidOption, "limits", owner, "LimitStates", brief(limits))
-    items = tuple(listed)
+    items = tuple(as_list(listed, "limits", owner, InvalidOption, "LimitStates"))
     if not items:
         raise refusal(InvalidOption, "limits", owner, "at least one LimitState", "none")
     for number, limit in enumerate(items, start=1):
@@ -276,7 +287,7 @@ def parse_limit(text: str) -> LimitState:
     >>> parse_limit("slip@2=0.1")
     LimitState(quantity='slip', value=0.1, storey=None, block=2, collapsed='exceeds')
     """
-    head, equals, number = text.partition("=")
+    head, equals, number = as_one_of(text, str, "text", "limit state", InvalidOption).partition("=")
     quantity, sign, place = head.strip().partition("@")
     requirement = "QUANTITY=VALUE, QUANTITY@STOREY=VALUE, slip@BLOCK=VALUE or collapse"
     try:

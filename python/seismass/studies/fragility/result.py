@@ -133,7 +133,7 @@ class FragilityAnalysis(Result):
         """
         name = limit.name if isinstance(limit, LimitState) else limit
         for each in self.limits:
-            if each.name == name:
+            if is_one_of(name, (each.name,)):
                 return each
         known = ", ".join(each.name for each in self.limits)
         raise refusal(InvalidOption, "limit", "analysis", f"one of {known}", brief(name))
@@ -148,7 +148,7 @@ class FragilityAnalysis(Result):
         """
         state = self.limits[0] if limit is None else self.limit(limit)
         name = self.reference if model is None else model
-        if (name, state.name) not in self.fits:
+        if not is_one_of(name, [each for each, other in self.fits if other == state.name]):
             known = ", ".join(each for each, other in self.fits if other == state.name)
             raise refusal(InvalidOption, "model", f"fragility for {state.name}", f"one of {known}", brief(name))
         return self.fits[name, state.name]
@@ -220,6 +220,9 @@ class FragilityAnalysis(Result):
 
     def traces(self, model: str, column: str) -> list[tuple[FloatArray, FloatArray]]:
         """Return intensities and demands of each motion under a model; none where the model has no such quantity."""
+        for name, known in ((model, self.runs["model"].unique().to_list()), (column, self.runs.columns)):
+            if not is_one_of(name, known):
+                raise refusal(InvalidOption, "name", "traces", f"one of {', '.join(map(str, known))}", brief(name))
         rows = self.runs.filter(pl.col("model") == model).drop_nulls(column).sort("motion", "intensity")
         return [
             (part["intensity"].to_numpy(), part[column].to_numpy())

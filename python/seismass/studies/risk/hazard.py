@@ -283,6 +283,9 @@ class HazardCurve(Value, Card):
 
     def rates(self, sa_g: FloatArray) -> FloatArray:
         """Return the annual rate at each of several positive intensities (g), by the end segments beyond the ends."""
+        values: Any = sa_g
+        if getattr(getattr(values, "dtype", None), "kind", "") not in tuple("iuf"):  # of any shape
+            sa_g = as_array(values, "intensity", OWNER, InvalidOption, or_number=True)
         number = np.clip(np.searchsorted(self.sa_g, sa_g, side="right") - 1, 0, len(self.sa_g) - 1)
         slope = np.append(self.slopes, self.slopes[-1])[number]
         return np.asarray(self.annual_rate[number] * (sa_g / self.sa_g[number]) ** -slope, dtype=np.float64)

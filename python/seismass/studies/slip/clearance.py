@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from numbers import Real
 from typing import Any, Final
@@ -11,7 +10,17 @@ import numpy as np
 import polars as pl
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_positive, brief, refusal
+from seismass.base.values import (
+    FloatArray,
+    as_array,
+    as_count,
+    as_list,
+    as_number,
+    as_one_of,
+    as_positive,
+    brief,
+    refusal,
+)
 from seismass.model.rack import Rack, RackBlock
 from seismass.model.scene import Scene
 from seismass.runs.response import Response
@@ -97,7 +106,7 @@ def _clearances(clearance: Any, blocks: int, sides: int) -> tuple[Clearance | No
     if clearance is None or _single(clearance):
         return (_clearance(clearance, sides),) * blocks
     requirement = f"a distance in m, a Clearance, or a list of {blocks}, one per block or None"
-    listed = list(clearance) if isinstance(clearance, Iterable) and not isinstance(clearance, str) else [clearance]
+    listed = as_list(clearance, "clearance", "slip demand", InvalidOption, requirement)
     if len(listed) != blocks or not all(each is None or _single(each) for each in listed):
         raise refusal(InvalidOption, "clearance", "slip demand", requirement, brief(clearance))
     return tuple(_clearance(each, sides) for each in listed)
@@ -129,6 +138,13 @@ def signed_peaks(slip: FloatArray, rate: FloatArray, dt: float, peak: FloatArray
     cubic through slip and velocity at the ends of each step; only where the block reverses within a step is that not
     exact, by less than 0.02 dt^2 times the jump of the relative acceleration.
     """
+    slip, rate = (
+        as_array(values, name, "signed peaks", InvalidOption, dimensions=2)
+        for values, name in ((slip, "slip"), (rate, "rate"))
+    )
+    dt, peak = as_number(dt, "dt", "signed peaks", InvalidOption), as_array(peak, "peak", "signed peaks", InvalidOption)
+    if slip.shape != rate.shape or len(peak) != slip.shape[1]:
+        raise refusal(InvalidOption, "rate", "signed peaks", f"a table as slip, {slip.shape}", f"{rate.shape}")
     start, end = slip[:-1], slip[1:]
     first, last = dt * rate[:-1], dt * rate[1:]
     moved = end - start
@@ -175,10 +191,15 @@ def exceedance_table(
         probability, low, high. The interval is that of Wilson (1927), J. Am. Stat. Assoc. 22:209-212, for independent
         motions.
     """
-    rows = []
-    for number, clearance in enumerate(clearances):
+    owner, rows = "exceedances", []
+    in_plane = [] if plane is None else as_list(plane, "plane", owner, InvalidOption, "three tables")
+    for values, name in ((plus, "plus"), (minus, "minus"), *((each, "plane") for each in in_plane)):
+        as_array(values, name, owner, InvalidOption, dimensions=2)
+    as_number(confidence, "confidence", owner, InvalidOption)
+    for number, clearance in enumerate(as_list(clearances, "clearances", owner, InvalidOption, "Clearances or None")):
         if clearance is None:
             continue
+        as_one_of(clearance, Clearance, "clearance", owner, InvalidOption)
         limits = {**dict(zip(SIDES.values(), clearance.distances, strict=True)), "any": clearance.smallest}
         exceeded = {
             side: values[:, number] > limit
@@ -225,7 +246,17 @@ def wilson_interval(count: int, total: int, confidence: float) -> tuple[float, f
     """
     from scipy.stats import binomtest  # slow to import
 
-    interval = binomtest(count, total).proportion_ci(confidence, method="wilson")
+    owner = "Wilson's interval"
+    trials = as_count(total, "total", owner, InvalidOption, least=1)
+    known, share = (
+        as_count(count, "count", owner, InvalidOption),
+        as_number(confidence, "confidence", owner, InvalidOption),
+    )
+    if not (known <= trials and 0.0 <= share <= 1.0):
+        raise refusal(
+            InvalidOption, "count", owner, f"at most {trials}, and confidence from 0 to 1", f"{known}, {share:g}"
+        )
+    interval = binomtest(known, trials).proportion_ci(share, method="wilson")
     return float(interval.low), float(interval.high)
 
 

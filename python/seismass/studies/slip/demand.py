@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Final, TypeAlias
 
@@ -307,7 +307,7 @@ def slip_demand(
     if not scene.goods:
         raise refusal(InvalidScene, "blocks", OWNER, "at least one", "none")
     listed: Any = motions
-    if not isinstance(motions, Motion | HasMotion | Pair) and isinstance(motions, Iterable):
+    if not isinstance(motions, Motion | HasMotion | Pair) and isinstance(motions, Iterator):
         listed = list(motions)
     scene.on_ground("slip_demand")
     named = named_motions(listed, OWNER, scene)

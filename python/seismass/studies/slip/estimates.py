@@ -8,8 +8,9 @@ from typing import Final
 
 import numpy as np
 
+from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray
+from seismass.base.values import FloatArray, as_number, as_one_of
 from seismass.base.views import Card
 from seismass.motions.motion import Motion
 from seismass.motions.spectra import response_spectrum
@@ -51,13 +52,19 @@ class Base(Card):
     vertical: float
 
 
+def _friction(base: Base, mu_k: float) -> float:
+    """The friction coefficient of a bound, as a number."""
+    as_one_of(base, Base, "base", "sliding distance", InvalidOption)
+    return as_number(mu_k, "mu_k", "sliding distance", InvalidOption)
+
+
 def newmark_pulse(base: Base, mu_k: float) -> float:
     """Return V^2/(2 mu g) (1 - mu g/A): the slip under a rectangular pulse with peaks A and V (m).
 
     Newmark (1965), Géotechnique 15:139-160; exact for one pulse of constant acceleration A that lasts V/A. No slip
     where A <= mu g.
     """
-    limit = mu_k * STANDARD_GRAVITY
+    limit = _friction(base, mu_k) * STANDARD_GRAVITY
     if not base.acceleration > limit:
         return 0.0
     return np.inf if limit == 0.0 else base.velocity**2 / (2.0 * limit) * (1.0 - limit / base.acceleration)
@@ -69,7 +76,7 @@ def newmark_bound(base: Base, mu_k: float) -> float:
     Newmark (1965), for a block that slides to one side only, and so of several pulses that add up; a block on a level
     floor slides back as well. From memory, not checked in a source.
     """
-    limit = mu_k * STANDARD_GRAVITY
+    limit = _friction(base, mu_k) * STANDARD_GRAVITY
     if not base.acceleration > limit:
         return 0.0
     if limit == 0.0:
@@ -86,7 +93,7 @@ def asce43(base: Base, mu_k: float) -> float:
     conservatively biased best estimate and combines two horizontal directions, of which the model has one. Zero where
     the spectrum is below c_s everywhere; infinite where c_s is zero, or exceeded at 0.05 Hz still.
     """
-    effective = mu_k * max(1.0 - 0.4 * base.vertical / STANDARD_GRAVITY, 0.0)
+    effective = _friction(base, mu_k) * max(1.0 - 0.4 * base.vertical / STANDARD_GRAVITY, 0.0)
     coefficient = 2.0 * effective * STANDARD_GRAVITY
     spectrum = response_spectrum(base.motion, _PERIODS, ASCE43_DAMPING)[0]
     above = np.flatnonzero(spectrum >= coefficient)
