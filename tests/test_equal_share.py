@@ -20,31 +20,31 @@ MODEL = np.array([[1.0, 2.0, 6.0], [2.0, 3.0, 7.0], [3.0, 5.0, 10.0], [4.0, 6.0,
 
 def test_mean_by_hand() -> None:
     """Mean 4.5 lies a quarter of the way from 4 to 6."""
-    found = sm.equal_share(SHARES, MODEL, [3.5, 4.0, 6.0])
+    found = sm.evidence.equal_share(SHARES, MODEL, [3.5, 4.0, 6.0])
     assert found.value == pytest.approx(0.25 + 0.25 * 0.55, rel=1e-14)
-    assert (found.kind, found.real) == ("root", 4.5)
+    assert (found.kind, found.sliding) == ("root", 4.5)
     assert found.over_model(0.25)[0] == pytest.approx(4.5 / 4.0, rel=1e-14)
 
 
 def test_samples_behind_the_motions_may_be_others() -> None:
     """Four draws of goods a motion against one model each: their mean is that of the case before."""
     real = np.array([[3.0, 4.0], [2.0, 6.0], [5.0, 7.0]])
-    assert sm.equal_share(SHARES, MODEL, real).value == pytest.approx(0.3875, rel=1e-14)
+    assert sm.evidence.equal_share(SHARES, MODEL, real).value == pytest.approx(0.3875, rel=1e-14)
 
 
 def test_ln_mean_by_hand() -> None:
     """Geometric means of models 12^(1/3), 42^(1/3), 150^(1/3), 264^(1/3); the real one is 70^(1/3)."""
     curve = np.array([12.0, 42.0, 150.0, 264.0]) ** (1.0 / 3.0)
     expected = np.interp(70.0 ** (1.0 / 3.0), curve, SHARES)
-    assert sm.equal_share(SHARES, MODEL, [1.0, 7.0, 10.0], statistic="ln mean").value == pytest.approx(
+    assert sm.evidence.equal_share(SHARES, MODEL, [1.0, 7.0, 10.0], statistic="ln mean").value == pytest.approx(
         expected, rel=1e-12
     )
 
 
 def test_quantile_by_hand() -> None:
     """Two of three motions are at or below the quantile of 0.6: models have 2, 3, 5, 6, the real buildings 4."""
-    found = sm.equal_share(SHARES, MODEL, [1.0, 4.0, 30.0], statistic="quantile", probability=0.6)
-    assert (found.real, found.model.tolist()) == (4.0, [2.0, 3.0, 5.0, 6.0])
+    found = sm.evidence.equal_share(SHARES, MODEL, [1.0, 4.0, 30.0], statistic="quantile", probability=0.6)
+    assert (found.sliding, found.model.tolist()) == (4.0, [2.0, 3.0, 5.0, 6.0])
     assert found.value == pytest.approx(0.525, rel=1e-14)
 
 
@@ -57,7 +57,7 @@ def test_quantile_by_hand() -> None:
     ],
 )
 def test_kinds(real: list[float], least: float, kind: str, value: float) -> None:
-    found = sm.equal_share(SHARES, MODEL, real, least=least)
+    found = sm.evidence.equal_share(SHARES, MODEL, real, least=least)
     assert found.kind == kind
     np.testing.assert_equal(found.value, value)
     assert (found.interval is None) == (kind == "rare")
@@ -65,19 +65,19 @@ def test_kinds(real: list[float], least: float, kind: str, value: float) -> None
 
 def test_shares_above_one_and_a_largest_one_that_is_not_enough() -> None:
     shares = [0.0, 0.5, 1.5]
-    assert sm.equal_share(shares, MODEL[:3], [3.0, 4.0, 9.0]).value == pytest.approx(7.0 / 6.0, rel=1e-12)
-    assert sm.equal_share(shares, MODEL[:3], [9.0, 9.0, 9.0]).value == 1.5
+    assert sm.evidence.equal_share(shares, MODEL[:3], [3.0, 4.0, 9.0]).value == pytest.approx(7.0 / 6.0, rel=1e-12)
+    assert sm.evidence.equal_share(shares, MODEL[:3], [9.0, 9.0, 9.0]).value == 1.5
 
 
 def test_a_curve_that_rises_by_less_than_three_percent_or_falls_is_flat() -> None:
     for last in (1.02, 0.7):
         model = np.array([[1.0, 1.0], [1.005, 1.005], [last, last]])
-        assert sm.equal_share([0.0, 0.5, 1.0], model, [1.002, 1.002]).kind == "flat"
+        assert sm.evidence.equal_share([0.0, 0.5, 1.0], model, [1.002, 1.002]).kind == "flat"
 
 
 def test_several_crossings_count_the_largest() -> None:
     model = np.array([[1.0], [3.0], [1.5], [4.0]])
-    found = sm.equal_share([0.0, 0.4, 0.6, 1.0], model, [2.0])
+    found = sm.evidence.equal_share([0.0, 0.4, 0.6, 1.0], model, [2.0])
     assert (found.kind, found.interval) == ("multiple", None)
     assert found.value == pytest.approx(0.6 + 0.4 * 0.2, rel=1e-12)
 
@@ -86,16 +86,18 @@ def test_interval_of_a_ratio_that_is_known() -> None:
     """Real = model at 0.5 in every motion: each resample gives 0.5; motions of one station are drawn together."""
     drift = np.linspace(1.0, 9.0, 12)
     model = np.array([drift, 2.0 * drift, 3.0 * drift])
-    found = sm.equal_share([0.0, 0.5, 1.0], model, 2.0 * drift, cluster_of=np.repeat(np.arange(6), 2), resamples=50)
+    found = sm.evidence.equal_share(
+        [0.0, 0.5, 1.0], model, 2.0 * drift, cluster_of=np.repeat(np.arange(6), 2), resamples=50
+    )
     assert found.interval == pytest.approx((0.5, 0.5), rel=1e-12)
     assert found.over_model(1.0) == pytest.approx((2.0 / 3.0,) * 3, rel=1e-12)
     noisy = drift * np.random.default_rng(3).lognormal(0.6, 0.4, 12)
     both = [
-        sm.equal_share([0.0, 0.5, 1.0], model, noisy, cluster_of=c).interval
+        sm.evidence.equal_share([0.0, 0.5, 1.0], model, noisy, cluster_of=c).interval
         for c in (np.arange(12), np.arange(12) // 6)
     ]
     assert both[0] != both[1]
-    alone = sm.equal_share([0.0, 0.5, 1.0], model, noisy, cluster_of=np.zeros(12, dtype=np.int64))
+    alone = sm.evidence.equal_share([0.0, 0.5, 1.0], model, noisy, cluster_of=np.zeros(12, dtype=np.int64))
     assert alone.interval is None
 
 
@@ -103,13 +105,13 @@ def test_interval_of_a_ratio_that_is_known() -> None:
     ("arguments", "said"),
     [
         ({"statistic": "mode"}, "statistic of equal share must be one of mean, ln mean, quantile; got 'mode'"),
-        ({"real": [1.0, 2.0]}, "model of equal share must be of shape"),
+        ({"sliding": [1.0, 2.0]}, "model of equal share must be of shape"),
         ({"shares": [0.0, 0.5, 0.5, 1.0]}, "model of equal share must be of shape"),
     ],
 )
 def test_wrong_arguments(arguments: dict[str, Any], said: str) -> None:
     with pytest.raises(sm.errors.InvalidOption, match=said):
-        sm.equal_share(**{"shares": SHARES, "model": MODEL, "real": [1.0, 2.0, 3.0]} | arguments)
+        sm.evidence.equal_share(**{"shares": SHARES, "model": MODEL, "sliding": [1.0, 2.0, 3.0]} | arguments)
 
 
 CURVE = sm.risk.HazardCurve([0.05, 0.3, 1.1, 9.0], [2e-2, 1.3e-3, 6e-5, 2e-7])

@@ -98,7 +98,7 @@ def test_shares_are_those_of_another_time_stepping() -> None:
     np.testing.assert_allclose(real.at(0)[0], own_real, rtol=0.02)
     np.testing.assert_allclose(models.at(0)[..., 0], own_models, rtol=0.02)
     shares = [
-        sm.equal_share(setting.shares, *both).value
+        sm.evidence.equal_share(setting.shares, *both).value
         for both in ((models.at(0)[..., 0], real.at(0)[0]), (own_models, own_real))
     ]
     assert 0.05 < shares[0] < 0.95

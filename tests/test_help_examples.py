@@ -27,6 +27,7 @@ RUN = [
     "building warehouse.toml",
     "explore",
     "map --mu 0.2,0.4,0.6 --R 2,4,6 --alpha 1 --factor 0.5,1,1.5,2",
+    "evidence --example > archetypes.toml",
     "fragility warehouse.toml",
     "fragility scene.toml --method cloud --measure pga --limit drift=0.05 --json",
     "slip scene.toml --clearance 0.3 --size 1.0x1.2",

@@ -6,19 +6,16 @@ from .live_load import LiveLoadUncertainty, live_load_uncertainty
 from .models import attached_scene
 from .result import EffectiveMass
 from .rule import ByHand
-from .share import EqualShare, equal_share
 
 __all__ = [
     "ByHand",
     "EffectiveMass",
     "EffectiveMassMap",
     "EffectiveMassParameters",
-    "EqualShare",
     "LiveLoadUncertainty",
     "attached_scene",
     "effective_mass",
     "effective_mass_map",
     "effective_mass_of_design",
-    "equal_share",
     "live_load_uncertainty",
 ]

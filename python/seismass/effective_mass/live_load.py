@@ -320,8 +320,8 @@ def _equal_expected(
     if not few_collapses(int(sliding.collapsed.sum()), sliding.collapsed.size):
         return float("nan"), None
     how: dict[str, Any] = {"cluster_of": motions.cluster_of, "resamples": RESAMPLES, "seed": seed}
-    found = equal_share(shares, model.largest, sliding.largest.T, **how)
-    return found.value, found.interval
+    equal = equal_share(shares, model.largest, sliding.largest.T, **how)
+    return equal.value, equal.interval
 
 
 def _tornado(frictions: FloatArray, present: FloatArray, effective: FloatArray) -> pl.DataFrame:

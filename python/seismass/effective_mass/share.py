@@ -35,18 +35,18 @@ class EqualShare:
     kind : {"root", "multiple", "zero", "one", "rare", "flat"}
         One crossing; several, the largest counts; the model is above, or below, at all shares; the real statistic is
         below what the runs can tell; it rises by less than 3 % from no load to the whole design live load.
-    real, shares, model
+    sliding, shares, model
         Statistic of the real buildings; shares, and the statistic of the models, shape (shares,).
     """
 
     value: float
     interval: tuple[float, float] | None
     kind: ShareKind
-    real: float
+    sliding: float
     shares: FloatArray
     model: FloatArray
     confidence: float = field(repr=False)
-    real_draws: FloatArray = field(repr=False)
+    sliding_draws: FloatArray = field(repr=False)
     model_draws: FloatArray = field(repr=False)
 
     __repr__ = short_repr
@@ -55,7 +55,7 @@ class EqualShare:
         """Return real over model at a share, with its interval (NaN without one); infinite where the model has zero."""
         models = np.array([np.interp(share, self.shares, row) for row in (self.model, *self.model_draws)])
         with np.errstate(divide="ignore", invalid="ignore"):
-            ratios = np.append(self.real, self.real_draws) / models
+            ratios = np.append(self.sliding, self.sliding_draws) / models
         ends = interval_of(ratios[1:, None], self.confidence) if len(ratios) > 1 else np.full((2, 1), np.nan)
         return float(ratios[0]), float(ends[0][0]), float(ends[1][0])
 
@@ -63,7 +63,7 @@ class EqualShare:
 def equal_share(
     shares: ArrayLike,
     model: ArrayLike,
-    real: ArrayLike,
+    sliding: ArrayLike,
     *,
     statistic: ShareStatistic = "mean",
     probability: float = 0.84,
@@ -79,7 +79,7 @@ def equal_share(
     ----------
     shares : array_like, shape (shares,)
         Shares of the models in increasing order.
-    model, real : array_like, shapes (shares, motions, ...) and (motions, ...)
+    model, sliding : array_like, shapes (shares, motions, ...) and (motions, ...)
         What is looked at, of every run: capped drifts, forces, 0 or 1 for a limit that is exceeded (a probability), or
         these times their part of an annual rate (`risk.stripe_weights`). Samples of both may differ.
     statistic, probability
@@ -99,7 +99,7 @@ def equal_share(
     Examples
     --------
     >>> import seismass as sm
-    >>> found = sm.equal_share([0.0, 0.5, 1.0], [[1.0, 3.0], [2.0, 4.0], [4.0, 6.0]], [2.4, 4.0])
+    >>> found = sm.evidence.equal_share([0.0, 0.5, 1.0], [[1.0, 3.0], [2.0, 4.0], [4.0, 6.0]], [2.4, 4.0])
     >>> round(found.value, 3), found.kind
     (0.55, 'root')
     """
@@ -107,8 +107,8 @@ def equal_share(
     if not is_one_of(statistic, get_args(ShareStatistic)):
         raise refusal(InvalidOption, "statistic", owner, "one of mean, ln mean, quantile", brief(statistic))
     level = as_number(probability, "probability", owner, InvalidOption)
-    at, of_model, of_real = (np.asarray(values, dtype=np.float64) for values in (shares, model, real))
-    if of_model.shape[:2] != (len(at), len(of_real)) or not (np.diff(at) > 0.0).all():
+    grid, of_model, of_real = (np.asarray(values, dtype=np.float64) for values in (shares, model, sliding))
+    if of_model.shape[:2] != (len(grid), len(of_real)) or not (np.diff(grid) > 0.0).all():
         requirement = "of shape (shares, motions, ...), with increasing shares and the motions of the real buildings"
         raise refusal(InvalidOption, "model", owner, requirement, f"{of_model.shape} beside {of_real.shape}")
     clusters = np.arange(len(of_real)) if cluster_of is None else np.asarray(cluster_of)
@@ -118,16 +118,16 @@ def equal_share(
     curves = np.stack([_statistic(row, counts, statistic, level) for row in of_model], axis=1)
     targets = _statistic(of_real, counts, statistic, level)
     against = np.broadcast_to(targets[:, None], curves.shape)
-    values = interpolated(at, curves, against)
-    values = np.where(values == 1.0, np.where(is_below(curves, against)[:, -1], at[-1], values), values)
-    kind = _kind(at, curves[0], float(targets[0]), least)
+    values = interpolated(grid, curves, against)
+    values = np.where(values == 1.0, np.where(is_below(curves, against)[:, -1], grid[-1], values), values)
+    kind = _kind(grid, curves[0], float(targets[0]), least)
     interval = None
     if len(values) > 1 and kind != "rare":
         low, high = interval_of(values[1:, None], confidence)
         interval = float(low[0]), float(high[0])
     value = float("nan") if kind == "rare" else float(values[0])
-    found = value, interval, kind, float(targets[0]), frozen(at), frozen(curves[0])
-    return EqualShare(*found, confidence, frozen(targets[1:]), frozen(curves[1:]))
+    answer = value, interval, kind, float(targets[0]), frozen(grid), frozen(curves[0])
+    return EqualShare(*answer, confidence, frozen(targets[1:]), frozen(curves[1:]))
 
 
 def _kind(shares: FloatArray, curve: FloatArray, target: float, least: float) -> ShareKind:
@@ -137,9 +137,9 @@ def _kind(shares: FloatArray, curve: FloatArray, target: float, least: float) ->
     whole = float(np.interp(1.0, shares, curve))
     if whole - curve[0] < FLAT * abs(curve[0]):
         return "flat"
-    found: Any = kind_of(below)  # one of four of them
-    kind: ShareKind = found
-    return kind
+    kind: Any = kind_of(below)  # one of four of them
+    checked: ShareKind = kind
+    return checked
 
 
 def _statistic(values: FloatArray, counts: FloatArray, statistic: str, probability: float) -> FloatArray:

@@ -165,7 +165,7 @@ def evidence_figure(result: Evidence, name: str | None = None) -> Figure:
     if named_figure(result, name) == "tornado":
         return _tornado(result)
     archetypes = result.tables["archetypes"].with_row_index("place")
-    small: dict[Any, Any] = {"font.size": 7.5, "axes.labelsize": 7.0, "ytick.labelsize": 6.5, "xtick.labelsize": 7.0}
+    small: Any = {"font.size": 7.5, "axes.labelsize": 7.0, "ytick.labelsize": 6.5, "xtick.labelsize": 7.0}
     with drawing(), mpl.rc_context(small):
         height = 1.5 + 0.155 * (archetypes.height + archetypes["occupancy"].n_unique())
         figure = Figure(figsize=(8.27, height))

@@ -185,8 +185,8 @@ def _per_block(name: str, value: Sequence[Any], correlation: float) -> _Drawn:
         requirement = "one distribution (lists of them are for what blocks have)"
         raise refusal(InvalidScene, name, "sample", requirement, brief(value))
     items = [_axis(name, item) for item in value]
-    own = sum(item.dimensions for item in items)
-    shared = int(correlation > 0.0 and own > 0)
+    alone = sum(item.dimensions for item in items)
+    shared = int(correlation > 0.0 and alone > 0)
 
     def at(u: FloatArray) -> FloatArray:
         coordinates = _correlated(u, correlation) if shared else u
@@ -196,7 +196,7 @@ def _per_block(name: str, value: Sequence[Any], correlation: float) -> _Drawn:
             first += item.dimensions
         return np.stack(columns, axis=1)
 
-    return _Drawn(own + shared, at)
+    return _Drawn(alone + shared, at)
 
 
 def _correlated(u: FloatArray, correlation: float) -> FloatArray:

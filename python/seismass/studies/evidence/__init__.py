@@ -1,5 +1,6 @@
 """Evidence for a code: the share of the design live load that acts as mass, over archetypes that the code designs."""
 
+from seismass.effective_mass.share import EqualShare, equal_share
 from seismass.studies.evidence.archetypes import (
     Archetype,
     Occupancy,
@@ -12,11 +13,13 @@ from seismass.studies.evidence.table import Evidence, default_hazard, evidence
 
 __all__ = [
     "Archetype",
+    "EqualShare",
     "Evidence",
     "Occupancy",
     "Setting",
     "System",
     "default_hazard",
+    "equal_share",
     "evidence",
     "example_file",
     "read_archetypes",

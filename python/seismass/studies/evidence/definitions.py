@@ -82,7 +82,7 @@ class Answer:
             without = None if fixed is None or fixed.kind == "rare" else fixed.value
             value, (low, high) = None if share.kind == "rare" else share.value, share.interval or (None, None)
             row = {"definition": name, "share": value, "low": low, "high": high, "kind": share.kind}
-            row |= {"real_value": abs(share.real), "without_friction": without}
+            row |= {"real_value": abs(share.sliding), "without_friction": without}
             yield row | {"lambda": value / without if value is not None and without else None}
 
 
@@ -97,36 +97,36 @@ PARTS: Final = {
 
 def answer_of(table: pl.DataFrame, question: Question, *, convergence: bool = True) -> Answer:
     """Return what the table of the runs of an archetype says."""
-    models, real = gathered(table, "model"), gathered(table, "real")
-    shares = _shares(models, real, question) | dict(_of_designs(table, question))
+    models, sliding = gathered(table, "model"), gathered(table, "real")
+    shares = _shares(models, sliding, question) | dict(_of_designs(table, question))
     design = question.level(1.0)
-    acceleration = models.at(design, "acceleration"), real.at(design, "acceleration")
+    acceleration = models.at(design, "acceleration"), sliding.at(design, "acceleration")
     rows = []
     for name, (of_buildings, of_goods) in PARTS.items() if convergence else ():
         sizes = of_buildings * question.setting.samples[0], of_goods * question.setting.samples[1]
         if all(size.is_integer() for size in sizes):
             buildings, goods = map(int, sizes)
             once = replace(question, resamples=1)
-            part = _shares(models.part(buildings, 1), real.part(buildings, goods), once)
+            part = _shares(models.part(buildings, 1), sliding.part(buildings, goods), once)
             changes = {each: share.value - shares[each].value for each, share in part.items()}
             rows += [{"sample": name, "definition": each, "change": value} for each, value in changes.items()]
     return Answer(
         shares,
         _shares(models, gathered(table, "fixed"), question),
         _share(question, *acceleration),
-        float(real.at(design, "slides").mean()),
-        list(_fragility_rows(models, real, question)),
+        float(sliding.at(design, "slides").mean()),
+        list(_fragility_rows(models, sliding, question)),
         rows,
     )
 
 
-def _shares(models: Runs, real: Runs, question: Question) -> dict[str, EqualShare]:
+def _shares(models: Runs, sliding: Runs, question: Question) -> dict[str, EqualShare]:
     """Shares by definition, of real buildings and models."""
     design, mce, limit = question.level(1.0), question.level(MCE), question.setting.limit
-    drifts = models.at(design), real.at(design)
+    drifts = models.at(design), sliding.at(design)
     exceeds = (drifts[0] > limit).astype(np.float64), (drifts[1] > limit).astype(np.float64)
-    collapses = models.at(mce, "collapsed"), real.at(mce, "collapsed")
-    shears = models.at(design, "base_shear"), real.at(design, "base_shear")
+    collapses = models.at(mce, "collapsed"), sliding.at(mce, "collapsed")
+    shears = models.at(design, "base_shear"), sliding.at(design, "base_shear")
     shares = {
         "a_mean": _share(question, *drifts),
         "a_ln": _share(question, *drifts, statistic="ln mean"),
@@ -136,20 +136,20 @@ def _shares(models: Runs, real: Runs, question: Question) -> dict[str, EqualShar
         "q84": _share(question, *drifts, statistic="quantile"),
     }
     for name, quantity, most in (("d", "drift", limit), ("rate_collapse", "collapsed", 0.5)):
-        rates = _rates(models, quantity, most, question), _rates(real, quantity, most, question)
-        is_rare = (real.at(-1, quantity) > most).mean() < RARE
+        rates = _rates(models, quantity, most, question), _rates(sliding, quantity, most, question)
+        is_rare = (sliding.at(-1, quantity) > most).mean() < RARE
         shares[name] = _share(question, *rates, least=np.inf if is_rare else -np.inf)
     return shares
 
 
-def _share(question: Question, models: FloatArray, real: FloatArray, **options: Any) -> EqualShare:
+def _share(question: Question, models: FloatArray, sliding: FloatArray, **options: Any) -> EqualShare:
     """Share of values of models and of real buildings, shape (shares, motions, ...); real ones have one share."""
     how: dict[str, Any] = {
         "cluster_of": question.cluster_of,
         "resamples": question.resamples,
         "seed": question.setting.seed,
     }
-    return equal_share(question.setting.shares, models, real[0], **how, **options)
+    return equal_share(question.setting.shares, models, sliding[0], **how, **options)
 
 
 def _rates(runs: Runs, quantity: str, most: float, question: Question) -> FloatArray:
@@ -169,9 +169,9 @@ def _of_designs(table: pl.DataFrame, question: Question) -> Iterator[tuple[str, 
         yield name, equal_share(designs.shares, rates, known[0], **how)
 
 
-def _fragility_rows(models: Runs, real: Runs, question: Question) -> Iterator[dict[str, Any]]:
+def _fragility_rows(models: Runs, sliding: Runs, question: Question) -> Iterator[dict[str, Any]]:
     """Yield one row per model and level: exceedances, collapses, mean drift."""
-    for model, runs in (("real", real), ("share", models)):
+    for model, runs in (("real", sliding), ("share", models)):
         for place, share in enumerate(runs.shares):
             for number, level in enumerate(question.setting.levels):
                 drift = runs.at(number)[place]

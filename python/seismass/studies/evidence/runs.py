@@ -78,13 +78,13 @@ def solved_archetype(
     design = setting.designed(archetype)
     motions = scaled(suite, setting, design.design.period)
     levels, goods = {"scale": setting.levels}, setting.samples[1]
-    real = _sampled(archetype, setting, design, len(motions), goods, levels)
-    present = _mean_presence(real)
+    sliding = _sampled(archetype, setting, design, len(motions), goods, levels)
+    present = _mean_presence(sliding)
     fixed = _sampled(archetype, setting, design, len(motions), goods, levels, attached=1.0, sliding=0.0)
     shares = {"attached": setting.shares} | levels
     models = _attached(archetype, setting, design, len(motions), present, shares)
     batches: list[tuple[str, Sequence[float], int, Grid]] = [
-        ("real", (np.nan,), goods, real),
+        ("real", (np.nan,), goods, sliding),
         ("fixed", (np.nan,), goods, fixed),
         ("model", setting.shares, 1, models),
     ]

@@ -150,7 +150,7 @@ def evidence(
         Motions, unscaled; by default the built-in forty, which are synthetic.
     hazard : HazardCurve, optional
         Annual rate of the intensity over that of the design; by default `default_hazard`, of no site.
-    codes : iterable of str
+    codes : iterable of str, optional
         Codes whose fractions are compared.
     other : Suite, optional
         Motions on which the round numbers are judged that were found on `suite`; half as many buildings, no redesign.
@@ -187,16 +187,16 @@ def evidence(
     listed = listed if is_file else tuple(archetypes)  # type: ignore[arg-type]
     if not listed or not all(isinstance(item, Archetype) for item in listed):
         raise refusal(InvalidOption, "archetypes", "evidence", "a file, or a list of Archetypes", brief(archetypes))
-    chosen = setting or of_file
+    settings = setting or of_file
     if quick:
-        chosen = replace(chosen, **QUICK)
+        settings = replace(settings, **QUICK)
         listed = listed[:: -(-len(listed) // _QUICK_ARCHETYPES)]
     suites = [builtin_suite("forty") if suite is None else suite, *([] if other is None else [other])]
     if not all(len(each) for each in suites):
         raise refusal(InvalidMotion, "suite", "evidence", "a Suite of records", brief(suite))
     curve = hazard or default_hazard()
-    parts = [_Part("first", suites[0], chosen, True)]
-    fewer = replace(chosen, samples=(max(chosen.samples[0] // 2, 1), chosen.samples[1]))
+    parts = [_Part("first", suites[0], settings, True)]
+    fewer = replace(settings, samples=(max(settings.samples[0] // 2, 1), settings.samples[1]))
     parts += [_Part("other", each, fewer, False) for each in suites[1:]]
     full, typical = _Part("full", suites[0], replace(fewer, full=True), False), typical_archetypes(listed)
     work = [(part, each) for part in parts for each in listed] + [(full, each) for each in typical]
@@ -213,8 +213,8 @@ def evidence(
         make = lambda: solved_archetype(archetype, part.setting, part.suite, **how)  # noqa: E731
         table = store.of(f"{part.name}-{digest}", make)
         tell(runs, runs)
-        at = curve if slope is None else default_hazard(slope)
-        question = Question(part.setting, at, stations(part.suite), resamples)
+        of_levels = curve if slope is None else default_hazard(slope)
+        question = Question(part.setting, of_levels, stations(part.suite), resamples)
         return answer_of(table, question, convergence=part.name == "first")
 
     answers = {(part.name, each): solved(part, each) for part, each in work}
@@ -226,10 +226,10 @@ def evidence(
         tables["vary"] = pl.DataFrame(rows, schema_overrides={"a_mean": pl.Float64, "d": pl.Float64})
     contents = [motion_contents(each) for each in suites]
     metadata = {"schema_version": SCHEMA_VERSION, "package_version": _kernel.VERSION, "instructions": instruction_set()}
-    metadata["inputs_sha256"] = inputs_digest(SCHEMA_VERSION, list(listed), chosen, contents, curve.parameters)
+    metadata["inputs_sha256"] = inputs_digest(SCHEMA_VERSION, list(listed), settings, contents, curve.parameters)
     metadata |= {"suites": [each.name for each in suites], "motions": [len(each) for each in suites]}
     metadata |= {"stations": [int(stations(each).max()) + 1 for each in suites], "hazard": curve.parameters}
-    metadata |= {"synthetic": any(record.synthetic for record in suites[0]), "setting": asdict(chosen)}
+    metadata |= {"synthetic": any(record.synthetic for record in suites[0]), "setting": asdict(settings)}
     return Evidence(tables, metadata | {"quick": quick, "runs": total, "codes": list(codes)})
 
 
@@ -258,15 +258,15 @@ def _labels(archetype: Archetype) -> dict[str, Any]:
 
 def _design_row(archetype: Archetype, setting: Setting, present: float, slides: float) -> dict[str, Any]:
     """Numbers of a design, for a check by hand."""
-    found, occupancy, system = setting.designed(archetype), archetype.occupancy, archetype.system
-    design, building = found.design, found.building
-    drift = np.max(found.checks["design_drift"].to_numpy()) / occupancy.height
+    designed, occupancy, system = setting.designed(archetype), archetype.occupancy, archetype.system
+    design, building = designed.design, designed.building
+    drift = np.max(designed.checks["design_drift"].to_numpy()) / occupancy.height
     row = _labels(archetype) | {"storeys": archetype.storeys, "R": system.R, "system": system.period}
-    row |= {"height_m": archetype.storeys * occupancy.height, "T_a_s": found.approximate_period}
+    row |= {"height_m": archetype.storeys * occupancy.height, "T_a_s": designed.approximate_period}
     row |= {"T_design_s": design.period, "T_bare_s": float(building.periods[0]), "C_s": design.coefficient}
     row |= {"W_kn": 1e-3 * design.weight, "V_design_kn": 1e-3 * float(design.yield_shear[0])}
     row |= {"k_1_kn_m": 1e-3 * float(building.stiffness[0]), "first_yield": setting.first_yield}
-    row |= {"drift_design": float(drift), "theta": float(found.checks["theta"].to_numpy().max())}
+    row |= {"drift_design": float(drift), "theta": float(designed.checks["theta"].to_numpy().max())}
     row |= {"design_fraction": setting.fraction(occupancy), "dead_kpa": occupancy.dead_load}
     return row | {"live_kpa": occupancy.live_load, "present": present, "slides_at_design": slides}
 
