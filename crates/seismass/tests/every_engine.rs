@@ -206,7 +206,7 @@ fn equal_blocks_move_as_one() {
 fn blocks_wear_together() {
     let storeys = vec![Storey::elastic(4.37e5)];
     let building = Arc::new(Building::new(vec![113.0], storeys, Damping::Modal { ratio: 0.0413 }).unwrap());
-    let motion = Motion::new(vec![0.0; 61], 0.0107, None).unwrap();
+    let motion = Motion::new(vec![0.0; 121], 0.0107, None).unwrap();
     let thrown = |velocity: f64| Block {
         velocity: Some(velocity),
         wear: vec![Wear { path: 0.0217, mu_s: 0.113, mu_k: 0.0871 }],
