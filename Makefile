@@ -91,8 +91,10 @@ stress:
 stress-general:
 	cargo run --locked --release -p seismass-judge --bin stress_general -- --scenes 100000 --judged 2000 --write docs/stress_general.md
 
-# The same in two directions; its tally is target/stress/plane.tsv.
+# The same in two directions; its tallies are target/stress/twins.tsv, of equal goods that start within 1e-8 s of each other,
+# and plane.tsv.
 stress-plane:
+	cargo run --locked --release -p seismass-judge --bin stress_general -- --twins --scenes 10000 --judged 500
 	cargo run --locked --release -p seismass-judge --bin stress_general -- --plane --scenes 100000 --judged 2200 \
 		--write docs/stress_plane.md
 

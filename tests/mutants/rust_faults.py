@@ -172,6 +172,15 @@ FAULTS = [
     (55, "general: a shear building starts without its velocities", "seismass/src/scene/general/structure.rs",
      "initial_velocity: scene.initial_velocity().to_vec(),",
      "initial_velocity: if M!(55) { vec![0.0; scene.storeys()] } else { scene.initial_velocity().to_vec() },", ""),
+    (56, "friction springs: contact force of the first sample with the other sign", "seismass/src/reference/friction_springs.rs",
+     "s * (vertical(i + 1) - vertical(i))",
+     "s * (vertical(i + 1) + if M!(56) { 1.0 } else { -1.0 } * vertical(i))", ""),
+    (57, "leapfrog: drift rates at the start are zero", "seismass/src/reference/leapfrog.rs",
+     "let rate = velocity(i + 1) - velocity(i);",
+     "let rate = velocity(i + usize::from(!M!(57))) - velocity(i);", ""),
+    (58, "instruction sets: one that the machine has is taken with a warning", "seismass/src/lanes/instructions.rs",
+     "if !wanted.is_empty() && wanted != chosen.name() {",
+     "if if M!(58) { !wanted.is_empty() || wanted != chosen.name() } else { !wanted.is_empty() && wanted != chosen.name() } {", ""),
 ]
 REASONS: dict[str, str] = {
     "general/peaks.rs: and, or in `if low <= 0.0 && high >= 0.0 && self.drift_may_peak(state, series, p) {`":
@@ -181,4 +190,8 @@ REASONS: dict[str, str] = {
         "a velocity of zero is set to zero",
     "spectrum/oscillator.rs: comparison in `if self.s <= SMALL_STEP {`":
         "at a step of exactly 1 both ways hold",
+    "general/plane/huber.rs: comparison in `if size <= self.limit {`":
+        "it guides Newton's method to the one minimum of a convex function, and the two differ at one point",
+    "general/plane/series.rs: condition in `if !self.straight.is_empty() {`":
+        "a straight way to a stop saves steps; without it the direction is divided on the whole way",
 }

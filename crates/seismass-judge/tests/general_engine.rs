@@ -16,7 +16,7 @@ use std::path::Path;
 
 use general_files::read_general;
 use references::reference_files;
-use seismass::{GeneralScene, Options, simulate_general};
+use seismass::{GeneralScene, Options, simulate, simulate_general};
 use seismass_judge::general::{as_chain, compare_general, solve_general};
 use seismass_judge::general_scene::general_scene;
 use seismass_judge::law_scene::law_scene;
@@ -59,7 +59,8 @@ fn both_judges_agree_on_shear_buildings() {
         let log: Vec<_> = own.events.iter().map(|entry| entry.event).collect();
         assert!(!log.is_empty());
         assert!(compare_events(&log, &of_chain.events).unwrap() < 1e-12);
-        let mut response = as_chain(simulate_general(&general, &motion, &OPTIONS).unwrap());
+        let chain = simulate(&scene, &motion, &OPTIONS).unwrap();
+        let mut response = as_chain(simulate_general(&general, &motion, &OPTIONS).unwrap(), &chain);
         (response.peaks.drift, response.peaks.slip) = (own.peaks.drift, own.peaks.slip);
         (response.residual_drift, response.residual_slip) = (own.residual_drift, own.residual_slip);
         response.slip_path.clone_from(&of_chain.slip_path);

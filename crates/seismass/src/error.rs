@@ -17,6 +17,7 @@ pub enum Domain {
 
 /// Everything that can go wrong in the kernel.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum Error {
     /// An input was refused before anything ran.
     #[error("{parameter} of {owner} must be {requirement}; got {value}")]

@@ -52,6 +52,7 @@ pub struct Peaks {
 
 /// Kinds of events (`numerics`, section 5).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum EventKind {
     /// A spring comes to the next segment of its backbone.
     Yield,
@@ -215,6 +216,7 @@ pub struct Energy {
 
 /// What a scene did not need and was left out, exactly (`numerics`, section 6).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Skipped {
     /// Storeys that cannot yield: no spring state, no guard.
     pub elastic_storeys: usize,
@@ -228,6 +230,7 @@ pub struct Skipped {
 
 /// The work done. Deterministic: the same for any thread count and batch order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Statistics {
     /// Sample intervals solved.
     pub intervals: usize,
@@ -251,6 +254,7 @@ pub struct Statistics {
 
 /// The result of one run.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Response {
     /// How the run ended.
     pub status: Status,

@@ -172,6 +172,15 @@ fn with_matrix() -> Parts {
     }
 }
 
+/// A storey whose law has the numbers of another law: a trilinear one that yields at 1 N of 2^18 N/m and keeps half of it has
+/// the tangents of a flag-shaped one that yields at 2^17 N, and its element the yield force and height of that flag.
+fn with_equal_numbers() -> Parts {
+    let mut parts = Parts::new();
+    let stiffness = 2_f64.powi(18);
+    parts.storeys[1] = Storey { second_slope: 0.5, third_slope: 0.5, ..Storey::yielding(stiffness, 1.0) };
+    Parts { initial_drift: vec![0.0; 3], ..parts }
+}
+
 /// Where a variant stands in its enum. A new one does not compile until it has a base.
 fn variants(parts: &Parts) -> BTreeSet<&'static str> {
     let of_law = |storey: &Storey| match storey.law {
@@ -247,6 +256,10 @@ const TWINS_WITH_MATRIX: &[Twin<Parts>] = &[
     ("a block", |p| p.blocks.push(Block::new(2, 431.0, 0.197))),
 ];
 
+const TWINS_WITH_EQUAL_NUMBERS: &[Twin<Parts>] = &[("kind of a law", |p| {
+    (p.storeys[1].yield_shear, p.storeys[1].law) = (2_f64.powi(17), SpringLaw::FlagShaped { flag_height: 0.5 });
+})];
+
 fn peak_oriented(parts: &mut Parts) -> &mut PeakOriented {
     let SpringLaw::PeakOriented(law) = &mut parts.storeys[1].law else { panic!("storey 2 is peak-oriented") };
     law
@@ -268,10 +281,10 @@ fn twins_of<T: Clone>(base: &T, index: usize, twins: &[Twin<T>]) -> Vec<(usize, 
 
 #[test]
 fn shear_buildings() {
-    let bases = [Parts::new(), with_laws(), with_matrix()];
+    let bases = [Parts::new(), with_laws(), with_matrix(), with_equal_numbers()];
     let covered: BTreeSet<&str> = bases.iter().flat_map(variants).collect();
     assert_eq!(covered.len(), 11, "{covered:?}: each variant has a base");
-    let lists = [TWINS, TWINS_WITH_LAWS, TWINS_WITH_MATRIX];
+    let lists = [TWINS, TWINS_WITH_LAWS, TWINS_WITH_MATRIX, TWINS_WITH_EQUAL_NUMBERS];
     let twins: Vec<_> =
         bases.iter().zip(lists).enumerate().flat_map(|(i, (base, twins))| twins_of(base, i, twins)).collect();
     let scenes: Vec<Scene> = bases.iter().chain(twins.iter().map(|(.., parts)| parts)).map(Parts::scene).collect();

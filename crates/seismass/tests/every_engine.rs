@@ -199,3 +199,43 @@ fn equal_blocks_move_as_one() {
         }
     }
 }
+
+/// Two blocks that slide towards each other at the same speed hold their floor still by friction of the same size. Their
+/// coefficients change at the same instant, or the third block, which a third of that friction would release, slides.
+#[test]
+fn blocks_wear_together() {
+    let storeys = vec![Storey::elastic(4.37e5)];
+    let building = Arc::new(Building::new(vec![113.0], storeys, Damping::Modal { ratio: 0.0413 }).unwrap());
+    let motion = Motion::new(vec![0.0; 121], 0.0107, None).unwrap();
+    let thrown = |velocity: f64| Block {
+        velocity: Some(velocity),
+        wear: vec![Wear { path: 0.0217, mu_s: 0.113, mu_k: 0.0871 }],
+        mu_k: 0.361,
+        ..Block::new(1, 431.0, 0.397)
+    };
+    let stuck = Block { mu_k: 0.0313, ..Block::new(1, 17.3, 0.0331) };
+    let scene = Scene::new(Some(building), vec![thrown(0.73), thrown(-0.73), stuck]).unwrap();
+    for found in by_each_engine(&scene, &motion) {
+        for number in [1, 2] {
+            assert_eq!(found.times(EventKind::Wear, number).len(), 1, "{}", found.engine);
+            assert_eq!(found.times(EventKind::Stick, number).len(), 1, "{}", found.engine);
+        }
+        assert_eq!(found.slip[2].value, 0.0, "{}: {:?}", found.engine, found.events);
+    }
+}
+
+/// In flight at v against ground that accelerates by a, a block has slipped v^2/(2 a) where it turns, at v/a.
+#[test]
+fn a_slip_turns_in_flight_inside_a_step() {
+    let (v, a) = (0.83, 1.9);
+    for samples in [2, 4, 11] {
+        let vertical = vec![-1.3 * G; samples].into();
+        let motion = Motion::new(vec![a; samples], 0.61 / (samples - 1) as f64, Some(vertical)).unwrap();
+        let block = Block { velocity: Some(v), ..Block::new(0, 3.1, 0.197) };
+        for found in by_each_engine(&Scene::new(None, vec![block]).unwrap(), &motion) {
+            close(found.slip[0].value, 0.5 * v * v / a, ROUNDING, found.engine);
+            // A flat top is known to the root of rounding.
+            close(found.slip[0].time, v / a, 1e-7, found.engine);
+        }
+    }
+}

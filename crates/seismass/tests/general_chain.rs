@@ -74,13 +74,22 @@ fn tall(storeys: usize, damping: Damping) -> Scene {
     Scene::new(Some(Arc::new(building)), (0..storeys).step_by(2).map(block).collect()).unwrap()
 }
 
-/// All that both engines give back, each quantity with the other's. They are taken apart field by field: a new one does not
-/// compile until it is compared.
+/// How many fields a struct has, as `Debug` prints it.
+fn fields(value: &impl std::fmt::Debug) -> usize {
+    format!("{value:#?}")
+        .lines()
+        .filter(|line| line.starts_with("    ") && !line[4..].starts_with([' ', '}', ']']))
+        .count()
+}
+
+/// All that both engines give back, each quantity with the other's.
 fn assert_equal(name: &str, scene: &Scene, motion: &Motion) {
     let options = Options { histories: NonZeroUsize::new(1), ..OPTIONS };
     let chain = simulate(scene, motion, &options).unwrap();
     let general = simulate_general(&GeneralScene::from(scene), motion, &options).unwrap();
     assert!(compare_events(events(&general), logged(&chain)).unwrap() < EVENT_TIME, "{name}");
+    // The names of both lists below: a field that is added is to be compared too.
+    assert_eq!((fields(&chain), fields(&general)), (10, 13));
     let Response {
         status,
         end_time,
@@ -92,6 +101,7 @@ fn assert_equal(name: &str, scene: &Scene, motion: &Motion) {
         histories,
         energy,
         statistics,
+        ..
     } = chain;
     let GeneralResponse {
         storeys,
@@ -107,6 +117,7 @@ fn assert_equal(name: &str, scene: &Scene, motion: &Motion) {
         histories: found_histories,
         energy: found_energy,
         statistics: found_statistics,
+        ..
     } = general;
     assert_eq!((storeys, levels.len(), base), (scene.storeys(), 0, None));
     assert_eq!(found_statistics.events, statistics.events);

@@ -92,7 +92,8 @@ fn smooth_scenes_have_the_order_of_the_method() {
     let stuck = scene(f64::INFINITY, 0.05, 10.0);
     let bare = Scene::new(stuck.building().cloned(), Vec::new()).unwrap();
     let motion = motion(0.02, 10.0);
-    for (name, scene) in [("stuck blocks", &stuck), ("no blocks", &bare)] {
+    let thrown = bare.clone().with_initial(vec![0.0; 3], vec![0.31, -0.17, 0.43]).unwrap();
+    for (name, scene) in [("stuck blocks", &stuck), ("no blocks", &bare), ("initial velocities", &thrown)] {
         for (label, method, order) in [
             ("Gauss", GAUSS, 4.0),
             ("Gauss located", GAUSS_LOCATED, 4.0),
@@ -157,6 +158,21 @@ fn friction_springs_slip_too_far_by_one_over_kappa() {
         println!("kappa {kappa}: excess over the elastic slip {found:.3?}");
         assert!((found[3] - 3.0).abs() < 0.02);
         assert!(found[..3].iter().all(|factor| (3.0..3.5).contains(factor)));
+    }
+}
+
+/// A contact force that grows: under the ramp of the test above with v = 0.3 g t at twice its size, slips are those of the
+/// exact run but for some elastic slips.
+#[test]
+fn friction_springs_follow_the_contact_force() {
+    let floors = scene(f64::INFINITY, 0.05, 0.15);
+    let ramp: Vec<f64> = (0..=400).map(|i| 1.2 * G * (f64::from(i) / 400.0).powi(2)).collect();
+    let vertical: Vec<f64> = (0..=400).map(|i| 0.3 * G * f64::from(i) / 400.0).collect();
+    let motion = Motion::new(ramp, 0.0025, Some(vertical.into())).unwrap();
+    let reference = exact(&floors, &motion);
+    let found = integrate(&floors, &motion, &springs(1e4, 50)).unwrap();
+    for (found, expected) in found.slip[(found.rows - 1) * 3..].iter().zip(&reference.residual_slip) {
+        assert!((found / expected - 1.0).abs() < 1e-3, "{found} for {expected}");
     }
 }
 

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
+use seismass_judge::plane_scene::TWINS;
 use seismass_judge::stress::general::{Directions, GeneralTally, distribution, page};
 use seismass_judge::stress::program;
 
@@ -11,6 +12,7 @@ const HELP: &str = "\
 Random scenes with racks, walls and stops against the general engine; exit code 1 if anything is unexplained.
 
   --plane        scenes in two horizontal directions, and no shear buildings
+  --twins        the same with equal goods that start within 1e-8 s of each other, tally target/stress/twins.tsv
   --scenes N     random scenes in all, seeds from 0 (default 100000)
   --judged N     of them, compared with the plain implementation, about (default 2000)
   --chains N     random shear buildings that both engines solve (default 1000)
@@ -51,8 +53,9 @@ fn arguments() -> Result<Arguments, String> {
         if option == "--help" {
             return Err(HELP.into());
         }
-        if option == "--plane" {
+        if option == "--plane" || option == "--twins" {
             found.directions = Directions::Two;
+            found.first += if option == "--twins" { TWINS } else { 0 };
             continue;
         }
         let value = given.next().ok_or_else(|| format!("value of {option} must be given\n\n{HELP}"))?;
@@ -61,7 +64,7 @@ fn arguments() -> Result<Arguments, String> {
             "--scenes" => found.scenes = whole()?,
             "--judged" => found.judged = whole()?,
             "--chains" => found.chains = whole()?,
-            "--first" => found.first = whole()?,
+            "--first" => found.first += whole()?,
             "--chunk" => found.chunk = whole()?.max(1),
             "--minutes" => {
                 found.minutes =
@@ -78,6 +81,7 @@ fn arguments() -> Result<Arguments, String> {
 fn stress(arguments: &Arguments) -> Result<bool, Box<dyn std::error::Error>> {
     let usual = match arguments.directions {
         Directions::One => "target/stress/general.tsv",
+        Directions::Two if arguments.first >= TWINS => "target/stress/twins.tsv",
         Directions::Two => "target/stress/plane.tsv",
     };
     let path = &arguments.tally.clone().unwrap_or_else(|| usual.into());

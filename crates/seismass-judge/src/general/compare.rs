@@ -189,24 +189,22 @@ pub fn solution_of(response: &GeneralResponse) -> Option<GeneralSolution> {
     })
 }
 
-/// The response of the general engine to a shear building as one of the chain engine; paths are those in contact alone.
-pub fn as_chain(general: GeneralResponse) -> Response {
-    let peaks = general.peaks;
-    Response {
-        status: ending(general.status),
-        end_time: general.end_time,
-        peaks: Peaks {
-            drift: peaks.drift,
-            slip: peaks.slip,
-            floor_acceleration: peaks.acceleration,
-            storey_shear: peaks.shear,
-        },
-        residual_drift: general.residual_drift,
-        residual_slip: general.residual_slip,
-        slip_path: general.slip_path,
-        events: general.events.map(|events| events_of(&events)),
-        histories: general.histories,
-        energy: None,
-        statistics: general.statistics,
-    }
+/// The response of the general engine to a shear building in the place of one of the chain engine; paths are those in contact
+/// alone.
+pub fn as_chain(general: GeneralResponse, chain: &Response) -> Response {
+    let (peaks, mut response) = (general.peaks, chain.clone());
+    response.status = ending(general.status);
+    response.end_time = general.end_time;
+    response.peaks = Peaks {
+        drift: peaks.drift,
+        slip: peaks.slip,
+        floor_acceleration: peaks.acceleration,
+        storey_shear: peaks.shear,
+    };
+    (response.residual_drift, response.residual_slip) = (general.residual_drift, general.residual_slip);
+    response.slip_path = general.slip_path;
+    response.events = general.events.map(|events| events_of(&events));
+    (response.histories, response.energy) = (general.histories, None);
+    response.statistics = general.statistics;
+    response
 }

@@ -106,6 +106,14 @@ impl<R: Real> Recorder<R> {
         }
     }
 
+    /// Takes in the acceleration of a node at an instant.
+    pub(super) fn acceleration(&mut self, node: usize, value: R, time: R) {
+        let (value, peak) = (value.abs().to_f64(), &mut self.peaks.acceleration[node]);
+        if value > peak.value {
+            *peak = Peak { value, time: time.to_f64() };
+        }
+    }
+
     /// Takes in a stretch that starts at `time` and at this state.
     pub(super) fn stretch(&mut self, model: &Model<R>, state: &State<R>, series: &Series<R>, time: R) {
         let take = |peak: &mut Peak, p: &Polynomial<R>| beat(peak, p, time, series.length);

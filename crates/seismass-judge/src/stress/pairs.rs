@@ -236,7 +236,8 @@ mod tests {
     /// The verdict on a kernel that has this log in place of its own.
     fn with_log((scene, motion): &(Scene, Motion), log: Vec<Event>) -> Option<Verdict> {
         let exact = exact(scene, motion);
-        let response = Response { events: Some(log), ..kernel(scene, motion) };
+        let mut response = kernel(scene, motion);
+        response.events = Some(log);
         explain(scene, motion, &response, &exact, &compare(&response, &exact))
     }
 
@@ -311,7 +312,8 @@ mod tests {
             log.remove(dropped);
             assert!(differing_pairs(&log, &exact.events, motion.dt()).is_none(), "event {dropped}");
         }
-        let mut response = Response { events: Some(log), ..kernel(&scene, &motion) };
+        let mut response = kernel(&scene, &motion);
+        response.events = Some(log);
         let verdict = |response: &Response| explain(&scene, &motion, response, &exact, &compare(response, &exact));
         assert!(matches!(verdict(&response), Some(Verdict::GrazingPairs { .. })));
         response.peaks.drift[0].value *= 1.0 + 1e-8;

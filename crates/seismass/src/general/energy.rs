@@ -27,10 +27,11 @@ impl Balance {
         let blocks =
             (0..state.moving.len()).map(|position| (series.velocity_of(position), series.friction_of(position)));
         let blocks: Vec<_> = blocks.collect();
+        let (mut rates, mut drifts) = (Vec::new(), Vec::new());
         for (node, weight) in GAUSS {
             let s = node * end;
             let (tau, weight) = (series.tau + s * series.h, weight * length);
-            let rates = series.values(Quantity::Rate, s);
+            series.values(Quantity::Rate, s, &mut rates);
             for part in &system.parts {
                 let rates = &rates[part.first..part.first + part.count];
                 for (column, rate) in part.damping.chunks_exact(part.count).zip(rates) {
@@ -42,8 +43,8 @@ impl Balance {
             if let Some(base) = &system.base {
                 let contact = state.contact_at(tau);
                 self.energy.friction += weight * state.base_friction() * base.carried * contact * rates[0];
-                let slip = series.values(Quantity::Drift, s)[0];
-                self.energy.input -= weight * base.restoring * (contact - STANDARD_GRAVITY) * slip * rates[0];
+                series.values(Quantity::Drift, s, &mut drifts);
+                self.energy.input -= weight * base.restoring * (contact - STANDARD_GRAVITY) * drifts[0] * rates[0];
             }
             let mut momentum: f64 = system.mass.iter().zip(&nodes).map(|(m, v)| m * v).sum();
             momentum += system.blocks.iter().map(|law| law.mass * nodes[law.floor]).sum::<f64>();
@@ -57,9 +58,9 @@ impl Balance {
             }
             self.energy.input -= weight * momentum * state.interval.ground_at(tau);
         }
-        let changes = series.changes(Quantity::Drift, end);
+        series.changes(Quantity::Drift, end, &mut drifts);
         for p in 1..=system.nodes {
-            self.energy.hysteretic += state.springs[p - 1].dissipated(state.x[p], changes[p]);
+            self.energy.hysteretic += state.springs[p - 1].dissipated(state.x[p], drifts[p]);
         }
         self.largest_input = self.largest_input.max(self.energy.input);
     }

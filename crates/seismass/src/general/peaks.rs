@@ -82,8 +82,9 @@ impl Observer {
         }
     }
 
-    pub(super) fn largest_acceleration(&self, node: usize) -> f64 {
-        self.acceleration[node].value
+    /// Takes the acceleration of a node.
+    pub(super) fn take_node(&mut self, node: usize, acceleration: f64, time: f64) {
+        self.acceleration[node].take(acceleration, time);
     }
 
     /// Takes the velocity at which a block comes to its stop.

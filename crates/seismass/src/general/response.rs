@@ -38,6 +38,7 @@ pub struct GeneralPeaks {
 
 /// What the sliding base did.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct GeneralBase {
     /// Peak slip of the slab on the ground (m).
     pub slip: Peak,
@@ -87,6 +88,7 @@ pub struct GeneralEnergy {
 
 /// The result of one run of the general engine. Lists by node and by goods are as in [`GeneralPeaks`].
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct GeneralResponse {
     /// Number of storeys of the building.
     pub storeys: usize,

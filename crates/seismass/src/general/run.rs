@@ -48,6 +48,7 @@ pub fn simulate_general_until(
         observer: Observer::new(&state),
         state,
         series: Series::default(),
+        rows: Default::default(),
         recorder,
         balance: None,
         lost_at_stops: 0.0,
@@ -83,6 +84,8 @@ pub fn simulate_general_until(
 struct Run<'a> {
     state: GeneralState<'a>,
     series: Series,
+    /// Working space: rows by node.
+    rows: [Vec<f64>; 3],
     observer: Observer,
     recorder: Option<Recorder>,
     balance: Option<Balance>,
@@ -162,18 +165,20 @@ impl Run<'_> {
     /// Advances to the place of the present series, which is at `tau`.
     fn advance(&mut self, place: f64, tau: f64) -> Result<()> {
         let (state, series) = (&mut self.state, &self.series);
+        let [accelerations, drifts, rates] = &mut self.rows;
         let time = state.interval.start + tau;
         // An instant is no stretch of time: what it passes through has no peaks.
         let lasts = place > 0.0;
         if lasts {
-            let start = series.values(Quantity::Acceleration, 0.0);
-            self.observer.take_accelerations(&start, state.interval.start + series.tau);
+            series.values(Quantity::Acceleration, 0.0, accelerations);
+            self.observer.take_accelerations(accelerations, state.interval.start + series.tau);
         }
         self.statistics.guards_isolated += self.observer.observe(state, series, place);
         if let Some(balance) = &mut self.balance {
             balance.add(state, series, place);
         }
-        let (drifts, rates) = (series.changes(Quantity::Drift, place), series.changes(Quantity::Rate, place));
+        series.changes(Quantity::Drift, place, drifts);
+        series.changes(Quantity::Rate, place, rates);
         for p in 0..drifts.len() {
             state.x[p] += drifts[p];
             state.v[p] += rates[p];
@@ -187,9 +192,9 @@ impl Run<'_> {
             state.motions[block].move_by(change);
             state.stops[block].move_by(change.1);
         }
-        let accelerations = series.values(Quantity::Acceleration, place);
+        series.values(Quantity::Acceleration, place, accelerations);
         if lasts {
-            self.observer.take_accelerations(&accelerations, time);
+            self.observer.take_accelerations(accelerations, time);
         }
         self.observer.take_values(state, time);
         if accelerations.iter().all(|a| a.is_finite()) && state.motions.iter().all(|m| m.slip.is_finite()) {

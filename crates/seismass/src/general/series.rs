@@ -134,9 +134,12 @@ impl Series {
         }
         let force = &mut self.acceleration[row..row + width];
         let (shears, inverse_mass) = (&self.shear[..width], &state.regime.inverse_mass[..width]);
+        // First what springs above do: sums of one node wait for each other, those of all nodes need not.
         for p in (1..width).rev() {
-            force[p] = (force[p] - shears[p]) * inverse_mass[p];
             force[system.parent[p]] += shears[p];
+        }
+        for p in 1..width {
+            force[p] = (force[p] - shears[p]) * inverse_mass[p];
         }
         let ground = match k {
             0 => state.interval.ground_at(self.tau),
@@ -284,11 +287,6 @@ impl Series {
         (polynomial, size)
     }
 
-    /// The first two terms of a node's acceleration.
-    pub(super) fn first_accelerations(&self, node: usize) -> [f64; 2] {
-        [self.acceleration[node], self.acceleration[self.width + node]]
-    }
-
     /// Range of a quantity of a node over the step.
     #[inline]
     pub(super) fn range(&self, quantity: Quantity, node: usize) -> (f64, f64) {
@@ -301,23 +299,25 @@ impl Series {
     }
 
     /// Change of a quantity of all nodes from the start of the step to its place `s`.
-    pub(super) fn changes(&self, quantity: Quantity, s: f64) -> Vec<f64> {
+    pub(super) fn changes(&self, quantity: Quantity, s: f64, sums: &mut Vec<f64>) {
         let (rows, last) = self.rows(quantity);
-        let mut sums = rows[last * self.width..(last + 1) * self.width].to_vec();
+        sums.clear();
+        sums.extend(&rows[last * self.width..(last + 1) * self.width]);
         let lower = rows[self.width..last * self.width].chunks_exact(self.width).rev().map(|row| (row, ()));
-        fold_rows(&mut sums, lower, |sum, term, ()| sum * s + term);
+        fold_rows(sums, lower, |sum, term, ()| sum * s + term);
         sums.iter_mut().for_each(|sum| *sum *= s);
-        sums
     }
 
     /// Value of a quantity of all nodes at the place `s`.
-    pub(super) fn values(&self, quantity: Quantity, s: f64) -> Vec<f64> {
+    pub(super) fn values(&self, quantity: Quantity, s: f64, values: &mut Vec<f64>) {
+        let start = &self.rows(quantity).0[..self.width];
         if s == 0.0 {
-            return self.rows(quantity).0[..self.width].to_vec();
+            values.clear();
+            values.extend(start);
+            return;
         }
-        let mut values = self.changes(quantity, s);
-        values.iter_mut().zip(self.rows(quantity).0).for_each(|(value, start)| *value += start);
-        values
+        self.changes(quantity, s, values);
+        values.iter_mut().zip(start).for_each(|(value, start)| *value += start);
     }
 
     /// Relative velocity of the moving block at `position` as a polynomial.
@@ -391,7 +391,11 @@ mod tests {
         formed.form(&state, 0.0, ended.h);
         let everything = |series: &Series| -> Vec<f64> {
             let (velocity, slip) = series.block_changes(0, 1.0);
-            let of_nodes = [Quantity::Drift, Quantity::Rate, Quantity::Acceleration].map(|q| series.values(q, 1.0)[1]);
+            let of_nodes = [Quantity::Drift, Quantity::Rate, Quantity::Acceleration].map(|q| {
+                let mut values = Vec::new();
+                series.values(q, 1.0, &mut values);
+                values[1]
+            });
             let holding = series.holding_polynomial(1.0, 0.0).0.at::<Plain>(1.0);
             of_nodes.into_iter().chain([velocity, slip, series.friction_of(0).at::<Plain>(1.0), holding]).collect()
         };

@@ -4,6 +4,7 @@ use crate::response::Status;
 
 /// Histories at the samples and peaks over the integrator's own steps.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct History {
     /// How the run ended.
     pub status: Status,

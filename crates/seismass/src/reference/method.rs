@@ -7,6 +7,7 @@ use crate::scene::{Scene, SpringLaw};
 
 /// A method and its parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Method {
     /// Two-stage Gauss-Legendre, the implicit Runge-Kutta method of order 4.
     Gauss {
@@ -55,6 +56,7 @@ pub enum Events {
 
 /// What stops an integration.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum Error {
     /// The scene, the motion or the method was refused, or the response left the range of numbers.
     #[error(transparent)]

@@ -2,6 +2,7 @@
 
 use seismass::{Event, EventKind, GeneralEvent, PlaneEvent};
 
+use super::record::PlaneRecorder;
 use super::series::PlaneSeries;
 use super::state::Plane;
 use crate::general::decide::Cause;
@@ -35,8 +36,14 @@ impl<R: Real> Plane<R> {
     }
 
     /// A block has come to rest on its node, and others with it.
-    pub(super) fn arrive(&mut self, block: usize, tau: R) {
-        for j in self.arrive_with(block) {
+    pub(super) fn arrive(&mut self, block: usize, tau: R, recorder: &mut PlaneRecorder<R>) {
+        let arriving = self.arrive_with(block);
+        if let Some(node) = self.directions[0].model.goods[block].node {
+            for acceleration in self.at_stop(&arriving, tau) {
+                recorder.at_stop(node, acceleration, self.start + tau);
+            }
+        }
+        for j in arriving {
             self.arrived[j] = self.velocity(j);
             for direction in &mut self.directions {
                 direction.state.blocks[j].velocity = R::zero();

@@ -6,6 +6,7 @@
 
 use seismass::EventKind;
 
+use super::guards::AT_REST;
 use super::series::heavier;
 use super::state::Plane;
 use crate::general::decide::{AT_STOPS, CHANGES, Cause};
@@ -72,7 +73,7 @@ impl<R: Real> Plane<R> {
             first.is_some_and(|i| state(i).mu_s == state(j).mu_s && !goes_on(j) && self.offset(i) == self.offset(j))
         };
         let candidates = still.iter().map(|&j| {
-            let gone = alike(j) || goes_on(j);
+            let gone = alike(j) || goes_on(j) || self.young[j];
             Candidate {
                 block: j,
                 mass: self.directions[0].model.goods[j].mass,
@@ -96,6 +97,7 @@ impl<R: Real> Plane<R> {
             let driven = decided.driven(candidate, a);
             let contact = if candidate.slides { Contact::Sliding(Sign::Positive) } else { Contact::Stuck };
             self.set_contact(j, contact);
+            self.young[j] = candidate.slides;
             let arrived = matches!(before.contact, Contact::Sliding(_)) && before.moved;
             if candidate.slides {
                 let size = length(driven);
@@ -111,6 +113,94 @@ impl<R: Real> Plane<R> {
                 _ => {}
             }
         }
+    }
+
+    /// A block that has started and is not yet faster than what counts as rest is at rest, and starts with whatever starts on
+    /// its node until it is: the direction of its velocity would be rounding.
+    pub(super) fn keep_young(&mut self) {
+        let least = R::of(AT_REST) * R::epsilon() * self.fastest;
+        for j in 0..self.young.len() {
+            self.young[j] &= length(self.velocity(j)) <= least;
+            if self.young[j] {
+                for direction in &mut self.directions {
+                    let block = &mut direction.state.blocks[j];
+                    (block.velocity, block.moved) = (R::zero(), false);
+                }
+            }
+        }
+    }
+
+    /// The nodes of such blocks decide.
+    pub(super) fn settle_young(&mut self, tau: R) {
+        for node in std::iter::once(None).chain((0..self.directions[0].model.mass.len()).map(Some)) {
+            if (0..self.young.len()).any(|j| self.young[j] && self.directions[0].model.goods[j].node == node) {
+                self.settle(node, tau, Cause::Jump);
+            }
+        }
+    }
+
+    /// Accelerations of a node, its largest in each direction and of the vector among them, as these blocks come to rest:
+    /// their friction turns, the short way, into the direction of what drives them.
+    pub(super) fn at_stop(&self, arriving: &[usize], tau: R) -> Vec<[R; 2]> {
+        let first = arriving[0];
+        let node = self.directions[0].model.goods[first].node;
+        let state = |j: usize| self.directions[0].state.blocks[j];
+        let blocks: Vec<Candidate<R>> = (0..self.heads.len())
+            .filter(|&j| self.directions[0].model.goods[j].node == node)
+            .filter(|&j| arriving.contains(&j) || state(j).contact == Contact::Stuck)
+            .map(|j| Candidate {
+                block: j,
+                mass: self.directions[0].model.goods[j].mass,
+                mu_s: state(j).mu_s,
+                mu_k: state(j).mu_k,
+                push: [0, 1].map(|a| self.directions[a].state.push(&self.directions[a].model, j)),
+                slides: arriving.contains(&j),
+                gone: false,
+            })
+            .collect();
+        let decided = self.node(node, tau, blocks);
+        let Some(mass) = decided.mass_with_stuck() else { return Vec::new() };
+        let sum = |a: [R; 2], b: [R; 2], factor: R| [0, 1].map(|i| a[i] + factor * b[i]);
+        let unit = |a: [R; 2]| a.map(|x| x / length(a));
+        let friction = |block: &Candidate<R>| block.mu_k * block.mass * decided.contact / mass;
+        let own = |block: &Candidate<R>| unit(self.velocity(block.block));
+        // Without friction of those that arrive, whose stops press on the node.
+        let one = R::of(1.0);
+        let bare = decided.sliding().fold(decided.load.map(|q| q / mass), |a, block| sum(a, block.push, one / mass));
+        let now = decided.sliding().fold(bare, |a, block| sum(a, own(block), friction(block)));
+        let driven_alike = decided.sliding().all(|block| self.offset(block.block) == self.offset(first));
+        if !driven_alike {
+            return vec![decided.sliding().fold(now, |a, block| {
+                let without = sum(now, own(block), -friction(block));
+                let driven = decided.driven(block, without);
+                if length(driven) >= block.mu_k * decided.contact + friction(block) {
+                    return a;
+                }
+                let to = unit(driven).map(|y| -y);
+                sum(sum(a, to, friction(block)), own(block), -friction(block))
+            })];
+        }
+        let driven = sum(bare, self.offset(first), one);
+        let to = unit(driven).map(|y| -y);
+        let size = decided.sliding().fold(R::zero(), |size, block| size + friction(block));
+        if length(driven) >= state(first).mu_k * decided.contact + size {
+            return Vec::new();
+        }
+        let mut found = vec![sum(bare, to, size)];
+        let from = unit(self.velocity(first));
+        if arriving.iter().all(|&j| self.velocity(j).map(|v| v / length(self.velocity(j))) == from) {
+            let cross = |a: [R; 2], b: [R; 2]| a[0] * b[1] - a[1] * b[0];
+            let turn = cross(from, to);
+            for [x, y] in
+                [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]].map(|e| e.map(R::of)).into_iter().chain([unit(bare)])
+            {
+                let within = x * (from[0] + to[0]) + y * (from[1] + to[1]) > R::zero();
+                if within && turn * cross(from, [x, y]) > R::zero() && turn * cross([x, y], to) > R::zero() {
+                    found.push(sum(bare, [x, y], size));
+                }
+            }
+        }
+        found.into_iter().filter(|a| (a[0] + a[1]).to_f64().is_finite()).collect()
     }
 
     /// Whether a block has no relative velocity, and friction that may hold it.

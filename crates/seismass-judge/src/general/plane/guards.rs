@@ -12,7 +12,7 @@ use crate::state::Contact;
 
 /// A relative velocity that falls below this, in units of the number type's epsilon times the largest velocity so far, is
 /// none.
-const AT_REST: f64 = 40.0;
+pub(super) const AT_REST: f64 = 40.0;
 /// Bisections of a stretch, to find where a block without friction wears.
 const BISECTIONS: usize = 60;
 

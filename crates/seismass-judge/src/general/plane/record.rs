@@ -99,6 +99,16 @@ impl<R: Real> PlaneRecorder<R> {
         }
     }
 
+    /// Takes accelerations of a node in the last instants before blocks stop.
+    pub(super) fn at_stop(&mut self, node: usize, acceleration: [R; 2], time: R) {
+        let [x, y] = acceleration;
+        self.directions.iter_mut().zip(acceleration).for_each(|(of, value)| of.acceleration(node, value, time));
+        let (value, peak) = ((x * x + y * y).sqrt().to_f64(), &mut self.vector.acceleration[node]);
+        if value > peak.value {
+            *peak = Peak { value, time: time.to_f64() };
+        }
+    }
+
     pub(super) fn finish(self, plane: Plane<R>, ending: (GeneralStatus, f64), samples: usize) -> PlaneSolution {
         let [x, y] = self.directions;
         let [of_x, of_y] = plane.directions;

@@ -111,7 +111,7 @@ impl<R: Real> Plane<R> {
                 return Err(JudgeError::TooManyEvents { time: time(tau), limit: 0, last });
             };
             if let Some(block) = self.arrival(&series) {
-                self.arrive(block, tau);
+                self.arrive(block, tau, recorder);
             } else {
                 let event = self.first_event(&series);
                 if let Some((place, ..)) = event {
@@ -126,15 +126,22 @@ impl<R: Real> Plane<R> {
                     series.advance(&mut direction.state);
                 }
                 self.look_at_velocities();
+                self.keep_young();
                 let reaches_end = series.length() == end - tau;
                 tau = if reaches_end { end } else { tau + series.length() };
                 match event {
-                    None if reaches_end => return Ok(None),
-                    None => continue,
+                    None => {
+                        self.settle_young(tau);
+                        if reaches_end {
+                            return Ok(None);
+                        }
+                        continue;
+                    }
                     Some((.., Guard::Collapse { node })) => return Ok(Some((node, (self.start + tau).to_f64()))),
                     Some((_, a, guard)) => self.carry_out((a, guard), &series, tau),
                 }
             }
+            self.settle_young(tau);
             events += 1;
         }
         let of_directions = self.directions.iter().filter_map(|direction| direction.log.last());

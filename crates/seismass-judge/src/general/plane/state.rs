@@ -26,6 +26,8 @@ pub(super) struct Plane<R> {
     pub(super) directions: [Direction<R>; 2],
     /// Direction in which a block begins to slide that has no relative velocity.
     pub(super) heads: Vec<[R; 2]>,
+    /// Blocks that have started from rest and whose relative velocity is none still.
+    pub(super) young: Vec<bool>,
     /// The last relative velocity of a block that has come to rest.
     pub(super) arrived: Vec<[R; 2]>,
     /// Drifts in x and y that are the axes of the ellipse at which a spring collapses.
@@ -54,6 +56,7 @@ impl<R: Real> Plane<R> {
         let none = vec![[R::zero(); 2]; directions[0].model.goods.len()];
         let nodes = directions[0].model.mass.len();
         let mut plane = Self {
+            young: vec![false; none.len()],
             heads: none.clone(),
             arrived: none,
             collapse: (0..nodes).map(|p| [0, 1].map(|a| directions[a].model.springs[p].collapse_drift)).collect(),

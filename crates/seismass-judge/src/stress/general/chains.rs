@@ -59,7 +59,7 @@ fn both(seed: u64) -> (u64, u64, Found) {
     let options = Options { histories: NonZeroUsize::new(1), events: true, ..Options::default() };
     let solved = random_scene(seed).and_then(|(scene, motion)| {
         let chain = simulate(&scene, &motion, &options)?;
-        let general = as_chain(simulate_general(&GeneralScene::from(&scene), &motion, &options)?);
+        let general = as_chain(simulate_general(&GeneralScene::from(&scene), &motion, &options)?, &chain);
         Ok((scene, motion, chain, general))
     });
     let (scene, motion, chain, mut general) = match solved {

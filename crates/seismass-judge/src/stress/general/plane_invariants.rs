@@ -1,5 +1,7 @@
 //! What must hold for any response in two directions by itself: that of each direction, and friction within its circle.
 
+use std::collections::BTreeMap;
+
 use seismass::{
     Axis, Event, EventKind, GeneralResponse, PlaneEvent, PlaneMotion, PlaneResponse, PlaneScene, STANDARD_GRAVITY,
     VectorPeaks,
@@ -27,6 +29,7 @@ pub(super) fn check(scene: &PlaneScene, motion: &PlaneMotion, response: &PlaneRe
     }
     let events: Vec<Event> = log.iter().map(|entry| entry.event.event).collect();
     order(&events, response.end_time * (1.0 + 4.0 * f64::EPSILON))?;
+    chatter(&events)?;
     let directions = [Axis::X, Axis::Y].map(|axis| response.direction(axis));
     for (a, of) in directions.iter().enumerate() {
         let scene = &scene.directions()[a];
@@ -41,6 +44,25 @@ pub(super) fn check(scene: &PlaneScene, motion: &PlaneMotion, response: &PlaneRe
     }
     vectors(&response.peaks.vector, &directions)?;
     Circles::new(scene, motion, &directions)?.check(response)
+}
+
+/// Most events of sliding of one block within an instant (s): that it starts or stops may release others, once.
+const MOST_IN_AN_INSTANT: usize = 3;
+const INSTANT: f64 = 1e-9;
+
+/// No block starts and stops time and again within an instant.
+fn chatter(events: &[Event]) -> Result<(), String> {
+    let is_of_sliding = |kind| matches!(kind, EventKind::Slip | EventKind::Stick | EventKind::Reverse);
+    let mut times: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+    for event in events.iter().filter(|event| is_of_sliding(event.kind)) {
+        times.entry(event.number).or_default().push(event.time);
+    }
+    for (number, times) in times {
+        if let Some(several) = times.windows(MOST_IN_AN_INSTANT + 1).find(|w| w[MOST_IN_AN_INSTANT] - w[0] <= INSTANT) {
+            return Err(format!("block {number} starts and stops {MOST_IN_AN_INSTANT} times at {} s", several[0]));
+        }
+    }
+    Ok(())
 }
 
 /// No component at its peak, and no vector at a sample, is longer than the peak of its vector.

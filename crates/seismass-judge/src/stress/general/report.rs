@@ -118,8 +118,10 @@ fn of_two_directions(tally: &GeneralTally) -> String {
          with springs, walls, damping, P-Delta, initial states and collapse drifts of each direction, or the same in both; in a \
          third a rack; several blocks per node, with mu_s at and above mu_k, without friction, with wear, much heavier than \
          their node, thrown in any direction, with stops across x and y; motions of their own in each direction, along a line \
-         or in one direction alone, with and without a vertical one.\n\n\
-         Every run is checked by itself: finite numbers; energy balance in each direction; legal sequences of events; stuck \
+         or in one direction alone, with and without a vertical one. `--twins` draws equal goods at equal stops, which come to \
+         their limits within 1e-8 s of each other.\n\n\
+         Every run is checked by itself: finite numbers; energy balance in each direction; legal sequences of events, in which no \
+         block starts and stops more than three times within 1e-9 s; stuck \
          blocks that neither move nor exceed the circle; stops that never pull, and blocks that press where they must; slips \
          within clearance and penetration; peaks, of directions and of vectors, that no sample beats. A fifth is solved again \
          with every sample interval divided by four, turned by a right angle, and for peaks alone, which must not change a \

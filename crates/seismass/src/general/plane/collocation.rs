@@ -3,12 +3,13 @@
 //! A direction follows what drives it within rho/(mu_k N m_j/m). Where that is far shorter than the time in which what
 //! drives it changes, Taylor steps are as short, though the direction is smooth. There the directions at the Radau points of
 //! Chebyshev polynomials are the unknowns: friction is the polynomial through them, all else follows from it by the same
-//! series, and at each point the relative velocity must have the direction of its friction.
+//! series, and at each point the relative velocity must have the direction of its friction. The start of the step is no such
+//! point: a block may begin to slide there beside one whose direction is stiff.
 
 use std::sync::LazyLock;
 
 use crate::general::plane::series::PlaneSeries;
-use crate::general::plane::slide_series::ORDER;
+use crate::general::plane::slide_series::{Beginning, ORDER};
 use crate::general::plane::state::PlaneState;
 use crate::general::plane::vector::{Vector2, across, dot, length, minus, plus, times, unit};
 use crate::lanes::Plain;
@@ -97,15 +98,16 @@ impl PlaneSeries {
     pub(super) fn collocate(&mut self, state: &PlaneState, tau: f64, h: f64) -> bool {
         let mut directions: Vec<AtPoints<Vector2>> =
             self.slides.iter().map(|slide| [slide.direction[0]; POINTS]).collect();
+        let beginnings: Vec<Beginning> = self.slides.iter().map(|slide| slide.beginning).collect();
         let mut before = f64::INFINITY;
         for iteration in 0..ITERATIONS {
-            let [_, last] = self.form_through(state, tau, h, &directions);
+            let [_, last] = self.form_through(state, (tau, h), &beginnings, &directions);
             if iteration >= SETTLED && last > TOO_ROUGH {
                 return false;
             }
             let Some(largest) = self.correct(state, tau, h, &mut directions) else { return false };
             if largest <= KNOWN || largest <= ROUNDING && largest > 0.5 * before {
-                let [middle, last] = self.form_through(state, tau, h, &directions);
+                let [middle, last] = self.form_through(state, (tau, h), &beginnings, &directions);
                 return middle <= MIDDLE && last <= LAST && self.begin_as(state);
             }
             if largest > 4.0 * before {
@@ -117,10 +119,18 @@ impl PlaneSeries {
     }
 
     /// Forms the series with directions through these; returns the largest terms in the middle of directions, and at the end.
-    fn form_through(&mut self, state: &PlaneState, tau: f64, h: f64, directions: &[AtPoints<Vector2>]) -> [f64; 2] {
+    fn form_through(
+        &mut self,
+        state: &PlaneState,
+        (tau, h): (f64, f64),
+        beginnings: &[Beginning],
+        directions: &[AtPoints<Vector2>],
+    ) -> [f64; 2] {
         self.begin(state);
         let (mut middle, mut last): (f64, f64) = (0.0, 0.0);
-        for (slide, directions) in self.slides.iter_mut().zip(directions) {
+        for ((slide, beginning), directions) in self.slides.iter_mut().zip(beginnings).zip(directions) {
+            // The first direction of a start is that of the polynomial, as all others are.
+            (slide.beginning, slide.direction[0]) = (*beginning, [0.0; 2]);
             let terms = AT.through(directions);
             let largest = |range: std::ops::Range<usize>| range.fold(0.0, |sum: f64, m| sum.max(length(terms[m])));
             middle = middle.max(largest(POINTS / 2..POINTS / 2 + 2));
@@ -142,7 +152,8 @@ impl PlaneSeries {
             self.form_order(state, k);
         }
         for i in 0..self.slides.len() {
-            let terms: Vec<Vector2> = (0..=ORDER).map(|k| self.term(i, k)).collect();
+            let power = self.slides[i].beginning.power();
+            let terms: Vec<Vector2> = (0..=ORDER + 1 - power.max(1)).map(|k| self.term(i, k + power)).collect();
             self.slides[i].take_length(&terms);
         }
         [middle, last]
@@ -239,7 +250,7 @@ mod tests {
         }
         state.follow();
         let mut series = PlaneSeries::default();
-        assert_eq!(series.form(&state, 0.0, 0.01, |_, _| false), None);
+        assert_eq!(series.form(&state, 0.0, 0.01, true), None);
         let places = [0.1, 0.35, 0.6, 1.0];
         let velocities = |series: &PlaneSeries| -> Vec<f64> {
             let of = |a: usize, i: usize| series.axes[a].velocity_of(series.slides[i].position);

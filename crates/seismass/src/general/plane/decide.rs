@@ -197,7 +197,7 @@ impl PlaneState<'_> {
             sticks_to: self.friction(j).0 * contact,
             slides_from: self.friction(j).1 * contact,
             least_size: self.friction(j).0 * STANDARD_GRAVITY,
-            is_released: fires(j),
+            is_released: self.slides[j].is_young || fires(j),
         });
         let candidates = candidates.collect();
         let (mut force, mut size) = self.node_force(node);

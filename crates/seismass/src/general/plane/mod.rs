@@ -8,6 +8,7 @@ mod decide;
 mod energy;
 mod guards;
 mod huber;
+mod last_way;
 mod outcome;
 mod peaks;
 mod products;

@@ -64,6 +64,14 @@ impl PlaneHappening<'_, '_> {
         self.log.push(PlaneEvent { event, axis: None, angle });
     }
 
+    /// Lets a node decide at which blocks have started that are at rest still: they go on together, each in the direction of
+    /// this instant.
+    pub(super) fn renew_starts(&mut self, node: usize) -> Outcome {
+        let outcome = self.decide(node, Cause::Other, &[]);
+        self.state.follow();
+        outcome
+    }
+
     /// Lets a node decide; `arrived` are blocks that slid until now, with their angles.
     fn decide(&mut self, node: usize, cause: Cause, arrived: &[(usize, f64)]) -> Outcome {
         let Some(choices) = self.state.decide(node, self.tau, cause) else { return Outcome::Undecided(node) };

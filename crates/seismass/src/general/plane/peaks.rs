@@ -75,10 +75,12 @@ impl PlaneObserver {
         }
     }
 
-    /// Whether accelerations of a node of these sizes would raise a peak.
-    pub(super) fn would_raise(&self, node: usize, accelerations: Vector2) -> bool {
-        let beyond = |a: usize| accelerations[a] > self.axes[a].largest_acceleration(node);
-        beyond(0) || beyond(1) || length(accelerations) > self.vector.acceleration[node].value
+    /// Takes accelerations of a node.
+    pub(super) fn take_node(&mut self, node: usize, accelerations: Vector2, time: f64) {
+        for (observer, value) in self.axes.iter_mut().zip(accelerations) {
+            observer.take_node(node, value, time);
+        }
+        self.vector.acceleration[node].take(length(accelerations), time);
     }
 
     /// Takes the velocity at which a block comes to a stop of a direction.

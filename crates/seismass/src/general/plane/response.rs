@@ -29,6 +29,7 @@ pub struct VectorPeaks {
 
 /// Peaks by direction and of vectors.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct PlanePeaks {
     /// Peaks in x and in y.
     pub directions: [GeneralPeaks; 2],
@@ -59,6 +60,7 @@ pub struct PlaneEnergy {
 
 /// The result of one run in the plane. Lists are as in [`GeneralPeaks`]; pairs are of x and y.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct PlaneResponse {
     /// Number of storeys of the building.
     pub storeys: usize,

@@ -12,20 +12,17 @@ use crate::general::plane::outcome::PlaneHappening;
 use crate::general::plane::peaks::PlaneObserver;
 use crate::general::plane::response::{Axis, PlaneEvent, PlaneResponse};
 use crate::general::plane::series::PlaneSeries;
-use crate::general::plane::slide_series::SlideSeries;
 use crate::general::plane::state::PlaneState;
 use crate::general::plane::vector::length;
 use crate::general::response::GeneralStatus;
 use crate::general::series::Quantity;
 use crate::general::system::System;
-use crate::lanes::Plain;
 use crate::machines::block::BlockState;
-use crate::polynomial::power::Polynomial;
 use crate::response::{EventKind, Statistics};
 use crate::run::limits::{EVENTS_PER_INTERVAL, EVENTS_PER_MACHINE};
 use crate::scene::{Options, PlaneMotion, PlaneScene};
 use crate::state::interval::interval;
-use crate::tolerances::{ARRIVED_ON_CIRCLE, FALL_ROUNDING, REFUSED_PHASE};
+use crate::tolerances::{ARRIVED_ON_CIRCLE, REFUSED_PHASE};
 
 /// Steps that sliding blocks may take within one sample interval, beside one for each radian of the stiffest vibration.
 const STEPS_PER_INTERVAL: usize = 200_000;
@@ -62,6 +59,7 @@ pub fn simulate_plane_until(
     let mut run = Run {
         observer: PlaneObserver::new(&state),
         series: PlaneSeries::default(),
+        rows: Default::default(),
         recorders: [recorder(&systems[0])?, recorder(&systems[1])?],
         balance: None,
         lost_at_stops: [0.0; 2],
@@ -107,6 +105,8 @@ pub fn simulate_plane_until(
 struct Run<'a> {
     state: PlaneState<'a>,
     series: PlaneSeries,
+    /// Working space: rows by node, of each direction.
+    rows: [[Vec<f64>; 2]; 3],
     observer: PlaneObserver,
     recorders: [Option<Recorder>; 2],
     balance: Option<PlaneBalance>,
@@ -154,8 +154,7 @@ impl<'a> Run<'a> {
         while tau < h {
             let remaining = h - tau;
             self.radians(remaining)?;
-            let raises = |node: usize, accelerations| self.observer.would_raise(node, accelerations);
-            if let Some(block) = self.series.form(&self.state, tau, remaining, raises) {
+            if let Some(block) = self.series.form(&self.state, tau, remaining, true) {
                 let logged = self.log.len();
                 self.happening(tau).graze(block);
                 self.note_events(logged);
@@ -167,9 +166,14 @@ impl<'a> Run<'a> {
             }
             self.statistics.series_steps += 1;
             steps += 1;
-            let (first, isolated) = PlaneSearch::first(&self.state, &self.series);
+            let (mut first, isolated) = PlaneSearch::first(&self.state, &self.series);
             self.statistics.guards_isolated += isolated;
-            let place = first.map_or(1.0, |(place, _)| if self.is_instant(place, tau) { 0.0 } else { place });
+            if first.is_some() && self.series.is_last_way() {
+                // Something happens before the stop, where the closed form says nothing.
+                self.series.form(&self.state, tau, remaining, false);
+                first = PlaneSearch::first(&self.state, &self.series).0;
+            }
+            let place = first.map_or(1.0, |(place, _)| place);
             // A row at the time of an event is the state after it.
             if !is_recorded && place > 0.0 {
                 self.record(sample, 0.0);
@@ -189,6 +193,9 @@ impl<'a> Run<'a> {
                 return Ok(Some(collapsed));
             }
             events += usize::from(self.stop_blocks(&stopping, tau)?);
+            if place > 0.0 {
+                self.renew_starts(tau)?;
+            }
             if events > most {
                 let (name, block) = first.map_or(("stick", stopping.first().copied()), |(_, guard)| name_of(guard));
                 return Err(self.too_many(name, block, tau, most));
@@ -206,59 +213,56 @@ impl<'a> Run<'a> {
         Ok(None)
     }
 
-    /// Whether a place of the present series is within rounding of the time at which blocks start to slide: what happens
-    /// there happens as they start, for a relative velocity that is all rounding has no direction.
-    fn is_instant(&self, place: f64, tau: f64) -> bool {
-        let time = self.state.axes[0].interval.start + tau;
-        let starts = |slide: &SlideSeries| slide.beginning.is_implicit();
-        place * self.series.h() <= FALL_ROUNDING * time && self.series.slides.iter().any(starts)
-    }
-
     /// Advances to the place of the present series, which is at `tau`; returns the blocks that become slower there.
     fn advance(&mut self, place: f64, tau: f64) -> Result<Vec<usize>> {
         let (state, series) = (&mut self.state, &self.series);
         let start = state.axes[0].interval.start;
-        let accelerations = |place: f64| [0, 1].map(|a: usize| series.axes[a].values(Quantity::Acceleration, place));
+        let [accelerations, drifts, rates] = &mut self.rows;
+        let at = |place: f64, rows: &mut [Vec<f64>; 2]| {
+            for (series, row) in series.axes.iter().zip(rows) {
+                series.values(Quantity::Acceleration, place, row);
+            }
+        };
         // An instant is no stretch of time: what it passes through has no peaks.
         let lasts = place > 0.0;
         if lasts {
-            self.observer.take_accelerations(&accelerations(0.0), start + series.tau());
+            at(0.0, accelerations);
+            self.observer.take_accelerations(accelerations, start + series.tau());
         }
         self.statistics.guards_isolated += self.observer.observe(state, series, place);
         if let Some(balance) = &mut self.balance {
             balance.add(state, series, place);
         }
-        for (axis, series) in state.axes.iter_mut().zip(&series.axes) {
-            let (drifts, rates) = (series.changes(Quantity::Drift, place), series.changes(Quantity::Rate, place));
-            for p in 1..drifts.len() {
-                axis.x[p] += drifts[p];
-                axis.v[p] += rates[p];
+        for (a, (axis, series)) in state.axes.iter_mut().zip(&series.axes).enumerate() {
+            series.changes(Quantity::Drift, place, &mut drifts[a]);
+            series.changes(Quantity::Rate, place, &mut rates[a]);
+            for p in 1..drifts[a].len() {
+                axis.x[p] += drifts[a][p];
+                axis.v[p] += rates[a][p];
             }
         }
-        let mut paths = vec![0.0; state.slides.len()];
         let mut slowing = Vec::new();
-        for (i, slide) in series.slides.iter().enumerate() {
-            let speed = series.speed_of(i);
-            let path = Polynomial::new(speed.coefficients().iter().enumerate().map(|(k, term)| term / (k + 1) as f64));
-            paths[slide.block] = series.h() * place * path.at::<Plain>(place);
-            if speed.derivative().at::<Plain>(place) < 0.0 {
-                slowing.push(slide.block);
-            }
-        }
         for position in 0..state.axes[0].moving.len() {
             let block = state.axes[0].moving[position];
+            // Slides are in the order of the blocks that move.
+            let slide = series.slides.iter().find(|slide| slide.position == position);
+            let (path, rate) = slide.map_or((0.0, 0.0), |slide| series.path_and_rate(slide, place));
+            if rate < 0.0 {
+                slowing.push(block);
+            }
             let [x, y] = [0, 1].map(|a: usize| series.axes[a].block_changes(position, place));
             if lasts {
-                state.move_block(block, [x.0, y.0], [x.1, y.1], paths[block]);
+                state.move_block(block, [x.0, y.0], [x.1, y.1], path);
             }
         }
         state.note_velocities();
-        let (at_end, time) = (accelerations(place), start + tau);
+        let time = start + tau;
+        at(place, accelerations);
         if lasts {
-            self.observer.take_accelerations(&at_end, time);
+            self.observer.take_accelerations(accelerations, time);
         }
         self.observer.take_values(state, time);
-        let is_finite = at_end.iter().flatten().all(|a| a.is_finite());
+        let is_finite = accelerations.iter().flatten().all(|a| a.is_finite());
         if is_finite && (0..state.slides.len()).all(|j| length(state.slip(j)).is_finite()) {
             return Ok(slowing);
         }
@@ -276,13 +280,25 @@ impl<'a> Run<'a> {
     /// Stops the blocks that come to rest: their relative velocity is below rounding and falls. Tells whether there are any.
     fn stop_blocks(&mut self, slowing: &[usize], tau: f64) -> Result<bool> {
         let slow = ARRIVED_ON_CIRCLE * self.state.fastest;
-        let is_slow = |state: &PlaneState, j: usize, limit: f64| state.slides(j) && length(state.velocity(j)) < limit;
+        let is_slow = |state: &PlaneState, j: usize, limit: f64| {
+            state.slides(j) && !state.slides[j].is_young && length(state.velocity(j)) < limit
+        };
         let mut stops = false;
         for node in 0..self.state.system().on_node.len() {
             let on_node = self.state.system().on_node[node].iter().copied().filter(|j| slowing.contains(j));
             let arriving: Vec<usize> = on_node.filter(|&j| is_slow(&self.state, j, STOP_TOGETHER * slow)).collect();
             if arriving.iter().any(|&j| is_slow(&self.state, j, slow)) {
                 stops = true;
+                if node > 0 {
+                    let before = |j: usize| {
+                        let slide = self.series.slides.iter().find(|slide| slide.block == j);
+                        slide.and_then(|slide| slide.before_last_step()).unwrap_or(self.state.direction(j))
+                    };
+                    let arrived: Vec<_> = arriving.iter().map(|&j| (j, before(j))).collect();
+                    for a in self.state.accelerations_at_stop(node, &arrived, tau) {
+                        self.observer.take_node(node, a, self.state.axes[0].interval.start + tau);
+                    }
+                }
                 let logged = self.log.len();
                 let outcome = self.happening(tau).arrive(node, &arriving);
                 self.note_events(logged);
@@ -290,6 +306,22 @@ impl<'a> Run<'a> {
             }
         }
         Ok(stops)
+    }
+
+    /// Lets the nodes decide at which blocks have started that are at rest still.
+    fn renew_starts(&mut self, tau: f64) -> Result<()> {
+        if self.state.slides.iter().all(|slide| !slide.is_young) {
+            return Ok(());
+        }
+        for node in 0..self.state.system().on_node.len() {
+            if self.state.system().on_node[node].iter().any(|&j| self.state.slides[j].is_young) {
+                let logged = self.log.len();
+                let outcome = self.happening(tau).renew_starts(node);
+                self.note_events(logged);
+                self.judge(outcome, tau)?;
+            }
+        }
+        Ok(())
     }
 
     fn judge(&self, outcome: Outcome, tau: f64) -> Result<Option<(usize, f64)>> {

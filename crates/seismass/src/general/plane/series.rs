@@ -1,5 +1,6 @@
 //! The Taylor series of both directions over a step, coupled by friction on the circle (`numerics`, section 9.7).
 
+use crate::general::plane::last_way::LastWay;
 use crate::general::plane::slide_series::{Beginning, ORDER, SlideSeries};
 use crate::general::plane::state::PlaneState;
 use crate::general::plane::stiff::Stiff;
@@ -22,6 +23,9 @@ const STRAIGHT: f64 = 0.25 * f64::EPSILON;
 /// Most units of time in a step: their powers up to the highest degree are far within the range of numbers.
 const MOST_UNITS: f64 = 1e3;
 
+/// Order of the series of the last way to a stop: frequencies times its length are 1e-3 at most.
+const LAST_WAY_ORDER: usize = 4;
+
 /// The lowest order at which an asymptotic series is ended.
 const LEAST_ORDER: usize = 6;
 
@@ -33,8 +37,12 @@ pub(super) struct PlaneSeries {
     pub(super) slides: Vec<SlideSeries>,
     /// Blocks on the straight line to their stops.
     straight: Vec<usize>,
+    /// Blocks on the last way to their stop, if the step is one.
+    last_way: Option<(Vec<usize>, LastWay)>,
     stiff: Stiff,
     order: usize,
+    /// The order to which terms are formed.
+    highest: usize,
 }
 
 impl PlaneSeries {
@@ -51,17 +59,12 @@ impl PlaneSeries {
     /// Forms the series from `tau` over at most `remaining`; None, or a block that has broken away though its relative
     /// acceleration does not rise: it grazes its limit.
     ///
-    /// `raises` tells whether accelerations of a node as large as these would raise a peak.
-    pub(super) fn form(
-        &mut self,
-        state: &PlaneState,
-        tau: f64,
-        remaining: f64,
-        raises: impl Fn(usize, Vector2) -> bool,
-    ) -> Option<usize> {
+    /// `to_stops` allows the last way to a stop as a step.
+    pub(super) fn form(&mut self, state: &PlaneState, tau: f64, remaining: f64, to_stops: bool) -> Option<usize> {
         let frequency = state.axes[0].regime.frequency.max(state.axes[1].regime.frequency);
         let longest = remaining / (frequency * remaining / SERIES_PHASE).ceil().max(1.0);
         self.straight.clear();
+        (self.last_way, self.highest) = (None, ORDER);
         self.begin(state);
         if self.slides.is_empty() {
             for (series, axis) in self.axes.iter_mut().zip(&state.axes) {
@@ -73,14 +76,21 @@ impl PlaneSeries {
         if grazes.is_some() {
             return grazes;
         }
+        if to_stops && let Some(way) = self.last_way(state, frequency, longest) {
+            let time = way.1.time;
+            (self.last_way, self.highest) = (Some(way), LAST_WAY_ORDER);
+            self.form_slides(state, tau, time);
+            self.highest = ORDER;
+            if self.h() == time {
+                self.close(1.0, LAST_WAY_ORDER, time);
+                return None;
+            }
+            self.last_way = None;
+            self.form_slides(state, tau, longest);
+        }
         let (h, least) = (self.h(), STRAIGHT * state.fastest);
         let is_straight = |slide: &&SlideSeries| slide.is_straight(longest / h, least);
-        let shows = |slide: &SlideSeries| {
-            let node = state.system().blocks[slide.block].floor;
-            node > 0 && raises(node, self.accelerations_before_stop(state, slide, node))
-        };
-        let straight = self.slides.iter().filter(is_straight).filter(|slide| !shows(slide));
-        self.straight = straight.map(|slide| slide.block).collect();
+        self.straight = self.slides.iter().filter(is_straight).map(|slide| slide.block).collect();
         if !self.straight.is_empty() {
             self.form_slides(state, tau, longest);
         }
@@ -97,6 +107,12 @@ impl PlaneSeries {
                 self.form_slides(state, tau, longest);
             }
         }
+        self.close(end, order, longest);
+        None
+    }
+
+    /// Ends the step at its place `end` and after an order.
+    fn close(&mut self, end: f64, order: usize, longest: f64) {
         self.order = order;
         // Rounding may leave their product just below.
         let is_longest = end == longest / self.h();
@@ -108,19 +124,11 @@ impl PlaneSeries {
             series.bound_changes();
         }
         self.slides.iter_mut().for_each(|slide| slide.shorten(end));
-        None
     }
 
-    /// What the accelerations of a node reach on a block's way to its stop, however its friction turns.
-    fn accelerations_before_stop(&self, state: &PlaneState, slide: &SlideSeries, node: usize) -> Vector2 {
-        let (system, axis) = (state.system(), &state.axes[0]);
-        let friction = state.friction(slide.block).1 * axis.contact_at(self.tau()).max(0.0);
-        let of_block = friction * system.blocks[slide.block].mass * axis.regime.inverse_mass[node];
-        let (rest, turn) = slide.before_rest();
-        self.axes.each_ref().map(|series| {
-            let [first, second] = series.first_accelerations(node);
-            first.abs() + 2.0 * (rest * second.abs() + of_block * turn)
-        })
+    /// Whether the step is the last way to a stop.
+    pub(super) fn is_last_way(&self) -> bool {
+        self.last_way.is_some()
     }
 
     /// Forms all terms in a time unit of at most `longest`; None, or a block that grazes its limit.
@@ -130,7 +138,9 @@ impl PlaneSeries {
         let contact = state.axes[0].contact_at(tau).max(0.0);
         let mut h = longest;
         self.begin(state);
-        let turns = |slide: &&SlideSeries| slide.beginning == Beginning::Moving && slide.straight_to.is_none();
+        let turns = |slide: &&SlideSeries| {
+            slide.beginning == Beginning::Moving && slide.straight_to.is_none() && slide.mean.is_none()
+        };
         for slide in self.slides.iter().filter(turns) {
             let law = &system.blocks[slide.block];
             let slowing = state.friction(slide.block).1 * contact * (1.0 + law.mass * inverse_mass[law.floor]);
@@ -141,7 +151,7 @@ impl PlaneSeries {
             if let Some(slide) = self.slides.iter().find(|slide| slide.length[0] <= 0.0) {
                 return Some(slide.block);
             }
-            let is_within = self.slides.iter().all(|slide| length(slide.direction[ORDER]) < LARGEST);
+            let is_within = self.slides.iter().all(|slide| length(slide.direction[self.highest]) < LARGEST);
             if is_within || h < f64::MIN_POSITIVE / SHORTER {
                 return None;
             }
@@ -152,29 +162,33 @@ impl PlaneSeries {
 
     /// The blocks that slide.
     pub(super) fn begin(&mut self, state: &PlaneState) {
-        self.slides.clear();
-        for (position, &block) in state.axes[0].moving.iter().enumerate() {
-            if state.slides(block) {
-                let start = state.slides[block].start;
-                let beginning = match (state.velocity(block) == [0.0; 2], state.friction(block).1 == 0.0) {
-                    (true, true) => Beginning::Free(0),
-                    (true, false) => Beginning::Jump,
-                    (false, _) => Beginning::Moving,
-                };
-                let mut slide = SlideSeries::new(position, block, beginning, start.unwrap_or_default());
-                slide.straight_to = self.straight.contains(&block).then_some(0.25 * ARRIVED_ON_CIRCLE * state.fastest);
-                self.slides.push(slide);
+        let mut count = 0;
+        for (position, &block) in state.axes[0].moving.iter().enumerate().filter(|(_, block)| state.slides(**block)) {
+            let beginning = match (state.velocity(block) == [0.0; 2], state.friction(block).1 == 0.0) {
+                (true, true) => Beginning::Free(0),
+                (true, false) => Beginning::Jump,
+                (false, _) => Beginning::Moving,
+            };
+            if self.slides.len() == count {
+                self.slides.push(SlideSeries::none());
             }
+            let slide = &mut self.slides[count];
+            slide.begin((position, block), beginning, state.slides[block].start.unwrap_or_default());
+            slide.straight_to = self.straight.contains(&block).then_some(0.25 * ARRIVED_ON_CIRCLE * state.fastest);
+            let way = self.last_way.as_ref().filter(|(blocks, _)| blocks.contains(&block));
+            slide.mean = way.map(|(_, way)| way.mean);
+            count += 1;
         }
+        self.slides.truncate(count);
     }
 
     fn form_terms(&mut self, state: &PlaneState, tau: f64, h: f64) {
         let contact = [state.axes[0].contact_at(tau), state.axes[0].interval.contact_slope * h];
         for (series, axis) in self.axes.iter_mut().zip(&state.axes) {
-            series.begin(axis, tau, h, ORDER);
+            series.begin(axis, tau, h, self.highest);
         }
         let starts = self.slides.iter().any(|slide| slide.beginning.is_implicit());
-        for k in 0..=ORDER {
+        for k in 0..=self.highest {
             for i in 0..self.slides.len() {
                 match self.slides[i].beginning {
                     Beginning::Moving => {
@@ -207,13 +221,13 @@ impl PlaneSeries {
             return;
         }
         let sizes = state.axes.each_ref().map(|axis| axis.acceleration_sizes(tau));
-        let axes = &self.axes;
+        let (axes, highest) = (&self.axes, self.highest);
         self.slides.retain_mut(|slide| {
             let (position, node) = (slide.position, state.system().blocks[slide.block].floor);
             let size = sizes[0][node] + sizes[1][node] + length(state.drive(slide.block));
             let term = |k: usize| axes.each_ref().map(|series| series.blocks[position].velocity[k]);
             slide.beginning != Beginning::Free(0)
-                || slide.divide_free(ORDER, AT_STOPS_ROUNDING * size * axes[0].h, term)
+                || slide.divide_free(highest, AT_STOPS_ROUNDING * size * axes[0].h, term)
         });
     }
 
@@ -326,6 +340,12 @@ impl PlaneSeries {
     /// The part of a series up to its place `end` in which no relative velocity comes to zero.
     fn before_stops(&self, end: f64, order: usize) -> f64 {
         self.slides.iter().fold(end, |end, slide| slide.before_stop(order, end))
+    }
+
+    /// Path of a block that slides up to the place `s`, and the sign of the rate of its velocity there.
+    pub(super) fn path_and_rate(&self, slide: &SlideSeries, s: f64) -> (f64, f64) {
+        let (path, rate) = slide.path_and_rate(self.order, s);
+        (self.h() * path, rate)
     }
 
     /// Lengths of the relative velocities of the blocks that slide, as polynomials.

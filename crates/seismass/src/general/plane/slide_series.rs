@@ -2,6 +2,7 @@
 
 use crate::general::plane::vector::{Vector2, across, dot, length, minus, plus, times};
 use crate::lanes::Plain;
+use crate::polynomial::orders::INVERSE;
 use crate::polynomial::power::{MAX_DEGREE, Polynomial};
 
 /// Highest order of accelerations where a block slides.
@@ -50,6 +51,10 @@ pub(super) struct SlideSeries {
     pub(super) beginning: Beginning,
     /// Velocity at which it ends on the straight line to its stop: its direction turns by less than shows. None: it turns.
     pub(super) straight_to: Option<f64>,
+    /// The mean direction on the last way to its stop, at the end of which the step ends. None: it is not that.
+    pub(super) mean: Option<Vector2>,
+    /// Direction at the start of the step.
+    pub(super) heading: Vector2,
     /// Terms of the direction.
     pub(super) direction: [Vector2; MAX_DEGREE + 1],
     /// Terms of the length of R.
@@ -59,13 +64,28 @@ pub(super) struct SlideSeries {
 }
 
 impl SlideSeries {
-    pub(super) fn new(position: usize, block: usize, beginning: Beginning, direction: Vector2) -> Self {
+    pub(super) fn none() -> Self {
         let none = [[0.0; 2]; MAX_DEGREE + 1];
-        let length = [0.0; MAX_DEGREE + 1];
-        let mut series =
-            Self { position, block, beginning, straight_to: None, direction: none, length, relative: none };
-        series.direction[0] = direction;
-        series
+        Self {
+            position: 0,
+            block: 0,
+            beginning: Beginning::Moving,
+            straight_to: None,
+            mean: None,
+            heading: [0.0; 2],
+            direction: none,
+            length: [0.0; MAX_DEGREE + 1],
+            relative: none,
+        }
+    }
+
+    /// Begins anew in place, with the direction of a start.
+    pub(super) fn begin(&mut self, (position, block): (usize, usize), beginning: Beginning, direction: Vector2) {
+        (self.position, self.block, self.beginning) = (position, block, beginning);
+        (self.straight_to, self.mean, self.heading) = (None, None, direction);
+        self.direction.fill([0.0; 2]);
+        self.length.fill(0.0);
+        self.direction[0] = direction;
     }
 
     /// Length and direction of order k of a velocity that does not begin at zero:
@@ -74,7 +94,12 @@ impl SlideSeries {
         self.relative[k] = r;
         if k == 0 {
             self.length[0] = length(r);
-            self.direction[0] = times(1.0 / self.length[0], r);
+            self.heading = times(1.0 / self.length[0], r);
+            self.direction[0] = self.mean.unwrap_or(self.heading);
+            return;
+        }
+        if self.mean.is_some() {
+            self.length[k] = if k == 1 { -self.length[0] } else { 0.0 };
             return;
         }
         if self.straight_to.is_some() {
@@ -164,6 +189,21 @@ impl SlideSeries {
         Polynomial::new(std::iter::repeat_n(0.0, power).chain(self.length[..=last].iter().copied()))
     }
 
+    /// Integral of the length up to the place `s`, and the rate of the length there.
+    pub(super) fn path_and_rate(&self, order: usize, s: f64) -> (f64, f64) {
+        let power = self.beginning.power();
+        let (mut path, mut rate) = (0.0, 0.0);
+        // A constant has no rate.
+        let lowest = usize::from(power == 0);
+        for k in (0..=self.last(order)).rev() {
+            path = path * s + INVERSE[k + power + 1] * self.length[k];
+            if k >= lowest {
+                rate = rate * s + (k + power) as f64 * self.length[k];
+            }
+        }
+        (path * s.powi(power as i32 + 1), rate * s.powi((power + lowest) as i32 - 1))
+    }
+
     /// Ends the series at its place `end`, which is the new 1.
     pub(super) fn shorten(&mut self, end: f64) {
         let mut power = 1.0;
@@ -176,19 +216,19 @@ impl SlideSeries {
         self.length.iter_mut().for_each(|term| *term *= unit);
     }
 
+    /// The direction before the step, where the step goes to a stop without a turn of its own.
+    pub(super) fn before_last_step(&self) -> Option<Vector2> {
+        (self.mean.is_some() || self.straight_to.is_some()).then_some(self.heading)
+    }
+
     /// Whether a velocity that falls comes to its stop before the place `last` and turns so little until then that less than
     /// `least` of it would be seen.
     pub(super) fn is_straight(&self, last: f64, least: f64) -> bool {
-        let (rest, turn) = self.before_rest();
+        let rest = -self.length[0] / self.length[1];
+        // At most by the first two terms over the time that is left, where that is within the series.
+        let turn = rest * (length(self.direction[1]) + rest * length(self.direction[2]));
         let falls = self.beginning == Beginning::Moving && self.length[1] < 0.0;
         falls && rest < last && turn * self.length[0] < least
-    }
-
-    /// The place at which a velocity that falls comes to its stop by its rate, and what it turns by until then: at most by
-    /// the first two terms over the time that is left, where that is within the series.
-    pub(super) fn before_rest(&self) -> (f64, f64) {
-        let rest = -self.length[0] / self.length[1];
-        (rest, rest * (length(self.direction[1]) + rest * length(self.direction[2])))
     }
 
     /// The place where the length has fallen to a velocity, if it does, from a first guess by its rate.
@@ -209,6 +249,9 @@ impl SlideSeries {
     /// The longest part of the series in which the negative terms of the length are hardly more than [`MOST_FALL`] of its
     /// first: along a straight line a longer step would jump over a stop. On the straight line to a stop it is the whole way.
     pub(super) fn before_stop(&self, order: usize, mut end: f64) -> f64 {
+        if self.mean.is_some() {
+            return end;
+        }
         if let Some(place) = self.straight_to.and_then(|velocity| self.falls_to(velocity, order)) {
             return end.min(place);
         }

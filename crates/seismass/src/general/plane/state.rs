@@ -1,17 +1,20 @@
 //! The state of a run in the plane: that of each direction, and of each block what belongs to the circle.
 
-use crate::general::plane::vector::{Vector2, angle, length, minus, plus, times, unit};
+use crate::general::plane::vector::{Vector2, angle, dot, length, minus, plus, times, unit};
 use crate::general::state::GeneralState;
 use crate::general::system::System;
 use crate::machines::block::{BlockLaw, BlockState};
 use crate::machines::sign::Sign;
 use crate::scene::PlaneScene;
+use crate::tolerances::ARRIVED_ON_CIRCLE;
 
 /// What of a block belongs to neither direction alone.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Slide {
     /// Direction in which it starts, where it slides and its relative velocity is still zero.
     pub(super) start: Option<Vector2>,
+    /// It has started from rest and not yet been faster than what counts as rest: its relative velocity is zero still.
+    pub(super) is_young: bool,
     /// Path slipped in contact (m).
     pub(super) path: f64,
     /// Changes of the friction coefficients so far, and the path at the next (m).
@@ -22,7 +25,7 @@ pub(super) struct Slide {
 impl Slide {
     fn new(law: &BlockLaw) -> Self {
         let next_wear = law.wear.first().map_or(f64::INFINITY, |next| next.path);
-        Self { start: None, path: 0.0, stage: 0, next_wear }
+        Self { start: None, is_young: false, path: 0.0, stage: 0, next_wear }
     }
 
     /// Path until the coefficients change (m); infinite: they do not.
@@ -37,6 +40,8 @@ pub(super) struct PlaneState<'a> {
     pub(super) slides: Vec<Slide>,
     /// Largest velocity of a node or of a block relative to its node so far (m/s).
     pub(super) fastest: f64,
+    /// Working space: velocities of the nodes.
+    nodes: Vec<Vector2>,
 }
 
 impl<'a> PlaneState<'a> {
@@ -45,7 +50,8 @@ impl<'a> PlaneState<'a> {
         let [x, y] = scene.directions();
         let axes = [GeneralState::new(x, systems[0], vertical), GeneralState::new(y, systems[1], vertical)];
         let slides = systems[0].blocks.iter().map(Slide::new).collect();
-        let mut state = Self { axes, slides, fastest: 0.0 };
+        let nodes = vec![[0.0; 2]; systems[0].nodes + 1];
+        let mut state = Self { axes, slides, fastest: 0.0, nodes };
         for j in 0..state.slides.len() {
             let slides = state.velocity(j) != [0.0; 2] || state.is_frictionless(j);
             state.set(j, if slides { SLIDING } else { BlockState::Stuck });
@@ -99,13 +105,13 @@ impl<'a> PlaneState<'a> {
                 axis.motions[block].velocity = 0.0;
             }
         }
-        self.slides[block].start = None;
+        (self.slides[block].start, self.slides[block].is_young) = (None, false);
     }
 
     /// Lets a block slide from rest in a direction.
     pub(super) fn start(&mut self, block: usize, direction: Vector2) {
         self.set(block, SLIDING);
-        self.slides[block].start = Some(direction);
+        (self.slides[block].start, self.slides[block].is_young) = (Some(direction), true);
     }
 
     /// Brings a block to rest; what it does then is to be decided.
@@ -178,10 +184,20 @@ impl<'a> PlaneState<'a> {
 
     /// Notes the largest velocity so far.
     pub(super) fn note_velocities(&mut self) {
-        let nodes = self.axes.each_ref().map(|axis| axis.node_velocities(&axis.v));
-        let of_nodes = (1..nodes[0].len()).map(|p| length([nodes[0][p], nodes[1][p]]));
-        let of_blocks = (0..self.slides.len()).map(|j| length(self.velocity(j)));
-        self.fastest = of_nodes.chain(of_blocks).fold(self.fastest, f64::max);
+        let Self { axes, nodes, fastest, .. } = self;
+        nodes[0] = [0.0; 2];
+        for p in 1..nodes.len() {
+            let parent = nodes[axes[0].system.parent[p]];
+            nodes[p] = [parent[0] + axes[0].v[p], parent[1] + axes[1].v[p]];
+        }
+        let of_blocks = axes[0].motions.iter().zip(&axes[1].motions).map(|(x, y)| [x.velocity, y.velocity]);
+        for velocity in nodes.iter().copied().chain(of_blocks) {
+            // A length where it may be the largest, and where the square has lost digits.
+            let square = dot(velocity, velocity);
+            if square > *fastest * *fastest || square < f64::MIN_POSITIVE {
+                *fastest = fastest.max(length(velocity));
+            }
+        }
     }
 
     /// Drift vector of a node's spring (m).
@@ -189,16 +205,23 @@ impl<'a> PlaneState<'a> {
         self.axes.each_ref().map(|axis| axis.drift(node))
     }
 
-    /// Moves a block by changes of its relative velocity and slip, over a path.
+    /// Moves a block by changes of its relative velocity and slip, over a path. The direction of a velocity that counts as
+    /// rest is rounding: a block that has just started is at rest until it is faster.
     pub(super) fn move_block(&mut self, block: usize, velocity: Vector2, slip: Vector2, path: f64) {
-        let velocity = plus(self.velocity(block), velocity);
+        let mut velocity = plus(self.velocity(block), velocity);
+        let slide = &mut self.slides[block];
+        slide.is_young &= length(velocity) <= ARRIVED_ON_CIRCLE * self.fastest;
+        slide.path += path;
+        if slide.is_young {
+            velocity = [0.0; 2];
+        } else {
+            slide.start = None;
+        }
         for (a, axis) in self.axes.iter_mut().enumerate() {
             axis.motions[block].velocity = velocity[a];
             axis.motions[block].slip += slip[a];
             axis.stops[block].move_by(slip[a]);
         }
-        self.slides[block].path += path;
-        self.slides[block].start = None;
     }
 }
 

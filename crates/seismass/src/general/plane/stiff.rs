@@ -16,12 +16,15 @@ pub(super) struct Stiff {
 impl Stiff {
     /// The length of an implicit step worth trying in place of an explicit one that ends at `end` of `h`.
     pub(super) fn longer(&mut self, slides: &[SlideSeries], h: f64, end: f64, longest: f64) -> Option<f64> {
-        if slides.iter().any(|slide| slide.beginning != Beginning::Moving) {
+        let starts = |slide: &SlideSeries| slide.beginning.is_implicit();
+        if slides.iter().any(|slide| slide.beginning != Beginning::Moving && !starts(slide))
+            || slides.iter().all(starts)
+        {
             return None;
         }
         let before_stop = |slide: &SlideSeries| {
             let fall = -slide.length[1] / (h * slide.length[0]);
-            if fall > 0.0 { 0.75 / fall } else { f64::INFINITY }
+            if fall > 0.0 && !starts(slide) { 0.75 / fall } else { f64::INFINITY }
         };
         let limit = slides.iter().fold(longest, |limit, slide| limit.min(before_stop(slide)));
         let longer = self.next.map_or(limit, |next| limit.min(next));
