@@ -163,7 +163,7 @@ def _storeys(result: AssessmentTables) -> list[Markup]:
     rows = []
     for row in shown.iter_rows(named=True):
         cells: dict[str, Any] = {"storey": f"{row['storey']} {apart(row['name'] or '')}".rstrip()}
-        for name, words in ((ADVISED, "analysis 1"), (BARE, "analysis 2"), ("sliding", "goods slide")):
+        for name, words in ((ADVISED, "analysis 1"), (BARE, "analysis 2"), ("sliding", "goods slide, worst mu")):
             value = row.get(name)
             cells[f"{words} ({unit})"] = None if value is None else f"{scale * value:.2f}"
         cells["governs"] = row["governed_by"]
