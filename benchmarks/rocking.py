@@ -26,6 +26,7 @@ import polars as pl
 
 import seismass as sm
 from seismass.assessment.building_file import example_file
+from seismass.assessment.rocking import TAKEN, WORDS
 from seismass.model.tipping import staying_part
 
 GRAVITY = 9.80665
@@ -275,13 +276,10 @@ def warehouse() -> pl.DataFrame:
         model, staying = ("slide", 0.0)
         if result.tipping.height:
             model, staying = result.tipping.select("model", "staying").row(0)
-        others = {
-            one.floors.removeprefix("goods that tip ").split(":")[0]: one.advised for one in result.answer.tipping
-        }
-        others = {name.split(" ")[0]: share for name, share in others.items()}
+        shares = {one.floors.removeprefix(TAKEN): one.advised for one in result.answer.tipping}
         alone = sm.assess(tables | {"goods": tables["goods"] | {"mu": ratio, "mu_factors": [1.0, 1.0]}}, resamples=1)
         row = {"b/h": ratio, "model": model, "staying": staying, "lambda": result.advised}
-        row |= {name: others.get(name) for name in ("slide", "split", "attached")}
+        row |= {name: shares.get(words) for name, words in WORDS.items()}
         rows.append(row | {"mu = b/h": alone.advised})
     return pl.DataFrame(rows)
 

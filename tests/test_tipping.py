@@ -16,7 +16,7 @@ import pytest
 import seismass as sm
 from seismass.assessment.building_file import example_file
 from seismass.assessment.doubts import building_doubts
-from seismass.assessment.rocking import WORDS, other_models
+from seismass.assessment.rocking import TAKEN, WORDS, other_models
 from seismass.base.errors import InvalidBuildingFile, InvalidScene
 from seismass.cli import main
 from seismass.effective_mass.models import goods_mass
@@ -301,7 +301,7 @@ def test_the_answer_takes_the_model_of_each_size_and_shows_the_others() -> None:
         assert f"b/h = {row['ratio']:.3g}" in sentence
         assert {"attached": "may fall", "split": "split, 0.35"}[model] in sentence
         others = {one.floors: one.advised for one in result.answer.tipping}
-        assert list(others) == [f"goods that tip {words}" for name, words in WORDS.items() if name != model]
+        assert list(others) == [f"{TAKEN}{words}" for name, words in WORDS.items() if name != model]
         shares[model] = {"here": result.advised, **others}
         for name, building in other_models(result.building).items():
             alone = sm.assess(building, sm.builtin_suite("forty")[:8], resamples=20)
@@ -344,7 +344,7 @@ def test_commands_take_the_size_of_a_building_file(tmp_path: Path, capsys: pytes
     assert "tip before they slide" in " ".join(capsys.readouterr().out.split())
     (page_file,) = (tmp_path / "out").glob("*.html")
     written = page_file.read_text(encoding="utf-8")
-    assert "tips at 0.1 g" in written
+    assert "b/h 0.1" in written
     assert "tip before they slide" in written
     assert "some of its goods tip before they slide" in written
 

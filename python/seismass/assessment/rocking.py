@@ -22,11 +22,13 @@ from seismass.runs.plane import PlaneResponse
 from seismass.runs.simulate import simulate
 
 WORDS: Final[dict[Tipping, str]] = {
-    "slide": "slide with their mu",
-    "split": "split: a part of them stays with the floor and the rest slides with b/h",
+    "slide": "goods that slide with their mu",
+    "split": "split",
     "attached": "attached",
 }
 """What texts call the models of goods that tip."""
+TAKEN: Final = "goods that tip taken as "
+"""How the answer under another of them begins."""
 
 
 def tipping_kinds(building: OwnBuilding) -> tuple[FloorGoods, ...]:
@@ -48,7 +50,7 @@ def other_models(building: OwnBuilding) -> dict[str, OwnBuilding]:
     known = [{kind.model(factor) for kind in tipping if kind.tips_first(factor)} for factor in _factors(building)]
     models = {model for models in known for model in models}
     others = {model: words for model, words in WORDS.items() if models != {model}}
-    cases = {f"goods that tip {words}": with_model(building, model) for model, words in others.items()}
+    cases = {f"{TAKEN}{words}": with_model(building, model) for model, words in others.items()}
     return cases if tipping else {}
 
 

@@ -397,8 +397,8 @@ def floor_words(result: AssessmentTables) -> dict[int, str]:
         friction = f"{kind['mu_s']:.3g}" + (f"/{kind['mu_k']:.3g}" if kind["mu_k"] != kind["mu_s"] else "")
         size = kind.get("size")
         ratio = np.inf if size is None else size["width"] / size["height"]
-        friction += f", tips at {ratio:.3g} g" * (ratio < kind["mu_s"])
-        how = "bolted" if kind["attached"] else f"{MU} {friction}" if kind["mass"] > 0.0 else "none present"
+        contact = f"b/h {ratio:.3g}" if ratio < kind["mu_s"] else f"{MU} {friction}"
+        how = "bolted" if kind["attached"] else contact if kind["mass"] > 0.0 else "none present"
         kinds.setdefault(kind["floor"], []).append(f"{amount}, {how}")
     return {floor: words[0] if len(words) == 1 else f"{words[0]} +{len(words) - 1}" for floor, words in kinds.items()}
 

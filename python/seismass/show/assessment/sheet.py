@@ -65,7 +65,7 @@ def _drawing_caption(result: AssessmentTables) -> str:
     racks = any(kind["rack"] is not None for kind in result.document["input"]["goods"])
     return (
         "The building with its goods: what is present of the design live load, and friction, static/kinetic"
-        f"{'; grey: bolted' * bolted}{'; on racks' * racks}{_support(result)}."
+        f"{'; b/h: they tip first' * bool(result.document.get('tipping'))}{'; grey: bolted' * bolted}{'; on racks' * racks}{_support(result)}."
     )
 
 
