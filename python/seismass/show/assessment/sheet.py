@@ -63,9 +63,10 @@ def _drawing_caption(result: AssessmentTables) -> str:
         return "The building; there are no goods."
     bolted = any(kind["attached"] for kind in result.document["input"]["goods"])
     racks = any(kind["rack"] is not None for kind in result.document["input"]["goods"])
+    parts = {"b/h: they tip first": result.document.get("tipping"), "grey: bolted": bolted, "on racks": racks}
     return (
         "The building with its goods: what is present of the design live load, and friction, static/kinetic"
-        f"{'; b/h: they tip first' * bool(result.document.get('tipping'))}{'; grey: bolted' * bolted}{'; on racks' * racks}{_support(result)}."
+        f"{''.join(f'; {words}' for words, holds in parts.items() if holds)}{_support(result)}."
     )
 
 
