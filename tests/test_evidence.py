@@ -12,7 +12,7 @@ import pytest
 from polars.testing import assert_frame_equal
 
 import seismass as sm
-from seismass.base.stored_results import StoredResults
+from seismass.base.stored_results import result_store
 from seismass.cli import main
 from seismass.studies.evidence import definitions, example_file, read_archetypes, runs
 from seismass.studies.evidence import table as table_module
@@ -161,7 +161,6 @@ def test_an_interrupted_table_goes_on(
     found: sm.evidence.Evidence, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The third archetype is interrupted: the next call solves it and what is left, and ends with the same numbers."""
-    store = StoredResults(tmp_path, "same inputs", tmp_path)
     solved, whole = [], runs.solved_archetype
 
     def counted(*args: Any, **options: Any) -> pl.DataFrame:
@@ -171,15 +170,16 @@ def test_an_interrupted_table_goes_on(
         return whole(*args, **options)
 
     monkeypatch.setattr(table_module, "solved_archetype", counted)
-    arguments: dict[str, Any] = {"setting": TINY, "other": replace(FEW, name="others"), "resamples": 40, "store": store}
-    with pytest.raises(KeyboardInterrupt):
-        sm.evidence.evidence(TWO, FEW, **arguments)
-    again = sm.evidence.evidence(TWO, FEW, **arguments)
+    arguments: dict[str, Any] = {"setting": TINY, "other": replace(FEW, name="others"), "resamples": 40}
+    with pytest.raises(KeyboardInterrupt), result_store(tmp_path, "evidence", "same inputs") as store:
+        sm.evidence.evidence(TWO, FEW, **arguments, store=store)
+    told: list[tuple[int, int]] = []
+    with result_store(tmp_path, "evidence", "same inputs") as store:
+        tell = {"progress": lambda done, total: told.append((done, total))}
+        again = sm.evidence.evidence(TWO, FEW, **arguments, **tell, store=store)
     assert len(solved) == 3 + 6 - 2
     for name, table in found.tables.items():
         assert_frame_equal(again.tables[name], table)
-    told: list[tuple[int, int]] = []
-    sm.evidence.evidence(TWO, FEW, **arguments, progress=lambda done, total: told.append((done, total)))
     assert told[-1] == (again.metadata["runs"],) * 2
 
 
