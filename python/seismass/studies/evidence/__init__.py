@@ -1,5 +1,6 @@
 """Evidence for a code: the share of the design live load that acts as mass, over archetypes that the code designs."""
 
+from seismass.effective_mass.many import effective_mass_table
 from seismass.effective_mass.share import EqualShare, equal_share
 from seismass.studies.evidence.archetypes import (
     Archetype,
@@ -19,6 +20,7 @@ __all__ = [
     "Setting",
     "System",
     "default_hazard",
+    "effective_mass_table",
     "equal_share",
     "evidence",
     "example_file",
