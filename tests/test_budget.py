@@ -24,7 +24,7 @@ runs/grid 1723   show 3443   show/animation 1523   show/assessment 2086   show/e
 show/study 1985   studies 8   studies/campaign 1626   studies/evidence 1150   studies/fragility 3188
 studies/risk 1661   studies/slip 1682   studies/study 1766   studies/validation 1227   top 97
 """
-FILES, SMALL_FILES, SMALL, LONGEST = 268, 6, 60, 600  # small: fewer than 60 lines, without __init__.py
+FILES, SMALL_FILES, SMALL, LONGEST = 269, 6, 60, 600  # small: fewer than 60 lines, without __init__.py
 DOCSTRING = 3  # lines of what no user can reach
 KERNEL_RUNS = """
 effective_mass/runs.py motions/spectra/inelastic.py runs/batch.py runs/batch_tables.py runs/simulate.py

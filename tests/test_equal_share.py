@@ -146,5 +146,5 @@ def test_rates_of_many_stripes_are_those_of_a_lognormal_fragility() -> None:
 def test_stripes_are_judged() -> None:
     with pytest.raises(sm.errors.InvalidOption, match="levels of annual rate must be positive and increasing"):
         stripe_rates([1.0, 0.5], [0.1, 0.2], CURVE)
-    with pytest.raises(sm.errors.InvalidOption, match="probability of annual rate must be 2 rows"):
+    with pytest.raises(sm.errors.InvalidOption, match="probability of annual rate must be 2 rows of numbers"):
         stripe_rates([0.5, 1.0], [0.1], CURVE)

@@ -84,7 +84,9 @@ class _Bounded:
 
 def bounded(distribution: Distribution, most: float) -> Distribution:
     """Return a distribution whose values above `most` are `most`."""
-    return _Bounded(distribution, as_number(most, "most", "distribution", InvalidOption))
+    if not isinstance(distribution, Distribution):
+        raise refusal(InvalidOption, "distribution", "bounded", "one with quantiles", brief(distribution))
+    return _Bounded(distribution, as_number(most, "most", "bounded", InvalidOption))
 
 
 @dataclass(frozen=True)
@@ -124,7 +126,7 @@ def mixture(parts: Sequence[Any], weights: Sequence[float]) -> Distribution:
     [0.2, 0.416, 0.6]
     """
     shares = as_array(weights, "weights", "mixture", InvalidOption)
-    listed = tuple(float(part) if _is_number(part) else part for part in parts)
+    listed = tuple(parts) if isinstance(parts, Sequence) else ()
     known = all(_is_number(part) or (hasattr(part, "ppf") and hasattr(part, "cdf")) for part in listed)
     if not listed or not known:
         requirement = "frozen distributions of scipy.stats, or numbers"
@@ -136,7 +138,7 @@ def mixture(parts: Sequence[Any], weights: Sequence[float]) -> Distribution:
 
 
 def _is_number(part: Any) -> bool:
-    return isinstance(part, int | float | np.floating | np.integer)
+    return isinstance(part, float) or (isinstance(part, int) and abs(part) < 1e15)
 
 
 def _pair(first: Any, second: Any) -> tuple[tuple[str, Any], tuple[str, Any]]:

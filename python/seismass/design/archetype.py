@@ -26,13 +26,15 @@ from seismass.base.views import Card
 from seismass.design.code_design import CodeDesign, Procedure, design_by_code
 from seismass.design.lateral_force import DISTRIBUTION_CODES, equivalent_lateral_forces
 from seismass.design.limits import storey_checks
-from seismass.design.modes import vibration_modes
+from seismass.design.modes import positive_of_length, vibration_modes
 from seismass.design.periods import code_period
 from seismass.design.rules import known_category, rule_of
 from seismass.model.building import Building
 from seismass.motions.spectra import TargetSpectrum
 
 OWNER: Final = "designed building"
+LEAST_DRIFT: Final = 1e-4
+"""Least drift limit for which stiffnesses are sought."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,10 +133,13 @@ def designed_building(
         as_number(value, name, OWNER, InvalidOption)
         for value, name in ((fraction, "fraction"), (area, "area"), (drift_limit, "drift_limit"))
     )
-    if not (0.0 <= share <= 1.0 and size > 0.0 and limit > 0.0):
+    if not (0.0 <= share <= 1.0 and size > 0.0 and limit >= LEAST_DRIFT):
         got = f"{share:g}, {size:g} and {limit:g}"
-        raise refusal(InvalidOption, "fraction", OWNER, "between 0 and 1, area and drift_limit positive", got)
-    h = np.broadcast_to(as_array(heights, "heights", OWNER, InvalidOption, or_number=True), len(dead))
+        requirement = f"between 0 and 1, area positive and drift_limit at least {LEAST_DRIFT:g}"
+        raise refusal(InvalidOption, "fraction", OWNER, requirement, got)
+    if not isinstance(target, TargetSpectrum):
+        raise refusal(InvalidOption, "target", OWNER, "a TargetSpectrum", brief(target))
+    h = positive_of_length(heights, "heights", len(dead))
     how: dict[str, Any] = {"code_id": code_id, "system": system, "height": float(h.sum())}
     period = code_period(**how, storeys=len(dead), s_d1=float(target(1.0)) / STANDARD_GRAVITY)
     how |= {"risk_category": risk_category, "procedure": procedure, "heights": h}

@@ -326,7 +326,7 @@ def _limited(
     if rule is None:
         return calculated
     if not system or height is None or made.code_id not in PERIOD_CODES:
-        missing = [name for name, known in (("building.system", system), ("heights", height)) if not known]
+        missing = [name for name, lacks in (("building.system", not system), ("heights", height is None)) if lacks]
         made.lacks(f"the upper limit of T is not applied: state {' and '.join(missing) or 'another code'}")
         return calculated
     try:

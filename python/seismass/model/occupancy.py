@@ -110,7 +110,8 @@ class SurveyedLoad:
         area, factor : float, optional
             Area of the floor (m2); factor of all loads: one over a design live load (kPa) gives shares of it.
         """
-        return gamma(factor * self.mean, factor * self.deviation(area))
+        times = as_number(factor, "factor", "surveyed load", InvalidOption)
+        return gamma(times * self.mean, times * self.deviation(area))
 
 
 _LOADS: Final = ("mean", "floor_deviation", "point_deviation", "reference_area", "design_load")

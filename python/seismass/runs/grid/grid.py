@@ -391,7 +391,7 @@ class Grid(Card):
             seed=seed,
             motions=motions,
             correlation=correlation,
-            crossed=crossed or {},
+            crossed={} if crossed is None else crossed,
         )
         return cls(
             building,
@@ -509,7 +509,7 @@ class Grid(Card):
         period = None if settings["storeys"] is not None else settings["period"]
         values |= changing_values(self.buildings, period=period, **changing)
         shares = (settings[name] for name in ("attached", "sliding", "occupancy", "mass_ratio"))
-        of_design = settings["attached_of"] == "design"
+        of_design = is_one_of(settings["attached_of"], ("design",))
         values |= share_values(*shares, blocks=len(self.floors), of_design=of_design)
         return values | number_values({"scale": settings["scale"]})
 

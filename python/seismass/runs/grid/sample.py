@@ -10,7 +10,7 @@ import numpy as np
 
 from seismass.base.distributions import Distribution
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import FloatArray, as_count, as_number, brief, is_one_of, refusal
+from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, is_one_of, refusal
 from seismass.design.modes import Combination, checked_combination, response_spectrum_analysis
 from seismass.model.building import DEFAULT_DAMPING, Building
 from seismass.model.springs import SHAPE_FIELDS
@@ -233,10 +233,12 @@ def sampled_arguments(
     crossed: Mapping[str, Any],
 ) -> dict[str, Any]:
     """Return the arguments of a `Grid` of so many scenes from those of `Grid.sample`."""
+    if not isinstance(crossed, Mapping) or not crossed.keys() <= set(SAMPLED):
+        raise refusal(InvalidScene, "crossed", "sample", "values by the names of other arguments", brief(crossed))
     for name in crossed:
         if name in axes:
             raise refusal(InvalidScene, name, "sample", "left out where it is crossed", brief(axes[name]))
-    for name in (*axes, *crossed):
+    for name in axes:
         if name not in SAMPLED:
             raise TypeError(f"Grid.sample() got an unexpected keyword argument {name!r}")
     drawn = {name: value for name, value in axes.items() if value is not None}
@@ -262,7 +264,7 @@ def sampled_arguments(
 
 def _crossed(columns: dict[str, Any], number: int, crossed: Mapping[str, Any]) -> dict[str, Any]:
     """Columns of every sample with every combination of values."""
-    values = [np.atleast_1d(np.asarray(each, dtype=np.float64)) for each in crossed.values()]
+    values = [np.atleast_1d(as_array(v, k, "sample", InvalidScene, or_number=True)) for k, v in crossed.items()]
     mesh = np.meshgrid(*values, indexing="ij")
     size = mesh[0].size
     columns = {

@@ -171,10 +171,13 @@ def stripe_rates(levels: ArrayLike, probability: ArrayLike, hazard: HazardCurve)
     [0.000216, 0.000541]
     """
     weights = stripe_weights(levels, hazard)
-    values = np.asarray(probability, dtype=np.float64)
+    try:
+        values = np.asarray(probability, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        values = np.empty(0)
     if values.shape[:1] != weights.shape:
-        requirement = f"{len(weights)} rows, one for each level"
-        raise refusal(InvalidOption, "probability", OWNER, requirement, f"shape {values.shape}")
+        requirement = f"{len(weights)} rows of numbers, one for each level"
+        raise refusal(InvalidOption, "probability", OWNER, requirement, brief(probability))
     return np.asarray(np.tensordot(weights, values, 1))
 
 
