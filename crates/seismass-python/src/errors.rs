@@ -24,10 +24,9 @@ pub(crate) fn from_kernel(py: Python<'_>, error: &Error) -> PyErr {
         Error::Invalid { domain: Domain::Scene, .. } => exception(py, &SCENE, "InvalidScene", message),
         Error::Invalid { domain: Domain::Motion, .. } => exception(py, &MOTION, "InvalidMotion", message),
         Error::Invalid { domain: Domain::Options, .. } => exception(py, &OPTION, "InvalidOption", message),
-        Error::TooStiff { .. } | Error::TooManyEvents { .. } | Error::NotFinite { .. } | Error::Defect { .. } => {
-            simulation_error(py, message)
-        }
         Error::Interrupted => PyKeyboardInterrupt::new_err(()),
+        // The scene was accepted, and its run could not be finished.
+        _ => simulation_error(py, message),
     }
 }
 

@@ -56,11 +56,11 @@ pub(crate) fn simulate_many_plane(
 
 /// A response with the lengths of vectors in place of values in one direction.
 fn vector(response: &seismass::PlaneResponse) -> GeneralResponse {
-    let [x, y] = [Axis::X, Axis::Y].map(|axis| response.direction(axis));
+    let [mut x, y] = [Axis::X, Axis::Y].map(|axis| response.direction(axis));
     let of = &response.peaks.vector;
     let larger =
         |x: &[Peak], y: &[Peak]| x.iter().zip(y).map(|(x, y)| if y.value > x.value { *y } else { *x }).collect();
-    let peaks = GeneralPeaks {
+    x.peaks = GeneralPeaks {
         drift: of.drift.clone(),
         acceleration: of.acceleration.clone(),
         shear: of.shear.clone(),
@@ -70,7 +70,7 @@ fn vector(response: &seismass::PlaneResponse) -> GeneralResponse {
         contact_velocity: larger(&x.peaks.contact_velocity, &y.peaks.contact_velocity),
     };
     let length = |pairs: &[[f64; 2]]| pairs.iter().map(|[x, y]| x.hypot(*y)).collect();
-    let residual_drift = length(&response.residual_drift);
-    let residual_slip = length(&response.residual_slip);
-    GeneralResponse { peaks, residual_drift, residual_slip, ..x }
+    x.residual_drift = length(&response.residual_drift);
+    x.residual_slip = length(&response.residual_slip);
+    x
 }

@@ -4,7 +4,7 @@
 //! relative acceleration without its own friction. Where A hardly changes until the stop, that is a pursuit curve.
 
 use crate::general::plane::series::PlaneSeries;
-use crate::general::plane::slide_series::{Beginning, SlideSeries};
+use crate::general::plane::slide_series::{Beginning, LastWay, SlideSeries};
 use crate::general::plane::state::PlaneState;
 use crate::general::plane::vector::{Vector2, across, dot, length, minus, plus, times, unit};
 
@@ -13,23 +13,6 @@ const NEGLECTED: f64 = 0.25 * f64::EPSILON;
 
 /// What the time of a last way may be, times the fastest rate of what drives the blocks: few terms serve.
 const SHORT: f64 = 1e-3;
-
-/// How long blocks take to their stop, and the mean direction of their friction until then.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct LastWay {
-    pub(super) time: f64,
-    pub(super) mean: Vector2,
-}
-
-impl LastWay {
-    /// |r| + r . A/beta falls by beta - A^2/beta, whatever the angle; None: friction does not stop it.
-    fn new(r: Vector2, drive: Vector2, friction: f64) -> Option<Self> {
-        let slowing = friction * friction - dot(drive, drive);
-        let time = (length(r) * friction + dot(r, drive)) / slowing;
-        let mean = times(1.0 / (friction * time), plus(r, times(time, drive)));
-        (slowing > 0.0 && time > 0.0).then_some(Self { time, mean })
-    }
-}
 
 impl PlaneSeries {
     /// The blocks that come to their stop next, if what drives them hardly changes until then: their last way is a step.

@@ -1,7 +1,6 @@
 //! The Taylor series of both directions over a step, coupled by friction on the circle (`numerics`, section 9.7).
 
-use crate::general::plane::last_way::LastWay;
-use crate::general::plane::slide_series::{Beginning, ORDER, SlideSeries};
+use crate::general::plane::slide_series::{Beginning, LastWay, ORDER, SlideSeries};
 use crate::general::plane::state::PlaneState;
 use crate::general::plane::stiff::Stiff;
 use crate::general::plane::vector::{Vector2, dot, length, plus, times};

@@ -42,6 +42,23 @@ impl Beginning {
     }
 }
 
+/// How long blocks take to their stop, and the mean direction of their friction until then.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LastWay {
+    pub(super) time: f64,
+    pub(super) mean: Vector2,
+}
+
+impl LastWay {
+    /// |r| + r . A/beta falls by beta - A^2/beta, whatever the angle; None: friction does not stop it.
+    pub(super) fn new(r: Vector2, drive: Vector2, friction: f64) -> Option<Self> {
+        let slowing = friction * friction - dot(drive, drive);
+        let time = (length(r) * friction + dot(r, drive)) / slowing;
+        let mean = times(1.0 / (friction * time), plus(r, times(time, drive)));
+        (slowing > 0.0 && time > 0.0).then_some(Self { time, mean })
+    }
+}
+
 /// Direction and length of a relative velocity, by order.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SlideSeries {
