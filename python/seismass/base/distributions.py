@@ -126,7 +126,8 @@ def mixture(parts: Sequence[Any], weights: Sequence[float]) -> Distribution:
     [0.2, 0.416, 0.6]
     """
     shares = as_array(weights, "weights", "mixture", InvalidOption)
-    listed = tuple(parts) if isinstance(parts, Sequence) else ()
+    stated: Any = parts
+    listed = tuple(stated) if isinstance(stated, Sequence) else ()
     known = all(_is_number(part) or (hasattr(part, "ppf") and hasattr(part, "cdf")) for part in listed)
     if not listed or not known:
         requirement = "frozen distributions of scipy.stats, or numbers"

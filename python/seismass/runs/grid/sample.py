@@ -230,7 +230,7 @@ def sampled_arguments(
     seed: Any,
     motions: Any,
     correlation: Any,
-    crossed: Mapping[str, Any],
+    crossed: Any,
 ) -> dict[str, Any]:
     """Return the arguments of a `Grid` of so many scenes from those of `Grid.sample`."""
     if not isinstance(crossed, Mapping) or not crossed.keys() <= set(SAMPLED):
