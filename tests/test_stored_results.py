@@ -63,6 +63,22 @@ def test_nothing_is_kept_where_there_is_nothing(tmp_path: Path) -> None:
     assert raised.value.filename == str(tmp_path / "missing")
 
 
+def test_an_owner_that_cannot_be_written_is_removed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It would keep the parts from every later process."""
+
+    def refuse() -> str:
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("seismass.base.stored_results.temporary_name", refuse)
+        with pytest.raises(OSError, match="No space left"), result_store(tmp_path, "rows", "a"):
+            pass
+    with result_store(tmp_path, "rows", "a") as kept:
+        assert kept.folder is not None
+        assert "kept-" in kept.folder.path.name
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_process_that_works_on_the_same_has_a_folder_of_its_own(tmp_path: Path) -> None:
     with result_store(tmp_path, "rows", "a") as kept:
         part = kept.file("1", lambda: TABLE)

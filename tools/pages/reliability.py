@@ -36,8 +36,8 @@ TESTS: Final = (
     ("names of control characters, marks and formulas", "test_hostile_names.py", "shown as escapes"),
     ("pages with 20 names of scripts, handlers and addresses, in Chromium", "browser/test_hostile_pages.py",
      "no script runs, nothing is asked for"),
-    ("every public call with None, text, arrays, NaN, huge numbers", "test_wrong_calls.py",
-     "an error of the package"),
+    ("every public function, and every method of results and of plots, with None, text, arrays, NaN, huge numbers",
+     "test_wrong_calls.py", "an error of the package"),
 )  # fmt: skip
 """What is tried, the file of its tests, and what becomes of it."""
 
@@ -48,7 +48,9 @@ def fill(page: Page) -> None:
         page.marked("tried", tried())
     page.marked("limits", limits())
     if page.wants("asked"):
-        page.marked("asked", asked())
+        page.marked("asked", table_of("tools/hostile_files.py"))
+    if page.wants("killed"):
+        page.marked("killed", table_of("tools/killed_commands.py"))
     if page.wants("kinds"):
         page.marked("kinds", kinds())
 
@@ -59,11 +61,11 @@ def limits() -> str:
     return "\n".join(["| what is read | limit of | at most |", "| --- | --- | ---: |", *rows])
 
 
-def asked() -> str:
-    """Read files that ask for memory and return what became of each."""
-    done = run("tools/hostile_files.py")
+def table_of(program: str) -> str:
+    """Run a program, which fails where something is not as it should be, and return the table that it prints."""
+    done = run(program)
     if done.returncode:
-        sys.exit(f"hostile_files.py:\n{done.stdout[-3000:]}")
+        sys.exit(f"{program}:\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
     return done.stdout.strip()
 
 

@@ -256,6 +256,9 @@ def _claimed(folder: Directory) -> bool:
             file.write(temporary_name().encode())
     except FileExistsError:
         return False
+    except BaseException:  # as on a full disk: an empty file would count as that of a process that lives
+        folder.unlink(_OWNER)
+        raise
     return True
 
 
