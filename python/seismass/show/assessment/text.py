@@ -108,10 +108,10 @@ def _code(result: Assessment) -> str:
 
 def _by_hand(result: Assessment) -> str:
     """The rule at the friction that decides, and at the others."""
-    chosen, words = deciding(result.effective), friction_words(result.building)
-    others = (f"{words[name]} {one.by_hand.estimate:.2f}" for name, one in result.effective.items() if name != chosen)
+    decisive, words = deciding(result.effective), friction_words(result.building)
+    others = (f"{words[name]} {one.by_hand.estimate:.2f}" for name, one in result.effective.items() if name != decisive)
     rest = ", ".join(others)
-    return f"{words[chosen]}: {result.effective[chosen].by_hand.words}" + f"; with {rest}" * bool(rest)
+    return f"{words[decisive]}: {result.effective[decisive].by_hand.words}" + f"; with {rest}" * bool(rest)
 
 
 def _label(result: Assessment, model: str) -> str:
