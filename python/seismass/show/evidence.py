@@ -90,8 +90,8 @@ def sentences(result: Evidence) -> list[str]:
     of_mce = result.tables["fragility"].filter(suite="first", model="real", level=MCE)["collapsed"].to_numpy()
     fourth = (
         "Not known: weights of the contacts and the scatter of their friction are assumptions; surveys have one row "
-        "for all storage; goods are rigid on floors (no racks), in one direction; they are shear buildings without "
-        f"columns that continue and collapse under the MCE with a probability of {of_mce.min():.2f} to "
+        "for all storage; goods are rigid on floors (no racks), in one direction; archetypes have no columns that "
+        f"continue and collapse under the MCE with a probability of {of_mce.min():.2f} to "
         f"{of_mce.max():.2f}, so that absolute rates are not to be quoted."
     )
     return [first, second, third, fourth]
@@ -167,7 +167,7 @@ def evidence_figure(result: Evidence, name: str | None = None) -> Figure:
     archetypes = result.tables["archetypes"].with_row_index("place")
     small: Any = {"font.size": 7.5, "axes.labelsize": 7.0, "ytick.labelsize": 6.5, "xtick.labelsize": 7.0}
     with drawing(), mpl.rc_context(small):
-        height = 1.5 + 0.155 * (archetypes.height + archetypes["occupancy"].n_unique())
+        height = 1.5 + 0.12 * (archetypes.height + archetypes["occupancy"].n_unique())
         figure = Figure(figsize=(8.27, height))
         left, right = figure.subplots(1, 2, sharey=True, width_ratios=(1.35, 1.0))
         places, ticks = _places(archetypes)
