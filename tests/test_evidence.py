@@ -258,6 +258,7 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     hazard.write_text("0.05,0.02\n0.5,0.001\n5.0,0.000001\n", encoding="utf-8")
     for wrong, said in (
         (["--occupancies", "church"], "occupancy of evidence must be one of light storage"),
+        (["--codes", "asce7-10,nocode"], "id of code must be"),
         (["--hazard", str(hazard)], "--hazard-period of evidence must be given"),
         (["--hazard-period", "0.5"], "--hazard-period of evidence must be left out"),
     ):

@@ -194,6 +194,11 @@ def evidence(
     suites = [builtin_suite("forty") if suite is None else suite, *([] if other is None else [other])]
     if not all(len(each) for each in suites):
         raise refusal(InvalidMotion, "suite", "evidence", "a Suite of records", brief(suite))
+    if not {1.0, MCE} <= set(settings.levels):
+        raise refusal(InvalidOption, "levels", "evidence", f"1 and {MCE:g} among others", brief(settings.levels))
+    compared = tuple(codes)
+    for code in compared:  # before anything is solved
+        _ = [code_fraction(code, each.occupancy.survey.use) for each in listed]
     curve = hazard or default_hazard()
     parts = [_Part("first", suites[0], settings, True)]
     fewer = replace(settings, samples=(max(settings.samples[0] // 2, 1), settings.samples[1]))
@@ -218,7 +223,7 @@ def evidence(
         return answer_of(table, question, convergence=part.name == "first")
 
     answers = {(part.name, each): solved(part, each) for part, each in work}
-    tables = _tables(listed, parts, answers, tuple(codes))
+    tables = _tables(listed, parts, answers, compared)
     tables["full"] = _full_table(typical, answers)
     if vary:
         pairs = zip(varied, everything[len(work) :], strict=True)
@@ -230,7 +235,7 @@ def evidence(
     metadata |= {"suites": [each.name for each in suites], "motions": [len(each) for each in suites]}
     metadata |= {"stations": [int(stations(each).max()) + 1 for each in suites], "hazard": curve.parameters}
     metadata |= {"synthetic": any(record.synthetic for record in suites[0]), "setting": asdict(settings)}
-    return Evidence(tables, metadata | {"quick": quick, "runs": total, "codes": list(codes)})
+    return Evidence(tables, metadata | {"quick": quick, "runs": total, "codes": list(compared)})
 
 
 def stations(suite: Suite) -> NDArray[np.int64]:
