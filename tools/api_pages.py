@@ -21,6 +21,7 @@ MODULES: Final = {
     "design": "Modes, response spectrum analysis, lateral forces, weights, periods and limits of codes, pushover.",
     "runs": "Runs, batches, grids of scenes, scene files.",
     "fragility": "Incremental dynamic analysis, stripes, clouds, fragility.",
+    "evidence": "Shares of the design live load over archetypes of a code; a share for any statistic; many buildings.",
     "risk": "Hazard curves, annual rates, the risk-targeted share.",
     "slip": "Slip demand, clearances, blocks that rock.",
     "campaign": "Studies of any size in a folder.",
