@@ -39,7 +39,7 @@ impl<R: Real> Plane<R> {
     pub(super) fn arrive(&mut self, block: usize, tau: R, recorder: &mut PlaneRecorder<R>) {
         let arriving = self.arrive_with(block);
         if let Some(node) = self.directions[0].model.goods[block].node {
-            for acceleration in self.at_stop(&arriving, tau) {
+            if let Some(acceleration) = self.at_stop(&arriving, tau) {
                 recorder.at_stop(node, acceleration, self.start + tau);
             }
         }

@@ -139,9 +139,9 @@ impl<R: Real> Plane<R> {
         }
     }
 
-    /// Accelerations of a node, its largest in each direction and of the vector among them, as these blocks come to rest:
-    /// their friction turns, the short way, into the direction of what drives them.
-    pub(super) fn at_stop(&self, arriving: &[usize], tau: R) -> Vec<[R; 2]> {
+    /// The limit of the acceleration of a node as these blocks come to rest: their friction turns into the direction of what
+    /// drives them.
+    pub(super) fn at_stop(&self, arriving: &[usize], tau: R) -> Option<[R; 2]> {
         let first = arriving[0];
         let node = self.directions[0].model.goods[first].node;
         let state = |j: usize| self.directions[0].state.blocks[j];
@@ -159,7 +159,7 @@ impl<R: Real> Plane<R> {
             })
             .collect();
         let decided = self.node(node, tau, blocks);
-        let Some(mass) = decided.mass_with_stuck() else { return Vec::new() };
+        let mass = decided.mass_with_stuck()?;
         let sum = |a: [R; 2], b: [R; 2], factor: R| [0, 1].map(|i| a[i] + factor * b[i]);
         let unit = |a: [R; 2]| a.map(|x| x / length(a));
         let friction = |block: &Candidate<R>| block.mu_k * block.mass * decided.contact / mass;
@@ -170,7 +170,7 @@ impl<R: Real> Plane<R> {
         let now = decided.sliding().fold(bare, |a, block| sum(a, own(block), friction(block)));
         let driven_alike = decided.sliding().all(|block| self.offset(block.block) == self.offset(first));
         if !driven_alike {
-            return vec![decided.sliding().fold(now, |a, block| {
+            return Some(decided.sliding().fold(now, |a, block| {
                 let without = sum(now, own(block), -friction(block));
                 let driven = decided.driven(block, without);
                 if length(driven) >= block.mu_k * decided.contact + friction(block) {
@@ -178,29 +178,15 @@ impl<R: Real> Plane<R> {
                 }
                 let to = unit(driven).map(|y| -y);
                 sum(sum(a, to, friction(block)), own(block), -friction(block))
-            })];
+            }));
         }
         let driven = sum(bare, self.offset(first), one);
         let to = unit(driven).map(|y| -y);
         let size = decided.sliding().fold(R::zero(), |size, block| size + friction(block));
         if length(driven) >= state(first).mu_k * decided.contact + size {
-            return Vec::new();
+            return None;
         }
-        let mut found = vec![sum(bare, to, size)];
-        let from = unit(self.velocity(first));
-        if arriving.iter().all(|&j| self.velocity(j).map(|v| v / length(self.velocity(j))) == from) {
-            let cross = |a: [R; 2], b: [R; 2]| a[0] * b[1] - a[1] * b[0];
-            let turn = cross(from, to);
-            for [x, y] in
-                [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]].map(|e| e.map(R::of)).into_iter().chain([unit(bare)])
-            {
-                let within = x * (from[0] + to[0]) + y * (from[1] + to[1]) > R::zero();
-                if within && turn * cross(from, [x, y]) > R::zero() && turn * cross([x, y], to) > R::zero() {
-                    found.push(sum(bare, [x, y], size));
-                }
-            }
-        }
-        found.into_iter().filter(|a| (a[0] + a[1]).to_f64().is_finite()).collect()
+        Some(sum(bare, to, size))
     }
 
     /// Whether a block has no relative velocity, and friction that may hold it.

@@ -6,7 +6,7 @@
 use crate::general::plane::series::PlaneSeries;
 use crate::general::plane::slide_series::{Beginning, LastWay, SlideSeries};
 use crate::general::plane::state::PlaneState;
-use crate::general::plane::vector::{Vector2, across, dot, length, minus, plus, times, unit};
+use crate::general::plane::vector::{Vector2, length, minus, plus, times, unit};
 
 /// What may be neglected of a velocity on the way to a stop, as a part of the largest velocity so far.
 const NEGLECTED: f64 = 0.25 * f64::EPSILON;
@@ -64,10 +64,9 @@ impl PlaneSeries {
 }
 
 impl PlaneState<'_> {
-    /// Accelerations of a node among which are the extremes as blocks come to rest on it, with these directions so far: their
-    /// friction turns the short way into the direction of what drives them, and that limit counts as the last value does. What
-    /// friction does not stop comes to zero along a line, without a turn.
-    pub(super) fn accelerations_at_stop(&self, node: usize, arriving: &[(usize, Vector2)], tau: f64) -> Vec<Vector2> {
+    /// The limit of the acceleration of a node as blocks come to rest on it, with these directions so far: their friction turns
+    /// into the direction of what drives them. What friction does not stop comes to zero along a line, without a turn.
+    pub(super) fn acceleration_at_stop(&self, node: usize, arriving: &[(usize, Vector2)], tau: f64) -> Option<Vector2> {
         let (system, inverse) = (self.system(), self.axes[0].regime.inverse_mass[node]);
         let contact = self.axes[0].contact_at(tau);
         let friction = |j: usize| self.friction(j).1 * contact * system.blocks[j].mass * inverse;
@@ -78,7 +77,7 @@ impl PlaneState<'_> {
             force = plus(force, if arrives { drive } else { self.force_on_node(j, tau) });
         }
         let without = times(inverse, force);
-        let Some(&(first, from)) = arriving.first() else { return Vec::new() };
+        let first = arriving.first()?.0;
         let drive = self.drive(first);
         if arriving.iter().any(|(j, _)| self.drive(*j) != drive) {
             // Each turns by itself, beside the others as they are.
@@ -89,23 +88,12 @@ impl PlaneState<'_> {
                 let turned = unit(driven).filter(|_| stops).map_or([0.0; 2], |to| minus(to, *d));
                 plus(a, times(friction(*j), turned))
             });
-            return vec![limit];
+            return Some(limit);
         }
         let size: f64 = arriving.iter().map(|(j, _)| friction(*j)).sum();
         let driven = minus(drive, without);
         let stops = length(driven) < self.friction(first).1 * contact + size;
-        let Some(to) = unit(driven).filter(|_| stops) else { return Vec::new() };
-        let mut found = vec![plus(without, times(size, to))];
-        if arriving.iter().all(|(_, direction)| *direction == from) {
-            let side = dot(across(from), to);
-            let is_between = |e: Vector2| {
-                side * dot(across(from), e) > 0.0 && side * dot(across(e), to) > 0.0 && dot(e, plus(from, to)) > 0.0
-            };
-            let axes = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]].into_iter();
-            let turns = axes.chain(unit(without)).filter(|&e| is_between(e));
-            found.extend(turns.map(|e| plus(without, times(size, e))));
-        }
-        found
+        unit(driven).filter(|_| stops).map(|to| plus(without, times(size, to)))
     }
 }
 

@@ -295,7 +295,7 @@ impl<'a> Run<'a> {
                         slide.and_then(|slide| slide.before_last_step()).unwrap_or(self.state.direction(j))
                     };
                     let arrived: Vec<_> = arriving.iter().map(|&j| (j, before(j))).collect();
-                    for a in self.state.accelerations_at_stop(node, &arrived, tau) {
+                    if let Some(a) = self.state.acceleration_at_stop(node, &arrived, tau) {
                         self.observer.take_node(node, a, self.state.axes[0].interval.start + tau);
                     }
                 }

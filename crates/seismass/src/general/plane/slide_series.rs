@@ -242,8 +242,8 @@ impl SlideSeries {
     /// `least` of it would be seen.
     pub(super) fn is_straight(&self, last: f64, least: f64) -> bool {
         let rest = -self.length[0] / self.length[1];
-        // At most by the first two terms over the time that is left, where that is within the series.
-        let turn = rest * (length(self.direction[1]) + rest * length(self.direction[2]));
+        // What drives it may begin at zero, and its rate too: all terms count.
+        let turn = rest * self.direction[1..=ORDER].iter().rev().fold(0.0, |sum, term| sum * rest + length(*term));
         let falls = self.beginning == Beginning::Moving && self.length[1] < 0.0;
         falls && rest < last && turn * self.length[0] < least
     }
