@@ -78,7 +78,7 @@ fn tall(storeys: usize, damping: Damping) -> Scene {
 fn fields(value: &impl std::fmt::Debug) -> usize {
     format!("{value:#?}")
         .lines()
-        .filter(|line| line.starts_with("    ") && !line[4..].starts_with([' ', '}', ']']))
+        .filter(|line| line.starts_with("    ") && !line[4..].starts_with([' ', '}', ']', ')']))
         .count()
 }
 
