@@ -38,10 +38,10 @@ impl<R: Real> Plane<R> {
     /// A block has come to rest on its node, and others with it.
     pub(super) fn arrive(&mut self, block: usize, tau: R, recorder: &mut PlaneRecorder<R>) {
         let arriving = self.arrive_with(block);
-        if let Some(node) = self.directions[0].model.goods[block].node {
-            if let Some(acceleration) = self.at_stop(&arriving, tau) {
-                recorder.at_stop(node, acceleration, self.start + tau);
-            }
+        if let Some(node) = self.directions[0].model.goods[block].node
+            && let Some(acceleration) = self.at_stop(&arriving, tau)
+        {
+            recorder.at_stop(node, acceleration, self.start + tau);
         }
         for j in arriving {
             self.arrived[j] = self.velocity(j);
