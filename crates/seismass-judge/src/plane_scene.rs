@@ -10,7 +10,7 @@ use seismass::{
 use crate::general_scene::{building, levels_of, rack, some_goods, stops, with_states};
 use crate::random_scene::{Draw, samples_of};
 
-/// Seeds from here on are those of [`twins`].
+/// Seeds from here on draw twins: equal goods that start within 1e-8 s of each other.
 pub const TWINS: u64 = 1 << 40;
 
 /// A scene in two directions and a motion drawn from a seed.
