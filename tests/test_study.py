@@ -629,7 +629,7 @@ def test_interrupt_exits_with_130_and_keeps_only_what_is_solved(
     with monkeypatch.context() as patched:
         patched.setattr("seismass.studies.study.run.effective_fractions", interrupted)
         assert command("study", "--out", tmp_path / "out", "--effective", "--no-figures") == 130
-        (kept,) = (tmp_path / "out").iterdir()
+        (kept,) = tmp_path.iterdir()
         assert {file.name for file in kept.iterdir()} == {"inputs", "part-runs.parquet"}
         patched.setattr("seismass.studies.study.run.solve_many", None)
         patched.undo()

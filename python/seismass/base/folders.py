@@ -111,18 +111,33 @@ def _swap_in(
                 carried |= {each: before[each]} if each in intact else {}
         digests = carried | listed
         _written(fresh, FILES, json.dumps({"sha256": digests, "sha256_of_list": list_sha256(digests)}, indent=1) + "\n")
-        if not os.path.samestat(parent.status(name), fresh.status()):
-            raise PermissionError(errno.EPERM, "replaced while it was written", str(parent.path / target))
+        _check_entry(parent, name, fresh, target)
         if old is None:
             parent.rename(name, target)
+            try:
+                _check_entry(parent, target, fresh, target)
+            except PermissionError:
+                parent.unlink(target)  # a link that came in between: the next call would follow it
+                raise
             return
         status, made = old.status(), fresh.status()
         if (status.st_uid, status.st_gid) != (made.st_uid, made.st_gid):
             os.chown(fresh.itself, status.st_uid, status.st_gid)
         os.chmod(fresh.itself, stat.S_IMODE(status.st_mode))  # noqa: PTH101
         _exchange(parent, name, target)
+        try:
+            _check_entry(parent, target, fresh, target)
+        except PermissionError:
+            _exchange(parent, name, target)
+            raise
         for each in set(old.names()) - set(seen):  # saved there meanwhile
             os.rename(old.named(each), fresh.named(each), src_dir_fd=old.inside, dst_dir_fd=fresh.inside)
+
+
+def _check_entry(parent: Directory, name: str, fresh: Directory, target: str) -> None:
+    """Refuse a name that is not that of the fresh folder."""
+    if not os.path.samestat(parent.status(name), fresh.status()):
+        raise PermissionError(errno.EPERM, "replaced while it was written", str(parent.path / target))
 
 
 def _link(old: Directory, fresh: Directory, name: str) -> None:

@@ -165,7 +165,9 @@ class Table:
     def text(self, key: str) -> str:
         """Return a text; empty where the key is absent."""
         value = self.values.get(key, "")
-        if not isinstance(value, str) or "\0" in value or len(value) > MOST_LETTERS:
+        if not isinstance(value, str) or "\0" in value:
+            self.refuse(key, "text", brief(value))
+        if len(value) > MOST_LETTERS:
             self.refuse(key, f"text of at most {MOST_LETTERS} letters", brief(value))
         return value
 
