@@ -285,10 +285,10 @@ def lines(table: pl.DataFrame) -> list[str]:
     """Return the tables as text."""
     sliding = table.filter(pl.col("eta") >= NEAR_ONE)
     text = [
-        f"Model over real drift, cases with eta from {NEAR_ONE:g} to 1; unsafe: the real building "
-        f"drifts more than {UNSAFE:g} x the model;",
-        "[binomial interval of 95 %: cases of one building are not independent]; ordinary: Omega from 1.5, r2 above 0 "
-        "to 0.1, alpha to 2, or elastic; buildings",
+        f"Model over real drift, cases with eta from {NEAR_ONE:g} to 1.",
+        f"unsafe: the real building drifts more than {UNSAFE:g} x the model",
+        "in brackets: binomial interval of 95 %; cases of one building are not independent",
+        "ordinary: Omega from 1.5, r2 above 0 to 0.1, alpha to 2, or elastic; buildings",
         f"with drifts at the cap under more than {MOST_AT_CAP:g} of the motions are left out",
     ]
     groups = [(title, sliding.filter(suite=name)) for name, title in SUITES.items()]

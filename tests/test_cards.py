@@ -28,6 +28,11 @@ SHORT: dict[str, str] = {
     "IntensityMeasure": "settings",
     "LimitState": "settings",
     "StudyParameters": "settings",
+    "Setting": "settings",
+    "Archetype": "a row of a table",
+    "Occupancy": "a row of a table",
+    "System": "a row of a table",
+    "EqualShare": "a number and its interval",
     "SyntheticParameters": "settings",
     "NearFaultPulse": "settings",
     "StrengthDesign": "settings",
@@ -55,7 +60,9 @@ SHORT: dict[str, str] = {
 """Public classes without a card: their one line says all."""
 TESTED_ELSEWHERE = {
     "Animation": "test_animation.py",
+    "DesignedBuilding": "test_designed_building.py",
     "EffectiveMassMap": "test_effective_map.py",
+    "Evidence": "test_evidence.py",
     "FragilityAnalysis": "test_intensity_analysis.py",
     "LiveLoadUncertainty": "test_live_load.py",
     "RiskTargetedShare": "test_risk.py",

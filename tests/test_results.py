@@ -21,6 +21,7 @@ from seismass.studies.validation import Validation
 
 KINDS = (
     sm.Assessment,
+    sm.evidence.Evidence,
     sm.EffectiveMass,
     EffectiveMassMap,
     sm.LiveLoadUncertainty,

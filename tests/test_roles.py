@@ -34,6 +34,7 @@ HUES = {"BLUE", "VERMILION", "GREEN", "PURPLE", "ORANGE", "SKY", "DEEP_BLUE", "M
 WITHOUT_MODELS = {
     "show/animation/picture.py": "paper, slabs, pale flashes",
     "show/effective_mass.py": "classes of R",
+    "show/evidence.py": "definitions of a share",
     "show/motions.py": "records, their target, pulses",
     "show/plots/batches.py": "fractiles of runs",
     "show/plots/floor_plan.py": "aisles, places of goods, and who has passed an edge",

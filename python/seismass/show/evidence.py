@@ -144,7 +144,7 @@ def evidence_text(result: Evidence) -> str:
     lines = [SYNTHETIC, ""] if result.metadata["synthetic"] else []
     counted = f"{result.table['archetypes'].sum()} archetypes, {_motions(result)}"
     lines += [f"Share of the design live load that acts as mass: {counted}", *text_table(_cells(result)), ""]
-    lines += [*_bullets(sentences(result)), "", "Annual rate of the drift limit, real over model, by rule"]
+    lines += [*_bullets(sentences(result)), "", "Annual rate of the drift limit, goods that slide over model, by rule"]
     lines += [*(f"  {line}" for line in rule_lines(result)), ""]
     lines += ["Samples: rms change of a share over the archetypes, part of the sample against all of it"]
     changes = result.tables["convergence"].filter(pl.col("definition").is_in(["a_mean", "d", "base_shear"]))
@@ -245,7 +245,7 @@ def _draw_rates(axes: Axes, result: Evidence, places: dict[str, float]) -> None:
     axes.set_xlim(right=3.0)
     axes.minorticks_off()
     limit = f"{100.0 * result.metadata['setting']['limit']:g} %"
-    axes.set_xlabel(f"annual rate of {limit} drift, real / model (above 1: unsafe)")
+    axes.set_xlabel(f"annual rate of {limit} drift, goods slide over model (above 1: unsafe)")
 
 
 def _tornado(result: Evidence) -> Figure:
@@ -290,7 +290,7 @@ def _page(result: Evidence, drawings: dict[str, str]) -> str:
     warning = [Markup('<p class="edited"><strong>{}</strong></p>').format(SYNTHETIC)] if metadata["synthetic"] else []
     caption = (
         "Shares of the design live load, mean over the archetypes of a row; [ ] range over archetypes, { } 90 % over "
-        "stations; then the annual rate of the drift limit, real over model, with fractions in the model."
+        "stations; then the annual rate of the drift limit, goods that slide over model, with fractions in the model."
     )
     alt = "For every archetype shares by four definitions, and rates with four fractions."
     sheet = [
