@@ -312,15 +312,17 @@ def lines(table: pl.DataFrame) -> list[str]:
         for title, (column, edges) in CLASSES.items():
             values = cases[column].to_numpy().astype(np.float64)
             members = [(low <= values) & (values < high) for low, high in pairwise(edges)]
-            names = [f"{min(values[m]):g}-{max(values[m]):g}" if m.any() else "-" for m in members]
+            ends = [(min(values[m]), max(values[m])) if m.any() else None for m in members]
+            names = ["-" if each is None else "-".join(f"{end:g}" for end in dict.fromkeys(each)) for each in ends]
+            width = 8
             if column == "period":
-                names = [f"{low:g}-{high:.2g}" for low, high in pairwise(edges)]
-            text.append(f"{title:36}" + "".join(f"{name:>11}" for name in names))
-            text.append(f"{'cases':36}" + "".join(f"{int(m.sum()):11d}" for m in members))
+                names, title, width = [f"{low:g}" for low, _ in pairwise(edges)], f"{title}, from", 7
+            text.append(f"{title:36}" + "".join(f"{name:>{width}}" for name in names))
+            text.append(f"{'cases':36}" + "".join(f"{int(m.sum()):{width}d}" for m in members))
             for rule, shares in list(shares_of(cases).items())[:-1]:
                 unsafe = 1.0 / ratios_of(cases, shares) > UNSAFE
                 cells = [f"{100.0 * unsafe[m].mean():.1f}" if m.any() else "-" for m in members]
-                text.append(f"  {rule:34}" + "".join(f"{cell:>11}" for cell in cells))
+                text.append(f"  {rule:34}" + "".join(f"{cell:>{width}}" for cell in cells))
     return text
 
 
