@@ -252,7 +252,7 @@ def test_weight_strength_and_periods_are_those_without_a_size(tipping: str | Non
     if model == "split":
         assert scene.blocks[0].mu_s == scene.blocks[0].mu_k == pytest.approx(0.3)
         assert scene.blocks[0].mass == pytest.approx((1.0 - staying_part(0.3)) * kind.mass)
-    assert sized.scene(mu_factor=factor, rocking=False) == other
+    assert sized.with_tipping("slide").scene(mu_factor=factor) == other
 
 
 def test_goods_on_racks_are_split_on_their_levels() -> None:

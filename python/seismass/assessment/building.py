@@ -39,6 +39,7 @@ from seismass.model.block import Block, SlidingBase
 from seismass.model.building import DEFAULT_DAMPING, Building
 from seismass.model.codes import CodeFraction
 from seismass.model.scene import Scene
+from seismass.model.tipping import Tipping
 from seismass.motions.spectra import TargetSpectrum
 from seismass.motions.spectra.target import target_of_parameters
 
@@ -273,13 +274,19 @@ class OwnBuilding(Card):
         """The kinds of loose goods of which some are present."""
         return tuple(kind for kind in self.loose if kind.mass > 0.0)
 
-    def sliding(self, mu_factor: float = 1.0, *, rocking: bool = True) -> tuple[tuple[int, int], ...]:
+    def with_kinds(self, kinds: tuple[FloorGoods, ...]) -> OwnBuilding:
+        """Return the building with other goods, in both directions."""
+        other = None if self.other is None else replace(self.other, kinds=kinds)
+        return replace(self, kinds=kinds, other=other)
+
+    def with_tipping(self, model: Tipping) -> OwnBuilding:
+        """Return the building in which one model stands for all goods that tip; with "slide" all goods slide."""
+        return self.with_kinds(tuple(replace(kind, tipping=model) for kind in self.kinds))
+
+    def sliding(self, mu_factor: float = 1.0) -> tuple[tuple[int, int], ...]:
         """Index in `loose` and level of the rack (0: on the floor) of each block of `scene`, in their order."""
-        there = [
-            (number, kind)
-            for number, kind in enumerate(self.loose)
-            if kind.mass > 0.0 and (not rocking or kind.staying(mu_factor) < 1.0)
-        ]
+        numbered = enumerate(self.loose)
+        there = [(number, kind) for number, kind in numbered if kind.mass > 0.0 and kind.staying(mu_factor) < 1.0]
         on_floors = [(number, 0) for number, kind in there if kind.rack is None]
         levels = [(number, kind.rack.levels) for number, kind in there if kind.rack is not None]
         return (*on_floors, *((number, level) for number, count in levels for level in range(1, count + 1)))
@@ -504,7 +511,7 @@ class OwnBuilding(Card):
         matrix: FloatArray = relative.T @ above @ relative
         return matrix
 
-    def scene(self, target: TargetSpectrum | None = None, *, mu_factor: float = 1.0, rocking: bool = True) -> Scene:
+    def scene(self, target: TargetSpectrum | None = None, *, mu_factor: float = 1.0) -> Scene:
         """Return the building with its goods, one block per kind of loose goods on a floor.
 
         Parameters
@@ -513,8 +520,6 @@ class OwnBuilding(Card):
             Site spectrum for strengths of a design; default the building's own.
         mu_factor : float, default 1.0
             Factor of all friction coefficients. Goods that tip first with it have the model of `FloorGoods.model`.
-        rocking : bool, default True
-            False: goods that tip first slide all the same.
 
         Raises
         ------
@@ -523,7 +528,6 @@ class OwnBuilding(Card):
         """
         blocks, racks, fixed = [], [], np.zeros(self.storeys)
         for kind in self.present:
-            kind = kind if rocking else replace(kind, size=None)
             (mu_s, mu_k), staying = kind.contact_at(mu_factor), kind.staying(mu_factor)
             if kind.rack is not None:
                 racks.append(kind.rack.under(kind.floor, kind.mass, (mu_s, mu_k), kind.stops, staying))

@@ -123,6 +123,8 @@ PLAIN_SIZE_KEYS: Final = {
     "height": PLAIN_STOREY_KEYS["height"],
 }
 """The same of the size of goods."""
+_PLAIN: Final = PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS | PLAIN_SIZE_KEYS
+_US: Final = US_STOREY_KEYS | US_GOODS_KEYS | US_SIZE_KEYS
 
 
 def plain_keys(keys: dict[str, dict[str, str]], units: str) -> tuple[str, ...]:
@@ -134,11 +136,11 @@ def to_si(table: Table, units: str) -> None:
     """Convert the table in place to SI units: keys without a unit are in the `units` of the file ("", "si" or "us"). A
     key stated in two units is refused.
     """
-    for name, factors in (PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS | PLAIN_SIZE_KEYS).items():
+    for name, factors in _PLAIN.items():
         if name in table.values and units in factors:
             table.excluded(name, factors[units])
             table.values[factors[units]] = table.values.pop(name)
-    for name, us in (US_STOREY_KEYS | US_GOODS_KEYS | US_SIZE_KEYS).items():
+    for name, us in _US.items():
         if name in table.values:
             table.excluded(name, us.key)
             table.values[us.key] = us.factor * table.number(name, need=us.need)
@@ -215,9 +217,8 @@ def _stated(keys: Sequence[str], default: tuple[str, Mapping[str, Any]], storeys
 
 def _in_other_units(keys: Sequence[str]) -> set[str]:
     """Keys in US units, and those without a unit, that stand in the place of keys."""
-    us = US_STOREY_KEYS | US_GOODS_KEYS | US_SIZE_KEYS
-    others = {other for other, one in us.items() if one.key in keys}
-    for key, factors in (PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS | PLAIN_SIZE_KEYS).items():
+    others = {other for other, one in _US.items() if one.key in keys}
+    for key, factors in _PLAIN.items():
         if any(one in keys or one in others for one in factors.values()):
             others.add(key)
     return others

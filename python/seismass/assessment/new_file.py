@@ -58,15 +58,19 @@ _positive, _share = _number(POSITIVE), _number(SHARE)
 
 
 def _friction(text: str) -> str | float:
-    known: list[str] = friction_table()["pair_id"].to_list()
-    if text.strip() in known:
-        return text.strip()
-    try:
-        return _positive(text)
-    except ValueError:
-        words = set(re.findall("[a-z]+", text.casefold()))
-        near = [name for name in known if words & set(name.split("-")) - {"on"}]
-        raise ValueError(f"; {', '.join(near)} are like it" if near else "") from None
+    return text.strip() if text.strip() in _contacts() else _positive(text)
+
+
+def _contacts() -> list[str]:
+    names: list[str] = friction_table()["pair_id"].to_list()
+    return names
+
+
+def _like_contacts(text: str) -> str:
+    """Contacts that share a word with a text."""
+    words = set(re.findall("[a-z]+", text.casefold())) - {"on"}
+    near = [name for name in _contacts() if words & set(name.split("-"))]
+    return f"; {', '.join(near)} are like it" if near else ""
 
 
 def live_share(stated: str) -> float:
@@ -99,21 +103,25 @@ def _size(text: str) -> BlockSize | None:
 
 @dataclass(frozen=True)
 class Question:
-    """What has to be known of a building: its name as an option, the question, and how an answer is read."""
+    """What has to be known of a building: its name as an option, the question, and how an answer is read; what is said
+    of one that cannot be, and whether it may be left out.
+    """
 
     name: str
     words: str
     must: str
     read: Callable[[str], Any]
     default: str = ""
+    hint: Callable[[str], str] | None = None
+    optional: bool = False
 
     def answer(self, value: Any) -> Any:
         """Read an answer, or refuse it."""
         try:
             return self.read(str(value))
-        except ValueError as error:
-            near = str(error) if str(error).startswith(";") else ""
-            raise refusal(InvalidOption, self.option, "new building", self.must + near, brief(value)) from None
+        except ValueError:
+            hint = "" if self.hint is None else self.hint(str(value))
+            raise refusal(InvalidOption, self.option, "new building", self.must + hint, brief(value)) from None
 
     @property
     def option(self) -> str:
@@ -148,12 +156,14 @@ QUESTIONS: Final = (
         "Which friction do the goods have: a number, or a contact of `seismass building --frictions`?",
         "a positive number, or a contact of `seismass building --frictions`",
         _friction,
+        hint=_like_contacts,
     ),
     Question(
         "goods_size",
         "How wide and high is one of the goods (m, as 1.0x1.2; nothing: not known, they slide)?",
         "nothing, or WIDTHxHEIGHT (m)",
         _size,
+        optional=True,
     ),
 )
 """What is asked, in order. The roof carries no goods."""
@@ -210,7 +220,7 @@ def fit_of_curves(
 
 def _need(answers: Mapping[str, Any], questions: Sequence[Question]) -> None:
     """Refuse answers that lack one."""
-    missing = [each for each in questions if each.name not in answers and each.read is not _size]
+    missing = [each for each in questions if each.name not in answers and not each.optional]
     if missing:
         need = f"given, by {', '.join(each.option for each in missing)}, where they are not asked for"
         raise refusal(InvalidOption, missing[0].name, "new building", need, "nothing")

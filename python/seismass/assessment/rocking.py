@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
@@ -12,14 +11,14 @@ import polars as pl
 from seismass.assessment.building import OwnBuilding
 from seismass.assessment.checks import friction_words
 from seismass.assessment.floors import FloorGoods
-from seismass.assessment.models import SLIDING, friction_factors
-from seismass.base.units import STANDARD_GRAVITY
+from seismass.assessment.models import SLIDING, SLIDING_HIGH, SLIDING_LOW, friction_factors
 from seismass.base.values import FloatArray
 from seismass.model.scene import Scene
 from seismass.model.tipping import FALLS_BELOW, Tipping, falls_of
 from seismass.motions.records.intensity import integrals
 from seismass.runs.plane import PlaneResponse
 from seismass.runs.simulate import simulate
+from seismass.studies.slip.estimates import demand_in_g
 
 WORDS: Final[dict[Tipping, str]] = {
     "slide": "goods that slide with their mu",
@@ -29,6 +28,8 @@ WORDS: Final[dict[Tipping, str]] = {
 """What texts call the models of goods that tip."""
 TAKEN: Final = "goods that tip taken as "
 """How the answer under another of them begins."""
+BOUNDS: Final = (SLIDING_LOW, SLIDING_HIGH)
+"""Columns of the models at the bounds of friction."""
 
 
 def tipping_kinds(building: OwnBuilding) -> tuple[FloorGoods, ...]:
@@ -37,39 +38,26 @@ def tipping_kinds(building: OwnBuilding) -> tuple[FloorGoods, ...]:
     return tuple(kind for kind in building.present if any(kind.tips_first(factor) for factor in factors))
 
 
-def with_model(building: OwnBuilding, model: Tipping) -> OwnBuilding:
-    """Return a building in which one model stands for all goods that tip."""
-    kinds = tuple(replace(kind, tipping=model) for kind in building.kinds)
-    other = None if building.other is None else replace(building.other, kinds=kinds)
-    return replace(building, kinds=kinds, other=other)
-
-
 def other_models(building: OwnBuilding) -> dict[str, OwnBuilding]:
     """Return a building with the other models of goods that tip, by what they are called."""
-    tipping = tipping_kinds(building)
-    known = [{kind.model(factor) for kind in tipping if kind.tips_first(factor)} for factor in _factors(building)]
-    models = {model for models in known for model in models}
-    others = {model: words for model, words in WORDS.items() if models != {model}}
-    cases = {f"{TAKEN}{words}": with_model(building, model) for model, words in others.items()}
-    return cases if tipping else {}
-
-
-def _factors(building: OwnBuilding) -> list[float]:
-    return list(friction_factors(building).values())
+    kinds, factors = tipping_kinds(building), friction_factors(building).values()
+    models = {kind.model(factor) for kind in kinds for factor in factors if kind.tips_first(factor)}
+    others = {model: words for model, words in WORDS.items() if models and models != {model}}
+    return {f"{TAKEN}{words}": building.with_tipping(model) for model, words in others.items()}
 
 
 def tipping_table(building: OwnBuilding, scene: Scene, motions: Sequence[Any]) -> pl.DataFrame:
     """Return one row per kind of goods that tips: size (m), b/h, its model at each friction, the part that stays, and
     under how many motions its floor exceeds b/h ("lifts"), and Ishiyama's limit of velocity too ("limits_exceeded").
     """
-    kinds = tipping_kinds(building)
+    kinds, factors = tipping_kinds(building), friction_factors(building)
     demand, velocity = _floor_peaks(scene, motions) if kinds else (np.empty((0, 0)), np.empty((0, 0)))
     rows = []
     for kind in kinds:
         size, floor = kind.size, kind.floor - 1
         assert size is not None
         lifts = demand[:, floor] > size.uplift_g
-        models = {name: kind.model(factor) for name, factor in friction_factors(building).items()}
+        models = {name: kind.model(factor) for name, factor in factors.items()}
         rows.append(
             {
                 "floor": kind.floor,
@@ -81,7 +69,7 @@ def tipping_table(building: OwnBuilding, scene: Scene, motions: Sequence[Any]) -
                 "mu_s": kind.mu_s,
                 "model": models.pop(SLIDING),
                 "staying": kind.staying(),
-                **{name: models.get(name) for name in ("real_mu_low", "real_mu_high")},
+                **{name: models.get(name) for name in BOUNDS},
                 "motions": len(demand),
                 "lifts": int(lifts.sum()),
                 "limits_exceeded": int((lifts & (velocity[:, floor] > (size.overturning_velocity or 0.0))).sum()),
@@ -89,7 +77,7 @@ def tipping_table(building: OwnBuilding, scene: Scene, motions: Sequence[Any]) -
         )
     schema: dict[str, Any] = {"floor": pl.UInt32, "name": pl.String, "goods": pl.String}
     schema |= dict.fromkeys(("width", "height", "ratio", "mu_s"), pl.Float64) | {"model": pl.String}
-    schema |= {"staying": pl.Float64} | dict.fromkeys(("real_mu_low", "real_mu_high"), pl.String)
+    schema |= {"staying": pl.Float64} | dict.fromkeys(BOUNDS, pl.String)
     return pl.DataFrame(rows, schema=schema | dict.fromkeys(("motions", "lifts", "limits_exceeded"), pl.UInt32))
 
 
@@ -102,10 +90,8 @@ def _floor_peaks(scene: Scene, motions: Sequence[Any]) -> tuple[FloatArray, Floa
         ground = np.stack([integrals(each.acceleration, each.dt)[0] for each in grounds], axis=-1)
         moving = response.floor_velocity.reshape(len(ground), scene.storeys, -1) + ground[:, None, :]
         shaking = response.floor_acceleration.reshape(moving.shape)
-        vertical = grounds[0].vertical
-        weight = STANDARD_GRAVITY + (np.zeros(1) if vertical is None else vertical)
-        over = np.linalg.norm(shaking, axis=-1) / np.where(weight > 0.0, weight, np.inf)[:, None]
-        demands.append(np.nanmax(over, axis=0))
+        lengths = np.linalg.norm(shaking, axis=-1)
+        demands.append([demand_in_g(of_floor, grounds[0].vertical) for of_floor in lengths.T])
         velocities.append(np.nanmax(np.linalg.norm(moving, axis=-1), axis=0))
     return np.array(demands), np.array(velocities)
 
@@ -116,13 +102,13 @@ def tipping_sentences(building: OwnBuilding, table: pl.DataFrame) -> tuple[str, 
     """
     sentences = []
     words = friction_words(building)
-    keys = ("ratio", "height", "mu_s", "model", "real_mu_low", "real_mu_high")
+    keys = ("ratio", "height", "mu_s", "model", *BOUNDS)
     for _, rows in table.group_by(keys, maintain_order=True):
         row = rows.row(0, named=True)
         floors = ", ".join(str(floor) for floor in dict.fromkeys(rows["floor"]))
         named = " and ".join(name for name in dict.fromkeys(rows["goods"]) if name) or "goods"
         first = row["model"] != "slide"
-        models = [(words[name], row[name]) for name in ("real_mu_low", "real_mu_high") if row[name]]
+        models = [(words[name], row[name]) for name in BOUNDS if row[name]]
         where = "" if first else f" with {next((text for text, model in models if model != 'slide'), '')}"
         differing = [(text, model) for text, model in models if model != row["model"]]
         other = "; ".join(f"with {text} they are {_model(row, model)}" for text, model in differing)

@@ -72,8 +72,7 @@ def other_amounts(building: OwnBuilding) -> tuple[str, dict[str, OwnBuilding]]:
     cases = {}
     for place, name in enumerate(("floors as expected", "full floors")):
         kinds = tuple(replace(kind, occupied=_occupied(building, kind)[place]) for kind in building.kinds)
-        other = None if building.other is None else replace(building.other, kinds=kinds)
-        cases[name] = replace(building, kinds=kinds, other=other)
+        cases[name] = building.with_kinds(kinds)
     same = [name for name, case in cases.items() if np.allclose(case.goods_mass, building.goods_mass, rtol=1e-12)]
     return (same or ["floors as taken"])[-1], {name: case for name, case in cases.items() if name not in same}
 

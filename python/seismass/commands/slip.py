@@ -59,8 +59,8 @@ def run(args: argparse.Namespace) -> int:
     scene, building = read_scene_or_building(args.file, target)
     stated = None
     if building is not None:
-        scene = building.scene(target, rocking=False)  # how far they would slide; which of them tip is said beside it
-        stated = [building.loose[number].size for number, _ in building.sliding(rocking=False)]
+        sliding = building.with_tipping("slide")  # how far they would slide; which of them tip is said beside it
+        scene, stated = sliding.scene(target), [sliding.loose[number].size for number, _ in sliding.sliding()]
     blocks = len(scene.goods)
     sizes = _per_block("size", args.size, blocks, parse_size, stated)
     plane = scene.other_direction is not False
