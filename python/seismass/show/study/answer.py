@@ -292,7 +292,7 @@ def _fraction_against_eta(fractions: pl.DataFrame) -> Markup:
     if partial.height:
         missed = _number((partial["estimate"] - partial["effective"]).mean())
         words = f"{missed:+.2f}".replace("-", "\N{MINUS SIGN}")
-        misses = f" In the {partial.height} buildings with eta below 1 {RULE} misses it by {words} on average."
+        misses = f" In the {partial.height} buildings with eta below 1 the rule {RULE} misses it by {words} on average."
     return head + Markup(
         "The share of the live load that acts as mass is {parts}; eta is the friction coefficient over the base shear "
         "coefficient of the building with all goods attached.{misses}"
