@@ -94,7 +94,7 @@ def test_every_command_is_among_them_and_every_line_in_the_help() -> None:
 
 
 @pytest.mark.usefixtures("few_motions", "small_map")
-@pytest.mark.parametrize("line", RUN)
+@pytest.mark.parametrize("line", RUN, ids=RUN)
 def test_example_runs(
     line: str, folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
