@@ -47,9 +47,13 @@ def until(page: Any, expression: str) -> None:
         page.wait_for_timeout(10)
 
 
-def settled(page: Any) -> None:
-    """Wait for the effective fraction of the case that was chosen last, which is solved at the next frame."""
+def settled(page: Any, *, folded: bool = False) -> None:
+    """Wait for the effective fraction of the case that was chosen last, which is solved at the next frame; unfold all
+    quantities and numbers.
+    """
     until(page, READY)
+    if not folded:
+        page.evaluate("document.querySelectorAll('details').forEach(each => { each.open = true; })")
     page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())))")
     until(page, FOUND)
 
@@ -82,6 +86,22 @@ def exported(page: Any, tmp_path: Path) -> Path:
     file = tmp_path / download.value.suggested_filename
     download.value.save_as(file)
     return file
+
+
+def is_rounded(shown: list[str], exact: list[str]) -> bool:
+    """Whether numbers are other ones with fewer digits, to half of the last; other text is the same."""
+
+    def places(text: str) -> int:
+        return len(text.partition(".")[2])
+
+    assert len(shown) == len(exact)
+    for one, other in zip(shown, exact, strict=True):
+        if not re.fullmatch(r"-?[\d.]+", one):
+            assert one == other
+        else:
+            assert abs(float(one) - float(other)) <= 0.501 * (10.0 ** -places(one) + 10.0 ** -places(other))
+            assert len(one) >= 3 or one == other
+    return True
 
 
 def printed(lines: list[str], first: str) -> list[list[str]]:
@@ -136,7 +156,7 @@ def test_the_link_of_a_calculation_page_opens_the_same_building(html: str, open_
 
 def test_page_is_as_every_page_must_be(html: str, look: Any) -> None:
     def prepare(page: Any) -> None:
-        settled(page)
+        settled(page, folded=True)
         page.locator(".time").evaluate("e => { e.value = 8.5; e.dispatchEvent(new Event('input')); }")
 
     look(html, "explorer", prepare)
@@ -146,7 +166,7 @@ def test_page_is_as_every_page_must_be(html: str, look: Any) -> None:
 def test_numbers_are_those_of_seismass_run(
     html: str, open_page: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str], address: str
 ) -> None:
-    """Each cell of the storeys and of the goods is what the command prints for the scene file, to the last digit."""
+    """Each cell of the storeys and of the goods is what the command prints for the scene file, rounded."""
     with open_page(html, "explorer", accept_downloads=True) as page:
         settled(page)
         if address:
@@ -157,9 +177,8 @@ def test_numbers_are_those_of_seismass_run(
     assert main(["run", str(file)]) == 0
     lines = capsys.readouterr().out.splitlines()
     # storey, peak drift, of height, at, residual, peak shear / W, floor acceleration: the columns of the command.
-    assert [row[:7] for row in storeys] == printed(lines, "storey")
-    blocks = printed(lines, "block")
-    assert goods == [row[1:] for row in blocks]
+    assert all(map(is_rounded, [row[:7] for row in storeys], printed(lines, "storey")))
+    assert all(map(is_rounded, goods, [row[1:] for row in printed(lines, "block")]))
     counts = next(line for line in lines if line.split()[:1] == ["events"]).split(maxsplit=1)[1]
     assert events == f"Events where goods slide: {counts}."
     # The models' drifts are those of the package.
@@ -167,7 +186,7 @@ def test_numbers_are_those_of_seismass_run(
     share = float(re.search(r"(?:^|&)c=([\d.]+)", address)[1]) if "c=" in address else 0.25
     for column, attached in ((7, share), (8, 1.0)):
         model = sm.simulate(sm.attached_scene(scene.scene, attached), scene.motion)
-        assert [row[column] for row in storeys] == [f"{1e3 * drift:.3f}" for drift in model.peak_drift]
+        assert is_rounded([row[column] for row in storeys], [f"{1e3 * drift:.6f}" for drift in model.peak_drift])
 
 
 def test_fraction_is_that_of_the_package(html: str, open_page: Any, tmp_path: Path) -> None:
@@ -200,8 +219,9 @@ def test_fraction_is_that_of_the_package(html: str, open_page: Any, tmp_path: Pa
     height = float(scene.building.heights[0])
     names = ("real", "model", "model_at_0", "model_at_1")
     for row, storey in zip(table, expected.storeys.iter_rows(named=True), strict=True):
-        assert row[1:5] == [f"{1e3 * height * storey[name]:.3f}" for name in names]
-        assert row[5:] == [f"{storey[name]:.3f}" for name in ("ratio", "ratio_at_0", "ratio_at_1", "envelope_ratio")]
+        assert is_rounded(row[1:5], [f"{1e3 * height * storey[name]:.6f}" for name in names])
+        ratios = ("ratio", "ratio_at_0", "ratio_at_1", "envelope_ratio")
+        assert is_rounded(row[5:], [f"{storey[name]:.6f}" for name in ratios])
 
 
 def test_link_opens_the_same_case(html: str, open_page: Any) -> None:
@@ -287,7 +307,7 @@ def test_a_number_counts_when_it_is_complete(html: str, open_page: Any) -> None:
         assert page.evaluate(SHOWN) == shown
         page.keyboard.press("Enter")
         settled(page)
-        assert [row[2] for row in rows(page, "goods")] == ["0.35/0.2625", "0.35/0.2625"]
+        assert [row[2] for row in rows(page, "goods")] == ["0.35/0.263", "0.35/0.263"]
         # Goods stay on the floors that had them, whatever is typed on the way.
         field = page.locator("#x-massRatio")
         field.fill("0")
@@ -386,32 +406,44 @@ def test_the_answer_stands_first_and_its_numbers_can_be_dragged(html: str, open_
         assert [row[2] for row in rows(page, "goods")] == ["0.31", "0.31"]
 
 
-def test_stories_are_true(html: str, open_page: Any) -> None:
-    """What each story says is what its case shows."""
-
-    def tell(page: Any, name: str) -> int:
-        page.get_by_role("button", name=name).click()
-        page.wait_for_timeout(200)
+@pytest.mark.parametrize("number", range(1, 7))
+def test_a_story_says_what_its_case_shows(html: str, open_page: Any, number: int) -> None:
+    """Its sentence against the tables and the headline, what is drawn beside, the storey counted, where it starts."""
+    with open_page(html, "explorer", reduced_motion="no-preference") as page:
         settled(page)
-        assert page.locator(".story").inner_text()
+        page.locator(".play").click()
+        page.locator(".stories button").nth(number - 1).click()
+        page.wait_for_timeout(100)
+        settled(page)
         assert page.locator(".problem").is_hidden()
-        return int(page.locator(".share").inner_text().removesuffix(" %"))
-
-    with open_page(html, "explorer") as page:
-        settled(page)
-        assert 50 < tell(page, "Pallets on steel") < 95
-        assert tell(page, "Library that never slides") == 100
-        assert {row[1] for row in rows(page, "motions")} == {"no"}
-        assert tell(page, "Archive on carpet") == 100
-        assert "yes" in {row[1] for row in rows(page, "motions")}
-        assert 20 <= tell(page, "The code is right") <= 30
-        assert tell(page, "The code is unsafe") == 100
-        curve = page.locator(".curve").get_attribute("aria-label")
-        at_code = re.search(r"([\d.]+) with the share of the code", curve)
-        assert at_code is not None
-        assert float(at_code[1]) > 1.95
-        tell(page, "A roof that drifts more")
-        assert float(rows(page, "suite")[3][5]) > 1.5
+        share = page.locator(".share").inner_text()
+        said, asks = page.locator(".story").inner_text(), page.locator(".asks").inner_text()
+        assert asks.endswith("Not yet.")
+        slid = [row[1] for row in rows(page, "motions")].count("yes")
+        storeys, suite = rows(page, "storeys"), rows(page, "suite")
+        if number <= 3:
+            assert f"{share} of them act as mass" in said if slid else "all of them act as mass" in said
+            words = {0: "under any of the 7 motions", 7: "under all 7 motions"}
+            assert words.get(slid, f"under {slid} of the 7 motions") in said
+            # Where the sentence says that goods slide, they slide under the motion that is shown.
+            shows = page.locator(".answer").inner_text()
+            assert ("Goods slide on" in shows) == (slid > 0)
+            assert ("No goods slide" in shows) == (slid == 0)
+        elif number <= 5:
+            curve = page.locator(".curve").get_attribute("aria-label")
+            at_code = float(re.search(r"([\d.]+) with the share of the code", curve)[1])
+            apart = round(100 * (1 / at_code - 1))
+            assert said.startswith(f"{share} of the goods act as mass and the code counts 25 %")
+            found = re.search(r"drifts (\d+) % (more|less) than", said)
+            assert abs(int(found[1]) * (1 if found[2] == "more" else -1) - apart) <= 1
+        else:
+            assert said.startswith(f"Storey 4, the highest, drifts {suite[3][5]} times the model with {share} of")
+            assert f"{suite[3][8]} times the larger of the two" in said
+            assert page.locator("#x-beside").input_value() == "share"
+            assert page.locator("#x-counter").input_value() == "4"
+        counted = int(page.locator("#x-counter").input_value())
+        clock = float(page.locator(".clock").inner_text().split()[0])
+        assert clock == pytest.approx(max(0.0, float(storeys[counted - 1][3]) - 3.0), abs=0.011)
 
 
 def test_a_drift_beyond_belief_is_remarked_and_the_enlargement_stated(html: str, open_page: Any) -> None:
@@ -428,7 +460,7 @@ def test_without_a_script_there_is_a_picture_and_a_sentence(html: str, open_page
         assert page.locator(".still svg").is_visible()
         assert "66 % of the goods act as mass" in page.locator(".still figcaption").inner_text()
         assert not page.locator(".controls").is_visible()
-        assert not page.locator(".player").is_visible()
+        assert not page.get_by_label("Player").is_visible()
 
 
 def test_goods_by_keyboard_and_friction_at_most_static(html: str, open_page: Any) -> None:
@@ -503,7 +535,7 @@ def test_own_record_is_taken_from_a_file(html: str, open_page: Any, tmp_path: Pa
     assert scene.motion.acceleration.tolist() == read.acceleration.tolist()
     assert scene.motion.dt == read.dt
     peaks = sm.simulate(scene.scene, read).peak_drift
-    assert [row[1] for row in shown] == [f"{1e3 * peak:.3f}" for peak in peaks]
+    assert is_rounded([row[1] for row in shown], [f"{1e3 * peak:.6f}" for peak in peaks])
 
 
 def test_it_plays_when_it_is_opened_unless_less_motion_is_preferred(html: str, open_page: Any) -> None:
@@ -512,7 +544,8 @@ def test_it_plays_when_it_is_opened_unless_less_motion_is_preferred(html: str, o
     loops = "document.querySelector('.loops').toDataURL()"
     with open_page(html, "explorer") as page:
         settled(page)
-        until(page, f"{clock} > 0.5")
+        assert page.evaluate(clock) >= float(rows(page, "storeys")[0][3]) - 3.01  # s before the largest drift
+        until(page, f"{clock} > 6")
         before, drawn = page.evaluate(clock), page.evaluate(loops)
         page.get_by_label("2", exact=True).check()
         until(page, f"{SHOWN} >= 2")
@@ -521,9 +554,11 @@ def test_it_plays_when_it_is_opened_unless_less_motion_is_preferred(html: str, o
         assert page.evaluate(loops) != drawn
     with open_page(html, "explorer", reduced_motion="reduce") as page:
         settled(page)
-        assert page.evaluate(clock) == 0.0
+        still = page.evaluate(clock)
+        page.wait_for_timeout(200)
+        assert page.evaluate(clock) == still == pytest.approx(float(rows(page, "storeys")[0][3]), abs=0.006)
         drawn = page.evaluate(loops)
-        page.locator(".time").evaluate("e => { e.value = 8.5; e.dispatchEvent(new Event('input')); }")
+        page.locator(".time").evaluate("e => { e.value = 9.5; e.dispatchEvent(new Event('input')); }")
         assert page.evaluate(loops) != drawn
 
 

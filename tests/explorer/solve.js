@@ -9,8 +9,8 @@ const vm = require("node:vm");
 
 const [, , file, templates] = process.argv;
 const read = (name) => readFileSync(join(templates, name), "utf8");
-const names = ["openKernel", "readRecord", "caseOf", "addressOf", "sceneOf", "sceneFile", "defaultCase"];
-const source = `${["kernel.js", "record.js", "case.js"].map(read).join("\n")}\n({ ${names.join(", ")} })`;
+const names = ["factsOf", "TOLD", "raceWords", "fileWords", "openKernel", "readRecord", "caseOf", "addressOf", "sceneOf", "sceneFile", "defaultCase"];
+const source = `${["kernel.js", "record.js", "case.js", "views.js", "stories.js"].map(read).join("\n")}\n({ ${names.join(", ")} })`;
 const page = vm.runInThisContext(source);
 const kernel = page.openKernel(new WebAssembly.Instance(new WebAssembly.Module(readFileSync(file)), {}));
 const asked = JSON.parse(readFileSync(0, "utf8"));
@@ -55,6 +55,12 @@ const answers = {
       return { dt, unit, samples: createHash("sha256").update(Buffer.from(samples.buffer)).digest("hex") };
     }),
   ),
+  told: (asked.told || []).map(({ found, state }) => {
+    const facts = page.factsOf(found, state);
+    return { facts, words: Object.fromEntries(Object.entries(page.TOLD).map(([name, told]) => [name, told(facts)])) };
+  }),
+  races: (asked.races || []).map(([race, motion]) => page.raceWords(race, motion)),
+  files: (asked.files || []).map(([file, found, isSame]) => page.fileWords(file, found, isSame)),
   addresses: (asked.addresses || []).map((address) => {
     const { state, remarks } = page.caseOf(address);
     return { state, remarks, again: page.addressOf(state) };

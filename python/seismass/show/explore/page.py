@@ -259,6 +259,7 @@ def _page_data() -> dict[str, Any]:
     return {
         "version": _kernel.VERSION,
         "codes": _named_codes(),
+        "mark": MARK,
         "suite": [record.name for record in suite],
         "records": _packed(json.dumps(files).encode()),
         "resamples": counts.astype(int).tolist(),
