@@ -116,7 +116,7 @@ def printed(lines: list[str], first: str) -> list[list[str]]:
 
 
 def test_the_link_of_a_calculation_page_opens_the_same_building(html: str, open_page: Any, tmp_path: Path) -> None:
-    """A building that the live page can express: equal floors, elastic behind the second yield, no P-Delta."""
+    """Floors, heights and springs that differ, P-Delta, the site: the same scene, and the same share to its digits."""
     tables = {
         "site": {"sds_g": 1.0, "sd1_g": 0.6},
         "building": {
@@ -124,34 +124,47 @@ def test_the_link_of_a_calculation_page_opens_the_same_building(html: str, open_
             "height_m": 4.0,
             "area_m2": 500.0,
             "dead_load_kpa": 5.0,
-            "p_delta": False,
+            "p_delta": True,
             "yield_shear_over_weight": 0.2,
         },
         "goods": {"live_load_kpa": 6.0, "mu_s": 0.3, "mu_k": 0.2},
-        "storeys": [{}, {"live_load_kpa": 0.0}],
+        "storeys": [{"overstrength": 1.5}, {"live_load_kpa": 0.0, "dead_load_kpa": 4.0, "height_m": 3.5}],
     }
-    result = sm.assess(tables, mu_factors=(1.0, 1.0), resamples=2)
+    result = sm.assess(tables, sm.builtin_suite("seven"), mu_factors=(1.0, 1.0))
     case, reasons, differences = live_case(assessment_tables(result))
     assert case is not None
     assert reasons == ()
-    assert differences == ("motions are the seven built-in ones, scaled to their own target, not those of this page",)
+    assert differences == ()
     with open_page(html, "live") as page:
         settled(page)
         visit(page, case.address)
+        fraction, remark = page.locator(".fraction").inner_text(), page.locator(".of-file").inner_text()
+        ticks = page.locator(".ticks").inner_text()
         scene = read_scene(exported(page, tmp_path)).scene
+        set_value(page, "Damping ratio", 0.04)
+        settled(page)
+        assert page.locator(".of-file").inner_text().endswith("The case was changed since.")
     own = result.building.scene()
     assert scene.building is not None
     assert own.building is not None
-    for name in ("period", "stiffness", "yield_shear"):
+    found = result.effective["real"]
+    assert fraction.startswith(f"Effective fraction {found.value:.3f} (90 % interval")
+    assert f"says {100 * found.value:.0f} % (" in remark
+    assert remark.endswith("under 7 motions. Here it is the same.")
+    assert "this model" not in ticks
+    np.testing.assert_allclose(scene.geometric_stiffness, own.geometric_stiffness / own.building.mass.mean(), rtol=1e-9)
+    for name in ("period", "stiffness", "yield_shear", "overstrength"):
         # The live page has masses of 1 kg: forces and stiffnesses are over the mass.
         one, other = (
-            np.array(building.periods[0]) if name == "period" else getattr(building, name) / building.mass.sum()
+            np.array(building.periods[0])
+            if name == "period"
+            else getattr(building, name) / (1.0 if name == "overstrength" else building.mass.sum())
             for building in (scene.building, own.building)
         )
         np.testing.assert_allclose(one, other, rtol=1e-9)
     assert [block.floor for block in scene.blocks] == [block.floor for block in own.blocks]
     assert (scene.blocks[0].mu_s, scene.blocks[0].mu_k) == (0.3, 0.2)
-    assert scene.blocks[0].mass_ratio == pytest.approx(own.blocks[0].mass / own.building.mass[0], rel=1e-9)
+    assert scene.blocks[0].mass == pytest.approx(own.blocks[0].mass / own.building.mass.mean(), rel=1e-9)
 
 
 def test_page_is_as_every_page_must_be(html: str, look: Any) -> None:

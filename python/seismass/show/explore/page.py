@@ -15,12 +15,12 @@ from jinja2 import ChoiceLoader, Environment, PackageLoader
 from markupsafe import Markup
 
 from seismass import _kernel
-from seismass.base.errors import MissingPackage
+from seismass.base.errors import MissingPackage, SeismassError
 from seismass.design import response_spectrum_analysis
 from seismass.design.scaling import scale_asce7_10
 from seismass.effective_mass import effective_mass, rule
 from seismass.effective_mass.models import bootstrap_counts
-from seismass.media.page import page_html, templates
+from seismass.media.page import DIFFERENCES, page_html, templates
 from seismass.media.roles import CODE, SLIDE, YIELDS
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import Building
@@ -29,6 +29,7 @@ from seismass.model.scene import Scene
 from seismass.motions.motion import scaled_motions
 from seismass.motions.records.builtin import builtin_suite
 from seismass.motions.spectra import TargetSpectrum, mean_spectrum
+from seismass.motions.spectra.target import target_of_parameters
 from seismass.show.animation.animation import FACTORS
 from seismass.show.animation.html import SPEEDS, element_html
 
@@ -260,6 +261,7 @@ def _page_data() -> dict[str, Any]:
         "version": _kernel.VERSION,
         "codes": _named_codes(),
         "mark": MARK,
+        "differences": DIFFERENCES,
         "suite": [record.name for record in suite],
         "records": _packed(json.dumps(files).encode()),
         "resamples": counts.astype(int).tolist(),
@@ -275,6 +277,20 @@ def _page_data() -> dict[str, Any]:
             "largestLoad": rule.LARGEST_LOAD,
         },
     }
+
+
+def site_factors(target: dict[str, Any] | None, period: float) -> list[float] | None:
+    """Factors of the suite of the page for the target of an assessment, by its parameters, and a period (s); None where
+    they cannot be known.
+    """
+    if target is None:
+        return None
+    try:
+        known = target_of_parameters({key: value for key, value in target.items() if key != "label"})
+        factors: list[float] = scale_asce7_10(builtin_suite("seven"), known, period, between=False).factors.tolist()
+    except SeismassError:
+        return None
+    return factors
 
 
 def _packed(content: bytes) -> str:

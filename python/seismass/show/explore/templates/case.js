@@ -108,7 +108,7 @@ function caseOf(address) {
   }
   if (said.has("F")) {
     const [share, low, high, motions] = numbersAt("F");
-    const differs = (said.get("W") || "").split(",").filter((key) => key in DIFFERENCES);
+    const differs = (said.get("W") || "").split(",").filter((key) => /^[a-z]+$/.test(key));
     if ([share, low, high].every((one) => one >= 0 && one <= 2) && motions >= 1) state.file = { share, low, high, motions, differs };
     else remarks.push(`the answer of a building file in the address must be three shares and a number of motions; got ${said.get("F").slice(0, 40)}`);
   }
@@ -116,19 +116,6 @@ function caseOf(address) {
   state.muK = state.muK.map((mu, i) => Math.min(mu, state.muS[i]));
   return { state, remarks };
 }
-
-// By what a case of a building file differs from the building of the file.
-const DIFFERENCES = {
-  motions: "its motions are others",
-  scale: "the motions are scaled to another target",
-  kinds: "kinds of goods on a floor are one here, with their mean friction",
-  height: "heights of its storeys are not known",
-  gravity: "P-Delta has other loads than its floor masses",
-  capped: "large drifts are capped there",
-  statistic: "it has the median of the motions, this page the mean",
-  collapse: "a storey counts as collapsed there at a drift of its own",
-  counted: "its code counts more than the goods that are present",
-};
 
 // Strengths V_y/W of all storeys: designed with the elastic ones, V_e/W, by hand, or infinite.
 function strengthsOf(state, elastic) {
@@ -154,8 +141,7 @@ function sceneFile(scene, { stiffness, record, scale, note }) {
     `note = ${JSON.stringify(note)}`,
     "",
     "[building]",
-    `storeys = ${scene.storeys}`,
-    ...(isUniform ? [`period = ${scene.period} # s, without the goods`] : [`mass = [${scene.floorMass.join(", ")}] # kg, over the mean`, `stiffness = [${stiffness.join(", ")}]`]),
+    ...(isUniform ? [`storeys = ${scene.storeys}`, `period = ${scene.period} # s, without the goods`] : [`mass = [${scene.floorMass.join(", ")}] # kg, over the mean`, `stiffness = [${stiffness.join(", ")}]`]),
     `damping = ${scene.damping}`,
     `overstrength = ${list(scene.overstrength)}`,
     `second_slope = ${list(scene.secondSlope)}`,

@@ -424,7 +424,7 @@
     sayStory();
     const remark = one(".of-file");
     remark.hidden = state.file === null;
-    if (state.file !== null) remark.textContent = fileWords(state.file, done ? found : null, caseNumbers(state) === ofFile);
+    if (state.file !== null) remark.textContent = fileWords(state.file, done ? found : null, caseNumbers(state) === ofFile, given.differences);
   }
   function sayStory() {
     const [says, asks] = [one(".story"), one(".asks")];

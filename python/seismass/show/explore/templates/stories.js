@@ -32,15 +32,16 @@ const TOLD = {
   roof: ({ share, storeys, roof, both }) =>
     `Storey ${storeys}, the highest, drifts ${fixed(roof, 2)} times the model with ${per100(share)} of the goods attached; with a second analysis without goods, ${fixed(both, 2)} times the larger of the two.`,
 };
-// By how much the page of a building file has another share than this page, which has the same case or another one.
-function fileWords({ share, low, high, motions, differs }, found, isSame) {
+// By how much the page of a building file has another share than this page, which has the same case or another one. `words` are
+// those of what is different here.
+function fileWords({ share, low, high, motions, differs }, found, isSame, words) {
   const there = `The page of the building file says ${per100(share)} (${per100(low)} to ${per100(high)}, other suites too) under ${motions} ${motions === 1 ? "motion" : "motions"}.`;
   if (!isSame) return `${there} The case was changed since.`;
-  const reasons = differs.map((key) => DIFFERENCES[key]).join("; ");
+  const reasons = differs.map((key) => words[key]).filter(Boolean).join("; ");
   if (found === null) return there;
   const apart = Math.round(100 * found.value) - Math.round(100 * share);
   const here = apart === 0 ? "Here it is the same" : `Here it is ${per100(found.value)}, ${Math.abs(apart)} ${Math.abs(apart) === 1 ? "point" : "points"} ${apart > 0 ? "more" : "less"}`;
-  return `${there} ${here}${reasons ? `. What is different there: ${reasons}` : ""}.`;
+  return `${there} ${here}${reasons ? `. What is different here: ${reasons}` : ""}.`;
 }
 
 // Which model of the race comes nearest, under the motion that is shown.
