@@ -291,7 +291,7 @@ DIFFERENCES: Final = {
 
 @dataclass(frozen=True)
 class LiveCase:
-    """A building as the live page has it: period (s) and heights (m), strengths V_y over the weight without goods (empty:
+    """A building as the live page has it: period (s), heights (m), strengths V_y over the weight without goods (empty:
     elastic), goods over the mean floor mass with friction, floor masses over the mean and stiffnesses over the first.
     `answer` is the file's own: share, interval, number of motions; `differs` are keys of `DIFFERENCES`.
     """

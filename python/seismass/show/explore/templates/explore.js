@@ -376,7 +376,7 @@
     const room = 0.15 * scene.height.reduce((sum, one) => sum + one, 0);
     const factor = kept || given.enlargements.filter((one) => one * farthest <= room).at(-1) || 1;
     const mass = Math.max(...real.blocks.map((block) => block.ratio), LARGEST_DRAWN);
-    const moved = record.moved && Float32Array.from({ length: rows }, (_, row) => (record.moved[Math.min(row * every, record.moved.length - 1)] * state.intensity) / PUSH.metres);
+    const moved = record.moved && Float32Array.from({ length: rows }, (_, row) => (record.moved[Math.min(row * every, record.moved.length - 1)] * state.intensity) * pushScale(player));
     return {
       step, rows, known: true, factor, marks: true, storey: counter, heights: scene.height, kinds: EVENT_NAMES,
       ground: { peak: spread(high) > spread(low) ? spread(high) : spread(low), low, high, moved },
@@ -437,13 +437,15 @@
     asks.textContent = `${story.asks}${facts === null || isGone ? "" : ` ${questionWords(story, facts)}`}`;
   }
   function sayHeadline() {
-    showHeadline(one(".headline"), { found, real: solved.real, state: solved.state, codes: given.codes, motions: given.suite.length });
+    showHeadline(one(".headline"), { found, real: solved.real, rule: solved.rule, state: solved.state, codes: given.codes, motions: given.suite.length });
   }
   // Said once the reader pauses, so that a screen reader is not flooded.
   function say() {
+    // The headline shows the fraction already.
     const fraction = isFound() ? ` ${fractionWords(found, solved.rule).short}` : "";
-    const words = runWords(solved, nameOf(state.record)) + fraction;
-    if (one(".answer").textContent !== words) one(".answer").textContent = words;
+    const words = runWords(solved, nameOf(state.record));
+    if (one(".answer").textContent === words + fraction) return;
+    one(".answer").replaceChildren(words, Object.assign(document.createElement("span"), { className: "heard", textContent: fraction }));
   }
 
   let timer = 0;
@@ -618,7 +620,7 @@
   let isRaceSeen = false;
   new IntersectionObserver(([entry]) => (isRaceSeen = entry.isIntersecting)).observe(one(".race"));
   const card = (at) => ({
-    title: `${one(".share").textContent} of the goods act as mass`, winner: one(".winner").textContent, race, time: at, colours: colours(),
+    title: `${one(".share").textContent} of the goods act as mass${isFound() ? "" : ", by the rule by hand"}`, winner: one(".winner").textContent, race, time: at, colours: colours(),
     sentence: Array.from(one(".sentence").childNodes, (node) => (node.localName === "small" || node.hidden ? "" : node.textContent)).join("").trim(),
   });
   const canvasOfCard = () => Object.assign(document.createElement("canvas"), { width: 1200, height: 675 });

@@ -67,7 +67,8 @@ function openHandles(place, player, { ranges, valueOf, choose, pushed }) {
     });
     lowest = loaded.length ? loaded[0] : 0;
     grip.hidden = loaded.length === 0;
-    if (!grip.hidden) grip.style.transform = `translate(calc(${xs[lowest + 1] - 0.68 * half}px - 50%), ${ys[lowest + 1] - 25}px)`;
+    // Beside the place of the block, as the block may slide.
+    if (!grip.hidden) grip.style.transform = `translate(calc(${xs[lowest + 1] - (blocks[0] || { wide: half }).wide / 2 - 3}px - 100%), ${ys[lowest + 1] - 25}px)`;
     ground.style.transform = `translate(calc(${middle - left - width / 2 + left + 0.96 * width}px - 100%), ${ys[0] + 4}px)`;
   }
   player.addEventListener("time", put);
@@ -87,7 +88,9 @@ function openHandles(place, player, { ranges, valueOf, choose, pushed }) {
 
 // The ground as it is pushed by hand: it follows the pointer as a damped oscillator does, so that accelerations are finite, and
 // is the record of the run from its begin. It ends some seconds after it was let go, or where it is long.
-const PUSH = { step: 0.01, metres: 0.002, rate: 2 * Math.PI * 1.5, rest: 4, longest: 30 }; // s, m per pixel, rad/s, s, s
+const PUSH = { step: 0.01, farthest: 0.3, rate: 2 * Math.PI * 1.5, rest: 4, longest: 30 }; // s, m, rad/s, s, s
+// Pixels of a metre of the ground, so that it stays in the picture of a building.
+const pushScale = ({ places }) => (0.14 * places.width) / PUSH.farthest;
 function openPush(handle, player, pushed) {
   let [target, at, speed, rest, last] = [0, 0, 0, 0, null];
   let [samples, moved] = [[], []];
@@ -118,16 +121,15 @@ function openPush(handle, player, pushed) {
     player.play(false);
     requestAnimationFrame(frame);
   }
-  const farthest = () => Math.min(0.3, 0.14 * player.places.width * PUSH.metres);
-  const aim = (metres) => (target = Math.min(Math.max(metres, -farthest()), farthest()));
+  const aim = (metres) => (target = Math.min(Math.max(metres, -PUSH.farthest), PUSH.farthest));
   handle.addEventListener("pointerdown", (event) => {
     event.preventDefault();
     handle.focus({ preventScroll: true });
     handle.setPointerCapture(event.pointerId);
     begin();
-    from = event.clientX - target / PUSH.metres;
+    from = event.clientX - target * pushScale(player);
   });
-  handle.addEventListener("pointermove", (event) => from !== null && aim((event.clientX - from) * PUSH.metres));
+  handle.addEventListener("pointermove", (event) => from !== null && aim((event.clientX - from) / pushScale(player)));
   for (const name of ["pointerup", "pointercancel"]) handle.addEventListener(name, () => (from = null));
   handle.addEventListener("keydown", (event) => {
     const way = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];

@@ -14,24 +14,25 @@ function placeTicks(place) {
     let row = ends.findIndex((end) => left > end + 4);
     if (row < 0) row = ends.length;
     ends[row] = left + tick.offsetWidth;
-    tick.style.paddingTop = `${1.1 * row}em`;
+    tick.style.paddingTop = `${1.25 * row}em`;
   }
-  place.style.height = `${1.1 * Math.max(ends.length, 1) + 0.4}em`;
+  place.style.height = `${1.25 * Math.max(ends.length, 1) + 0.2}em`;
 }
 
 // Tells what is known of the answer, in the bar and beside it. `codes` are [name with its mark, fraction].
-function showHeadline(place, { found, real, state, codes, motions }) {
+function showHeadline(place, { found, real, rule, state, codes, motions }) {
   const known = found !== null && found.shares !== undefined;
   const none = real.blocks.length === 0;
   const one = (selector) => place.querySelector(selector);
-  const words = none ? "no goods" : known ? per100(found.value) : found !== null && found.error ? "not solved" : "\u2026";
+  const failed = found !== null && found.error !== undefined;
+  const words = none ? "no goods" : known ? per100(found.value) : failed ? "not solved" : `\u2248 ${per100(rule.estimate)}`;
   one(".share").textContent = words;
   place.classList.toggle("stale", !none && !known);
   one(".means").textContent = none ? "There is nothing on the floors." : known
     ? `of the goods${state.present === 1 ? "" : " present"} act as mass (90 % interval ${per100(found.low)} to ${per100(found.high)}), over the ${motions} built-in synthetic motions at intensity ${general(state.intensity, 4)}.`
-    : "of the goods act as mass: being solved over the built-in motions.";
+    : failed ? "There is no share of the goods." : "of the goods act as mass by the rule by hand: being solved over the built-in motions.";
   const bar = one(".share-bar");
-  for (const [selector, from, to] of [[".filled", 0, known ? found.value : 0], [".interval", known ? found.low : 0, known ? found.high : 0]]) {
+  for (const [selector, from, to] of [[".filled", 0, known ? found.value : none || failed ? 0 : rule.estimate], [".interval", known ? found.low : 0, known ? found.high : 0]]) {
     Object.assign(one(selector).style, { left: `${100 * from}%`, width: `${100 * (to - from)}%` });
   }
   one(".interval").hidden = !known;

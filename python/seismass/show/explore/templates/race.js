@@ -47,7 +47,7 @@ function drawRace(context, { left = 0, top = 0, width, height }, race, time, col
     words(share === null ? "as they are" : name, centre, box.top + 31, { size: 11, colour: colours.soft, fit: box.width - 10 });
     const scale = (box.height - head - foot - 12) / (total + (masses[n - 1] > 0 ? 0.5 * heights[n - 1] : 0.15 * heights[n - 1]));
     const half = Math.min(0.3 * (box.width - side), 0.5 * total * scale);
-    const enlarged = Math.min((0.5 * (box.width - side) - half - 4) / farthest, 40 * scale);
+    const enlarged = Math.min((0.5 * (box.width - side) - half - 8) / farthest, 40 * scale);
     let [x, y] = [middle, box.top + box.height - foot - 6];
     const base = y;
     let block = 0;
@@ -92,7 +92,7 @@ function drawRace(context, { left = 0, top = 0, width, height }, race, time, col
     context.fillRect(bar - 3, at(reference) - 1, 14, 2);
     const apart = reference > 0 ? Math.round(100 * (largest[row] / reference - 1)) : 0;
     const percent = ((100 * largest[row]) / heights[race.counter]).toFixed(2);
-    words(share === null ? `${percent} % of ${heights[race.counter]} m` : `${apart < 0 ? "\u2212" : "+"}${Math.abs(apart)} %`, centre, box.top + box.height - 8, { size: 12, fit: box.width - 10 });
+    words(share === null ? `${percent} % of ${heights[race.counter]} m` : `${apart < 0 ? "\u2212" : apart > 0 ? "+" : ""}${Math.abs(apart)} %`, centre, box.top + box.height - 8, { size: 12, fit: box.width - 10 });
   }
   if (width < 600) {
     frame(own, { left, top, width, height: 0.55 * height });

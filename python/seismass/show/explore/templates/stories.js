@@ -1,7 +1,5 @@
 // Sentences that are made of a result and of nothing else, so that none can say what its result does not have; and the steps of
 // the story, each with a case, what its sentence tells, and a question with the result that answers it.
-const per100 = (share) => `${fixed(100 * share, 0)} %`;
-
 // What sentences are made of: the effective fraction as it was found, and the case.
 function factsOf(found, state) {
   const top = state.storeys - 1;

@@ -10,6 +10,7 @@ function general(value, digits) {
   const sign = power < 0 ? "-" : "+";
   return `${Number(mantissa)}e${sign}${String(Math.abs(power)).padStart(2, "0")}`.replaceAll("-", MINUS);
 }
+const per100 = (share) => `${fixed(100 * share, 0)} %`;
 const largest = (list) => list.reduce((most, value) => Math.max(most, value), 0);
 const place = (list) => list.reduce((best, value, i) => (value > list[best] ? i : best), 0);
 const listed = (words) => (words.length < 2 ? words.join("") : `${words.slice(0, -1).join(", ")} and ${words.at(-1)}`);
@@ -69,7 +70,7 @@ function ruleBy(scene, acceleration, constants) {
 
 function fractionWords(found, rule) {
   return {
-    short: `Over the built-in motions: effective fraction of the goods ${fixed(found.value, 2)}, 90 % interval ${fixed(found.low, 2)} to ${fixed(found.high, 2)}.`,
+    short: `Over the built-in motions ${per100(found.value)} of the goods act as mass, 90 % interval ${per100(found.low)} to ${per100(found.high)}.`,
     long:
       `Effective fraction ${fixed(found.value, 3)} (90 % interval over the built-in motions ${fixed(found.low, 2)} to ${fixed(found.high, 2)}); ` +
       `${KIND_WORDS[found.kind].replace(/^./, (letter) => letter.toUpperCase())}. By hand: ${rule.words}.`,
