@@ -300,6 +300,72 @@ def test_addresses_are_read_as_they_are_written(in_node: Any) -> None:
     assert found[2]["state"]["by"] == "design"
 
 
+def count_of(sentence: str) -> int:
+    """Under how many of the three motions a sentence has goods slide."""
+    found = re.match(r"Goods slide under (?:all (\d) motions|(\d) of the 3 motions), and ", sentence)
+    return 0 if found is None else int(found[1] or found[2])
+
+
+def percent_of(sentence: str, pattern: str) -> int:
+    """How many per cent more (positive) or less a sentence says, behind a text."""
+    found = re.search(pattern + r" (?:(\d+) % (more|less) than|as much as)", sentence)
+    assert found is not None, sentence
+    return 0 if found[1] is None else int(found[1]) * (1 if found[2] == "more" else -1)
+
+
+def test_sentences_say_what_the_result_has(in_node: Any) -> None:
+    """Every kind of sentence for 300 random cases, against the numbers of their results."""
+    draw = np.random.default_rng(7)
+    short = [record.with_duration(6.0).scaled(2.0) for record in MOTIONS[:3]]
+    asked: list[dict[str, Any]] = []
+    while len(asked) < 300:
+        chosen = random_case(draw)
+        counted = float(draw.choice([0.0, 0.25, 0.3125, 0.6, 1.0]))
+        told = {"storeys": chosen["storeys"], "counted": counted, "intensity": 1.0, "muS": chosen["muS"]}
+        if any(chosen["massRatio"]):
+            asked.append({"scene": chosen, "suite": [0, 1, 2], "resamples": [1, 1, 1], "told": told})
+    found = in_node(motions=[motion(one) for one in short], effective=asked)["effective"]
+    kinds = set()
+    for one, state in zip(found, (each["told"] for each in asked), strict=True):
+        words, share = one["told"], one["value"]
+        slid = int(sum(one["slides"]))
+        kinds.add((min(slid, 1), one["kind"]))
+        # What slides, and how much acts as mass.
+        assert ("No goods slide under any of the 3 motions" in words["slides"]) == (slid == 0)
+        assert count_of(words["slides"]) == slid
+        if slid:
+            assert int(re.search(r"and (\d+) % of them act", words["slides"])[1]) == pytest.approx(
+                100 * share, abs=0.501
+            )
+        # The model of the code, read between the shares that were solved.
+        model = np.interp(state["counted"], one["shares"], one["model"])
+        apart = percent_of(words["code"], "its model drifts")
+        assert apart == pytest.approx(100 * (model / one["realMean"] - 1), abs=0.502)
+        assert f"the code counts {100 * state['counted']:.0f} %" in words["code"] or state["counted"] == 0.3125
+        # The highest storey.
+        real, both = one["realByStorey"][-1], max(one["modelByStorey"][-1], one["bareByStorey"][-1])
+        ratios = re.search(r"Storey (\d), the highest, drifts ([\d.]+) times .*goods, ([\d.]+) times", words["roof"])
+        assert int(ratios[1]) == state["storeys"]
+        assert float(ratios[2]) == pytest.approx(real / one["modelByStorey"][-1], abs=0.00502)
+        assert float(ratios[3]) == pytest.approx(real / both, abs=0.00502)
+    assert {(0, "stuck"), (1, "root"), (1, "one")} <= kinds  # what sentences may confuse is among them
+
+
+def test_the_remark_on_a_building_file_compares_what_is_shown(in_node: Any) -> None:
+    file = {"share": 0.498, "low": 0.141, "high": 0.768, "motions": 7, "differs": ["kinds"]}
+    there = "The page of the building file says 50 % (14 % to 77 %, other suites too) under 7 motions."
+    words = {"kinds": "kinds are one"}
+    cases = [
+        (0.503, "Here it is the same"),
+        (0.47, "Here it is 47 %, 3 points less"),
+        (0.51, "Here it is 51 %, 1 point more"),
+    ]
+    asked = [[file, {"value": value}, True, words] for value, _ in cases]
+    found = in_node(files=[*asked, [file, None, True, words], [file, {"value": 0.1}, False, words]])["files"]
+    assert found[:3] == [f"{there} {said}. What is different here: kinds are one." for _, said in cases]
+    assert found[3:] == [there, f"{there} The case was changed since."]
+
+
 def test_chart_of_other_buildings_is_that_of_the_documentation() -> None:
     text = (ROOT / "docs" / "effective_mass.md").read_text(encoding="utf-8")
     block = re.search(r"<!-- builtin -->\n(.*?)<!-- end of builtin -->", text, re.DOTALL)
