@@ -56,9 +56,7 @@ def test_the_example_is_opened_with_its_floors_and_its_site() -> None:
     assert said["W"] == "motions"
     scaled = sm.assess(example_file(), sm.builtin_suite("seven"), mu_factors=(1.0, 1.0), resamples=2).scaling
     assert scaled is not None
-    assert numbers(said, "g") == pytest.approx(
-        list(scaled.factors), rel=5e-3
-    )  # between periods too
+    assert numbers(said, "g") == pytest.approx(list(scaled.factors), rel=5e-3)  # between periods too
 
 
 def test_under_the_motions_of_the_page_nothing_is_different_and_the_answer_goes_along() -> None:

@@ -291,9 +291,8 @@ DIFFERENCES: Final = {
 
 @dataclass(frozen=True)
 class LiveCase:
-    """A building as the live page has it: period (s), heights (m), strengths V_y over the weight without goods (empty:
-    elastic), goods over the mean floor mass with friction, floor masses over the mean and stiffnesses over the first.
-    `answer` is the file's own: share, interval, number of motions; `differs` are keys of `DIFFERENCES`.
+    """A building as the live page has it: forces over its weight, masses over the mean floor, stiffnesses over the
+    first; `answer` has share, interval and number of motions of the file, `differs` keys of `DIFFERENCES`.
     """
 
     period: float

@@ -339,25 +339,29 @@ def _case(result: AssessmentTables, storeys: list[dict[str, Any]], loose: list[d
     mu_k = np.where(loaded, kinetic / np.where(loaded, ratio, 1.0), least[0])
     elastic = any(row["yield_shear"] is None for row in storeys)
     counted = result.code["share_of_design_live_load"] / result.present_share if result.present_share > 0.0 else 0.0
-    suite, found = result.document["suite"], result.effective.get("real")
-    own = suite["motions"] == [record.name for record in builtin_suite("seven")]
-    site = None if own else site_factors(result.document["target"], data["period_attached"])
-    factors = (result.document["factors"] or [1.0] * len(suite["motions"])) if own else site
+    suite, fraction = result.document["suite"], result.effective.get("real")
+    is_built_in = suite["motions"] == [record.name for record in builtin_suite("seven")]
+    site = None if is_built_in else site_factors(result.document["target"], data["period_attached"])
+    factors = (result.document["factors"] or [1.0] * len(suite["motions"])) if is_built_in else site
     known = {key: [row[key] for row in storeys] for key in ("overstrength", "second_slope", "third_slope")}
     cap = data["drift_cap"]
     differs = {
         "motions": site is not None,
-        "scale": not own and site is None,
+        "scale": not is_built_in and site is None,
         "kinds": len({kind["floor"] for kind in loose}) < len(loose),
         "bolted": any(kind["attached"] for kind in data["goods"]),
         "height": any(row["height"] is None for row in storeys),
         "gravity": data["p_delta"] and data["sources"].get("gravity_load", "default") != "default",
         "capped": cap is not None and bool((result.storeys["max"] > cap).any()),
-        "median": found is not None and found.statistic != "mean",
+        "median": fraction is not None and fraction.statistic != "mean",
         "collapse": data["collapse_drift_ratio"] is not None,
         "counted": counted > 1.0,
     }
-    answer = () if found is None or found.interval is None else (found.value, *found.interval, len(suite["motions"]))
+    answer = (
+        ()
+        if fraction is None or fraction.interval is None
+        else (fraction.value, *fraction.interval, len(suite["motions"]))
+    )
     return LiveCase(
         period=data["period_bare"],
         damping=data["damping"],

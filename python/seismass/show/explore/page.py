@@ -146,7 +146,8 @@ RESAMPLES: Final = 2000
 CODES: Final = {"asce7-10": "ASCE 7-10", "nbc": "NBC", "ec8": "EC 8"}
 """Codes whose share for storage the page offers by name, and their short names."""
 ASSUMPTIONS: Final = (
-    "Shear buildings of equal floor masses and storey stiffnesses, motion in one direction, no P-Delta.",
+    "Shear buildings, motion in one direction. Floors, storeys and heights are alike and there is no P-Delta, unless the "
+    "case is that of a building file.",
     "Trilinear springs with Masing unloading; the second yield is at the overstrength times the first, and the slope "
     "behind it is zero. The second slope is an assumption: results depend on it.",
     "Rigid goods that stick and slide with Coulomb friction; they do not rock, stack or hit walls.",
@@ -154,8 +155,8 @@ ASSUMPTIONS: Final = (
     "Strengths by design: V_y = V_e/R, by a response spectrum analysis (SRSS) of the building with the code's share of "
     "the goods, for the mean 5 % spectrum of the suite at intensity 1. Hand-set strengths and the elastic building "
     "leave that out.",
-    "The suite: seven synthetic motions, not recordings, scaled to the default target by ASCE 7-10 for T = 1 s. The "
-    "effective fraction is over this suite, whatever motion is shown; other suites give other fractions.",
+    "The suite: seven synthetic motions, not recordings, scaled to the default target by ASCE 7-10 for T = 1 s, "
+    "or as for the site of a building file. The effective fraction is over this suite, whatever motion is shown; other suites give other fractions.",
     "The interval is a percentile bootstrap over the seven motions; it says nothing of another suite.",
 )
 """What the page says it assumes."""
