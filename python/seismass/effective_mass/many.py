@@ -7,7 +7,6 @@ from functools import partial
 from itertools import groupby
 from typing import Any, Final
 
-import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
@@ -31,8 +30,6 @@ from seismass.motions.motion import MotionLike
 from seismass.runs.grid.grid import Grid
 
 OWNER: Final = "effective mass table"
-SHARES: Final = np.linspace(0.0, 1.0, 21)
-"""Shares at which models are solved; crossings are linear between them."""
 _AT_ONCE: Final = 64
 
 
@@ -89,7 +86,7 @@ def effective_mass_table(
     """
     named, shares, convention = (
         named_motions(motions, OWNER),
-        check_fractions(fractions, OWNER, SHARES),
+        check_fractions(fractions, OWNER),
         check_damping(damping, OWNER),
     )
     if isinstance(scenes, Grid) and {"scale", "motion"} & set(scenes.table(1, 1).columns):
