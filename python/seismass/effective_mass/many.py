@@ -88,7 +88,8 @@ def effective_mass_table(
     named, shares = named_motions(motions, OWNER), check_fractions(fractions, OWNER)
     convention, cap = check_damping(damping, OWNER), check_cap(drift_cap, OWNER)
     as_one_of(store, StoredResults, "store", OWNER, InvalidOption)
-    if not (isinstance(scenes, Grid | Sequence) and not isinstance(scenes, str) and len(scenes)):
+    as_one_of(scenes, (Grid, Sequence), "scenes", OWNER, InvalidOption)
+    if isinstance(scenes, str) or not len(scenes):
         raise refusal(InvalidOption, "scenes", OWNER, "a Grid or a list of Scenes", brief(scenes))
     if isinstance(scenes, Grid) and {"scale", "motion"} & set(scenes.table(1, 1).columns):
         raise refusal(InvalidOption, "scenes", OWNER, "a grid without scale and motion", brief(scenes))

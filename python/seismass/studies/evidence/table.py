@@ -207,7 +207,7 @@ def evidence(
         listed = listed[:: -(-len(listed) // _QUICK_ARCHETYPES)]
     as_one_of(store, StoredResults, "store", "evidence", InvalidOption)
     suites = [builtin_suite("forty") if suite is None else suite, *([] if other is None else [other])]
-    if not all(isinstance(each, Suite) and len(each) for each in suites):
+    if not all(len(as_one_of(each, Suite, "suite", "evidence", InvalidMotion)) for each in suites):
         raise refusal(InvalidMotion, "suite", "evidence", "a Suite of records", brief(suite))
     if not {1.0, MCE} <= set(settings.levels):
         raise refusal(InvalidOption, "levels", "evidence", f"1 and {MCE:g} among others", brief(settings.levels))
