@@ -20,7 +20,8 @@ from seismass.show.study import write
 from seismass.show.study.answer import findings_text, suite_caption
 from seismass.show.study.figures import study_figures
 from seismass.show.study.tables import study_tables
-from seismass.studies.study import StudyParameters, StudyResult, display_names, run_study
+from seismass.studies.study import StudyParameters, StudyResult, run_study
+from seismass.studies.study.run import display_names
 from seismass.studies.study.tables import findings
 
 TARGET = sm.TargetSpectrum.asce7()
@@ -358,7 +359,7 @@ def test_numbers_of_any_kind_are_the_same_parameters() -> None:
 
 
 def test_a_suite_is_asked_for() -> None:
-    with pytest.raises(sm.errors.InvalidMotion, match="suite of study must be a Suite of records; got 3"):
+    with pytest.raises(sm.errors.InvalidMotion, match="suite of study must be a Suite; got 3"):
         run_study(3, TARGET)  # type: ignore[arg-type]
 
 

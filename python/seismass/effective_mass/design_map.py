@@ -20,7 +20,6 @@ from seismass.base.views import view
 from seismass.design import Combination, response_spectrum_analysis, vibration_modes
 from seismass.design.scaling import ScalingResult, scale_asce7_10
 from seismass.effective_mass.models import (
-    DEFAULT_FRACTIONS,
     SAME_DAMPING,
     Kind,
     ModelDamping,
@@ -143,7 +142,7 @@ class EffectiveMassParameters:
     confidence: float = 0.90
     resamples: int = 500
     seed: int = 0
-    shares: int = len(DEFAULT_FRACTIONS)
+    shares: int = 101
 
     def __post_init__(self) -> None:
         """Judge the axes and keep numbers as Python's own; building, design and scaling judge the rest."""

@@ -14,8 +14,6 @@ from seismass.base.errors import InvalidOption
 from seismass.base.statistics import DRIFT_CAP, few_collapses
 from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
 from seismass.effective_mass.models import (
-    DEFAULT_FRACTIONS,
-    FRACTIONS_OF_VECTORS,
     FROM_ONE,
     LARGEST_SHARE,
     SHARES_BEYOND,
@@ -106,7 +104,7 @@ def checked_options(
         drift=check_drift(drift, OWNER),
         drift_cap=check_cap(drift_cap, OWNER),
         damping=check_damping(damping, OWNER),
-        fractions=check_fractions(fractions, OWNER, FRACTIONS_OF_VECTORS if drift == "vector" else DEFAULT_FRACTIONS),
+        fractions=check_fractions(fractions, OWNER),
         confidence=probability,
         resamples=as_count(resamples, "resamples", OWNER, InvalidOption, least=1),
         seed=as_count(seed, "seed", OWNER, InvalidOption),

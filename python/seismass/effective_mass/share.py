@@ -10,7 +10,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import interval_of
-from seismass.base.values import FloatArray, as_number, brief, frozen, is_one_of, refusal, short_repr
+from seismass.base.values import (
+    FloatArray,
+    as_array,
+    as_count,
+    as_number,
+    brief,
+    frozen,
+    is_one_of,
+    refusal,
+    short_repr,
+)
 from seismass.effective_mass.models import bootstrap_counts, interpolated, is_below, kind_of
 
 ShareStatistic: TypeAlias = Literal["mean", "ln mean", "quantile"]
@@ -107,27 +117,47 @@ def equal_share(
     if not is_one_of(statistic, get_args(ShareStatistic)):
         raise refusal(InvalidOption, "statistic", owner, "one of mean, ln mean, quantile", brief(statistic))
     level = as_number(probability, "probability", owner, InvalidOption)
-    grid, of_model, of_real = (np.asarray(values, dtype=np.float64) for values in (shares, model, sliding))
+    grid = as_array(shares, "shares", owner, InvalidOption)
+    of_model, of_real = _numbers(model, "model", owner, 2), _numbers(sliding, "sliding", owner, 1)
     if of_model.shape[:2] != (len(grid), len(of_real)) or not (np.diff(grid) > 0.0).all():
         requirement = "of shape (shares, motions, ...), with increasing shares and the motions of the real buildings"
         raise refusal(InvalidOption, "model", owner, requirement, f"{of_model.shape} beside {of_real.shape}")
+    if not 0.0 <= level <= 1.0:
+        raise refusal(InvalidOption, "probability", owner, "between 0 and 1", f"{level:g}")
+    within = as_number(confidence, "confidence", owner, InvalidOption)
+    if not 0.0 < within < 1.0:
+        raise refusal(InvalidOption, "confidence", owner, "above 0 and below 1", f"{within:g}")
+    count, first = as_count(resamples, "resamples", owner, InvalidOption), as_count(seed, "seed", owner, InvalidOption)
     clusters = np.arange(len(of_real)) if cluster_of is None else np.asarray(cluster_of)
+    if clusters.shape != (len(of_real),) or clusters.dtype.kind not in "iu" or clusters.min() < 0:
+        raise refusal(InvalidOption, "cluster_of", owner, "a whole number from 0 for each motion", brief(cluster_of))
     counts = np.ones((1, len(of_real)))
     if clusters.max() > 0:
-        counts = np.concatenate([counts, bootstrap_counts(clusters, resamples, seed)])
+        counts = np.concatenate([counts, bootstrap_counts(clusters, count, first)])
     curves = np.stack([_statistic(row, counts, statistic, level) for row in of_model], axis=1)
     targets = _statistic(of_real, counts, statistic, level)
     against = np.broadcast_to(targets[:, None], curves.shape)
     values = interpolated(grid, curves, against)
     values = np.where(values == 1.0, np.where(is_below(curves, against)[:, -1], grid[-1], values), values)
-    kind = _kind(grid, curves[0], float(targets[0]), least)
+    kind = _kind(grid, curves[0], float(targets[0]), as_number(least, "least", owner, InvalidOption))
     interval = None
     if len(values) > 1 and kind != "rare":
-        low, high = interval_of(values[1:, None], confidence)
+        low, high = interval_of(values[1:, None], within)
         interval = float(low[0]), float(high[0])
     value = float("nan") if kind == "rare" else float(values[0])
     answer = value, interval, kind, float(targets[0]), frozen(grid), frozen(curves[0])
-    return EqualShare(*answer, confidence, frozen(targets[1:]), frozen(curves[1:]))
+    return EqualShare(*answer, within, frozen(targets[1:]), frozen(curves[1:]))
+
+
+def _numbers(values: ArrayLike, name: str, owner: str, least: int) -> FloatArray:
+    """Return an array of numbers with at least so many axes, none of them empty."""
+    try:
+        array = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        array = np.empty(0)
+    if array.ndim < least or not array.size:
+        raise refusal(InvalidOption, name, owner, f"an array of numbers with at least {least} axes", brief(values))
+    return array
 
 
 def _kind(shares: FloatArray, curve: FloatArray, target: float, least: float) -> ShareKind:

@@ -15,7 +15,8 @@ from jinja2 import ChoiceLoader, Environment, PackageLoader
 from markupsafe import Markup
 
 from seismass import _kernel
-from seismass.base.errors import MissingPackage, SeismassError
+from seismass.base.errors import InvalidOption, MissingPackage, SeismassError
+from seismass.base.values import as_path
 from seismass.design import response_spectrum_analysis
 from seismass.design.scaling import scale_asce7_10
 from seismass.effective_mass import effective_mass, rule
@@ -146,8 +147,8 @@ RESAMPLES: Final = 2000
 CODES: Final = {"asce7-10": "ASCE 7-10", "nbc": "NBC", "ec8": "EC 8"}
 """Codes whose share for storage the page offers by name, and their short names."""
 ASSUMPTIONS: Final = (
-    "Shear buildings, motion in one direction. Floors, storeys and heights are alike and there is no P-Delta, unless the "
-    "case is that of a building file.",
+    "Shear buildings, motion in one direction. Floors, storeys and heights are alike and there is no P-Delta, unless "
+    "the case is that of a building file.",
     "Trilinear springs with Masing unloading; the second yield is at the overstrength times the first, and the slope "
     "behind it is zero. The second slope is an assumption: results depend on it.",
     "Rigid goods that stick and slide with Coulomb friction; they do not rock, stack or hit walls.",
@@ -155,8 +156,9 @@ ASSUMPTIONS: Final = (
     "Strengths by design: V_y = V_e/R, by a response spectrum analysis (SRSS) of the building with the code's share of "
     "the goods, for the mean 5 % spectrum of the suite at intensity 1. Hand-set strengths and the elastic building "
     "leave that out.",
-    "The suite: seven synthetic motions, not recordings, scaled to the default target by ASCE 7-10 for T = 1 s, "
-    "or as for the site of a building file. The effective fraction is over this suite, whatever motion is shown; other suites give other fractions.",
+    "The suite: seven synthetic motions, not recordings, scaled to the default target by ASCE 7-10 for T = 1 s, or as "
+    "for the site of a building file. The effective fraction is over this suite, whatever motion is shown; other suites "
+    "give other fractions.",
     "The interval is a percentile bootstrap over the seven motions; it says nothing of another suite.",
 )
 """What the page says it assumes."""
@@ -184,7 +186,7 @@ def explorer_html(kernel: Path | None = None) -> str:
     OSError
         The kernel cannot be read.
     """
-    wasm = Path(kernel_file() if kernel is None else kernel).read_bytes()
+    wasm = (kernel_file() if kernel is None else as_path(kernel, "live page", InvalidOption)).read_bytes()
     factors = [0.0, *(float(factor) for factor in FACTORS)]
     animation = element_html(
         {

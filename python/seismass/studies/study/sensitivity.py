@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final, get_args
 import numpy as np
 import polars as pl
 
+from seismass.base.errors import InvalidOption
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
-from seismass.base.values import short_repr
+from seismass.base.values import as_one_of, as_progress, short_repr
 from seismass.base.views import view
 from seismass.design import Combination
 from seismass.design.scaling import ScalingResult, scale_modal_pushover
@@ -21,7 +22,7 @@ from seismass.motions.records import Suite
 from seismass.motions.spectra import TargetSpectrum
 from seismass.studies.study.columns import SENSITIVITY_COLUMNS
 from seismass.studies.study.parameters import MODELS, DampingBase, StudyParameters
-from seismass.studies.study.run import StudyResult, run_study
+from seismass.studies.study.run import StudyResult, checked_study, run_study
 from seismass.studies.study.tables import Drifts, collapsed_of, drifts_of
 
 if TYPE_CHECKING:
@@ -143,7 +144,10 @@ def study_sensitivity(
     InvalidOption, InvalidMotion, KeyboardInterrupt
         As for `run_study`.
     """
-    setup = StudyParameters() if parameters is None else parameters
+    setup = checked_study(suite, target, parameters, store)
+    if as_is is not None:
+        as_one_of(as_is, StudyResult, "as_is", "study", InvalidOption)
+    as_progress(progress, "study")
     changes = [*_changes(setup, target, suite), *_motion_changes(setup, target, suite, threads)]
     if as_is is None:
         as_is = run_study(suite, target, setup, threads=threads)

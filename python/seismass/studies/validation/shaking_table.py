@@ -14,7 +14,8 @@ from typing import Any, Final, Literal, TypeAlias
 import numpy as np
 import polars as pl
 
-from seismass.base.values import FloatArray
+from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.values import FloatArray, as_list, as_one_of, brief, is_one_of, refusal
 from seismass.base.views import Card
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import Building
@@ -51,6 +52,9 @@ def components(station: Station, suite: Suite | None = None) -> tuple[Record, ..
     RecordFormatError
         As for `read_suite`.
     """
+    if not is_one_of(station, STAND_INS):
+        raise refusal(InvalidOption, "station", "validation", " or ".join(STAND_INS), brief(station))
+    as_one_of(suite, (Suite, type(None)), "suite", "validation", InvalidMotion)
     records: dict[str, Record] = {}
     for record in suite or ():
         if record.station != station or record.synthetic:
@@ -151,6 +155,15 @@ def platform_scene(mass_ratio: float, period: float, mu: float, damping: float) 
     return Scene(Building.uniform(1, period, damping=damping), blocks_on_floors([mass_ratio], mu=mu))
 
 
+def check_components(components: Sequence[Record]) -> list[Record]:
+    """Return the components of a station, at least one."""
+    requirement = "a list of at least one Record"
+    records = as_list(components, "components", "validation", InvalidMotion, requirement)
+    if not records or not all(isinstance(record, Record) for record in records):
+        raise refusal(InvalidMotion, "components", "validation", requirement, brief(components))
+    return records
+
+
 def platform(components: Sequence[Record]) -> Platform:
     """Solve the platform over the ranges.
 
@@ -164,10 +177,11 @@ def platform(components: Sequence[Record]) -> Platform:
     Platform
         Runs, bands of histories, and what does not depend on the ranges.
     """
-    models = [record.similitude(LENGTH_RATIO) for record in components]
+    records = check_components(components)
+    models = [record.similitude(LENGTH_RATIO) for record in records]
     runs = _runs(models)
     bands = [_band(model, ratio) for model, ratio in product(models, MASS_RATIOS)]
-    return Platform(runs, tuple(bands), robust_numbers(runs), any(record.synthetic for record in components))
+    return Platform(runs, tuple(bands), robust_numbers(runs), any(record.synthetic for record in records))
 
 
 def _runs(models: Sequence[Record]) -> pl.DataFrame:
