@@ -20,7 +20,7 @@ LINES = """
 assessment 7076   base 2360   commands 4245   design 3907   design/scaling 1119   effective_mass 3319   media 1530
 model 3215   motions 377   motions/matching 1476   motions/pulses 1061   motions/records 3993
 motions/records/formats 3853   motions/records/synthetic 1150   motions/scaling 810   motions/spectra 1819   runs 3480
-runs/grid 1725   show 3443   show/animation 1523   show/assessment 2086   show/explore 318   show/plots 1843
+runs/grid 1725   show 3443   show/animation 1523   show/assessment 2086   show/explore 317   show/plots 1843
 show/study 1985   studies 8   studies/campaign 1626   studies/evidence 1176   studies/fragility 3188
 studies/risk 1664   studies/slip 1682   studies/study 1792   studies/validation 1256   top 97
 """

@@ -1,5 +1,5 @@
-"""Writes docs/figures/explorer.png: the live page in Chromium with the case it opens with, at its largest drift, and its
-dark twin.
+"""Writes docs/figures/explorer.png: the live page in Chromium with the case it opens with, at its largest drift, and
+its dark twin.
 
 Usage: python tools/explorer_figure.py, with Playwright and a Chromium on the path, after make explorer
 """

@@ -1,5 +1,5 @@
-"""Writes docs/figures/film.webp: eight seconds of the built-in example, goods that slide beside the model of a code, and
-its dark twin.
+"""Writes docs/figures/film.webp: eight seconds of the built-in example, goods that slide beside the model of a code,
+and its dark twin.
 
 Usage: python tools/film.py. `seismass animate --example` shows all of it.
 """

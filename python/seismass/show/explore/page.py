@@ -157,8 +157,8 @@ ASSUMPTIONS: Final = (
     "the goods, for the mean 5 % spectrum of the suite at intensity 1. Hand-set strengths and the elastic building "
     "leave that out.",
     "The suite: seven synthetic motions, not recordings, scaled to the default target by ASCE 7-10 for T = 1 s, or as "
-    "for the site of a building file. The effective fraction is over this suite, whatever motion is shown; other suites "
-    "give other fractions.",
+    "for the site of a building file. The effective fraction is over this suite, whatever motion is shown; another "
+    "suite gives another fraction.",
     "The interval is a percentile bootstrap over the seven motions; it says nothing of another suite.",
 )
 """What the page says it assumes."""
