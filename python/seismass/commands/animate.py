@@ -19,12 +19,7 @@ from seismass.commands.options import (
     read_site,
     refuse_options,
 )
-from seismass.commands.scene_or_building import (
-    add_scaling_options,
-    add_site_options,
-    is_building_file,
-    motions_of_file,
-)
+from seismass.commands.scene_or_building import add_scaling_options, add_site_options, is_building_file, motions_of_file
 
 if TYPE_CHECKING:
     from seismass.model.scene import Scene

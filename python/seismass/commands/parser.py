@@ -5,7 +5,6 @@ numbers are typed.
 from __future__ import annotations
 
 import argparse
-import difflib
 import importlib
 import re
 import textwrap
@@ -13,6 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
 from seismass._kernel import VERSION
+from seismass.base.errors import did_you_mean
 
 DONE: Final = 0
 FAILED: Final = 1
@@ -166,14 +166,8 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     args, unknown = parser.parse_known_args(list(joined_numbers(words)))
     if unknown:
         option = unknown[0].partition("=")[0]
-        close = (
-            difflib.get_close_matches(option, command_parser._option_string_actions, n=1)
-            if option.startswith("--")
-            else []
-        )
-        command_parser.error(
-            f"unrecognized arguments: {' '.join(unknown)}{f' (did you mean {close[0]}?)' if close else ''}"
-        )
+        hint = did_you_mean(option, command_parser._option_string_actions) if option.startswith("--") else ""
+        command_parser.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
     return args
 
 

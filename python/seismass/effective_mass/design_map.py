@@ -13,6 +13,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass import _kernel
+from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content, short_repr
@@ -45,7 +46,6 @@ from seismass.effective_mass.rule import (
     floor_coefficient,
     share_by_hand,
 )
-from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
 from seismass.media.result import Result
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import DEFAULT_DAMPING, Building
@@ -56,6 +56,7 @@ from seismass.motions.motion import motion_names, scaled_motions
 from seismass.motions.records import Suite
 from seismass.motions.spectra import TargetSpectrum, mean_spectrum
 from seismass.motions.spectra.target import target_remarks
+from seismass.runs.peaks import NamedMotions, Peaks, named_motions, solve
 from seismass.runs.simulate import instruction_set
 
 if TYPE_CHECKING:
@@ -379,7 +380,7 @@ def effective_mass_map(
     parameters: EffectiveMassParameters | None = None,
     *,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> EffectiveMassMap:
     """Return the effective fraction of live load over a grid of buildings, loads, strengths, friction and intensity.
 
@@ -418,16 +419,16 @@ def effective_mass_map(
     ]
     fractions = np.linspace(0.0, 1.0, options.shares)
     total = len(options.intensities) * sum(map(len, designs)) * (len(fractions) + len(options.mus)) * len(suite)
-    stages, rows = Stages(progress, total), list[dict[str, Any]]()
+    stages, rows = Progress(progress, total, "effective mass map"), list[dict[str, Any]]()
     curves: list[FloatArray] = []
     curve_of: list[int] = []
     for intensity in options.intensities:
         for loads in designs:
             motions = named_motions(scaled_motions(suite, intensity * loads[0].scaling.factors), "effective mass map")
             models = [attached(load.scenes[0], share, options.model_damping) for load in loads for share in fractions]
-            model = solve(models, motions, threads=threads, progress=stages.next(len(models) * len(motions)))
+            model = solve(models, motions, threads=threads, progress=stages.part(len(models) * len(motions)))
             scenes = [scene for load in loads for scene in load.scenes]
-            all_sliding = solve(scenes, motions, threads=threads, progress=stages.next(len(scenes) * len(motions)))
+            all_sliding = solve(scenes, motions, threads=threads, progress=stages.part(len(scenes) * len(motions)))
             for number, load in enumerate(loads):
                 model_part = model.part(number * len(fractions), len(fractions))
                 sliding = all_sliding.part(number * len(options.mus), len(options.mus))

@@ -17,6 +17,7 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
+from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.distributions import Distribution
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import DRIFT_CAP, few_collapses
@@ -33,12 +34,12 @@ from seismass.effective_mass.models import (
     interpolated,
     over_records,
 )
-from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
 from seismass.effective_mass.share import equal_share
 from seismass.media.result import Result, finite_values
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.motions.motion import MotionLike
+from seismass.runs.peaks import NamedMotions, Peaks, named_motions, solve
 from seismass.runs.simulate import instruction_set
 
 if TYPE_CHECKING:
@@ -169,7 +170,7 @@ def live_load_uncertainty(
     damping: ModelDamping = SAME_DAMPING,
     fractions: ArrayLike | None = None,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> LiveLoadUncertainty:
     """Return the share of the design live load to attach where occupancy and friction are random.
 
@@ -224,12 +225,12 @@ def live_load_uncertainty(
     both = np.concatenate([levels, one_at_a_time])
     frictions = _sampled(mu, both[:, 0], "mu", np.inf)
     present = _sampled(occupancy, both[:, 1], "occupancy", 1.0)
-    stages = Stages(progress, (len(shares) + len(both)) * len(named))
+    stages = Progress(progress, (len(shares) + len(both)) * len(named), owner)
     models = [attached(checked, share, convention) for share in shares]
     how: dict[str, Any] = {"drift_cap": check_cap(drift_cap, owner), "threads": threads}
-    model = solve(models, named, **how, progress=stages.next(len(models) * len(named)))
+    model = solve(models, named, **how, progress=stages.part(len(models) * len(named)))
     scenes = [_with_goods(checked, friction, share) for friction, share in zip(frictions, present, strict=True)]
-    sliding = solve(scenes, named, **how, progress=stages.next(len(scenes) * len(named)))
+    sliding = solve(scenes, named, **how, progress=stages.part(len(scenes) * len(named)))
     model_drift, sliding_drift = over_records(model.largest, "mean"), over_records(sliding.largest, "mean")
     shares_of_runs = interpolated(
         shares,

@@ -9,14 +9,15 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption, InvalidScene, SimulationError
 from seismass.base.statistics import interval_of
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_array, as_number, brief, is_one_of, refusal
-from seismass.effective_mass.runs import Peaks
+from seismass.base.values import FloatArray, as_array, as_number, brief, refusal
 from seismass.model.block import SlidingBase
 from seismass.model.building import Building
 from seismass.model.scene import Scene
+from seismass.runs.peaks import Peaks
 
 Statistic: TypeAlias = Literal["mean", "median"]
 """What is taken of the largest drifts over the records."""
@@ -35,9 +36,7 @@ FRACTIONS_OF_VECTORS: Final = np.linspace(0.0, 1.0, 21)
 
 def check_statistic(statistic: Any, owner: str) -> Statistic:
     """Return the name of a statistic."""
-    if not is_one_of(statistic, get_args(Statistic)):
-        raise refusal(InvalidOption, "statistic", owner, "mean or median", brief(statistic))
-    checked: Statistic = statistic
+    checked: Statistic = as_word(statistic, get_args(Statistic), "statistic", owner)
     return checked
 
 
@@ -425,9 +424,7 @@ def check_loaded(scene: Any, owner: str = "effective mass") -> Scene:
 
 def check_damping(damping: Any, owner: str) -> ModelDamping:
     """Return a convention of damping."""
-    if not is_one_of(damping, get_args(ModelDamping)):
-        raise refusal(InvalidOption, "damping", owner, "same or ratio", brief(damping))
-    checked: ModelDamping = damping
+    checked: ModelDamping = as_word(damping, get_args(ModelDamping), "damping", owner)
     return checked
 
 

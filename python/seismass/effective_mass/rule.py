@@ -27,10 +27,10 @@ from numpy.typing import ArrayLike
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.effective_mass.models import building_of, frame_mass, friction, full_weight, goods_mass
-from seismass.effective_mass.runs import LARGER, DriftMeasure, NamedMotions
 from seismass.model.building import Building
 from seismass.model.scene import Scene
 from seismass.motions.spectra import TargetSpectrum, mean_spectrum
+from seismass.runs.peaks import LARGER, DriftMeasure, NamedMotions
 
 SLOPE: Final = 1.35
 """Factor of mu/C1."""

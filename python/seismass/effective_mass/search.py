@@ -9,10 +9,11 @@ from typing import Any, Final
 import numpy as np
 
 from seismass import _kernel
+from seismass.base.arguments import ProgressLike, as_bootstrap, as_progress, as_threads
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import DRIFT_CAP, few_collapses
-from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
+from seismass.base.values import FloatArray, brief, refusal
 from seismass.effective_mass.models import (
     DEFAULT_FRACTIONS,
     FRACTIONS_OF_VECTORS,
@@ -52,11 +53,11 @@ from seismass.effective_mass.result import (
     storey_drifts,
 )
 from seismass.effective_mass.rule import by_hand, remarks_of_structure
-from seismass.effective_mass.runs import LARGER, DriftMeasure, NamedMotions, Peaks, Progress, check_drift, solve
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.model.springs import SHAPE_FIELDS
 from seismass.motions.spectra import TargetSpectrum
+from seismass.runs.peaks import LARGER, DriftMeasure, NamedMotions, Peaks, check_drift, solve
 from seismass.runs.simulate import instruction_set
 
 OWNER: Final = "effective mass"
@@ -76,7 +77,7 @@ class Options:
     resamples: int
     seed: int
     threads: int | None
-    progress: Progress | None
+    progress: ProgressLike
     target: TargetSpectrum | None = None
 
 
@@ -94,11 +95,7 @@ def checked_options(
     target: Any = None,
 ) -> Options:
     """Return the arguments of `effective_mass`; one that is not what it must be is refused."""
-    probability = as_number(confidence, "confidence", OWNER, InvalidOption)
-    if not 0.0 < probability < 1.0:
-        raise refusal(InvalidOption, "confidence", OWNER, "above 0 and below 1", f"{probability:g}")
-    if progress is not None and not callable(progress):
-        raise refusal(InvalidOption, "progress", OWNER, "a callable of two numbers", brief(progress))
+    probability, draws, start = as_bootstrap(confidence, resamples, seed, OWNER)
     if target is not None and not isinstance(target, TargetSpectrum):
         raise refusal(InvalidOption, "target", OWNER, "a TargetSpectrum", brief(target))
     return Options(
@@ -108,10 +105,10 @@ def checked_options(
         damping=check_damping(damping, OWNER),
         fractions=check_fractions(fractions, OWNER, FRACTIONS_OF_VECTORS if drift == "vector" else DEFAULT_FRACTIONS),
         confidence=probability,
-        resamples=as_count(resamples, "resamples", OWNER, InvalidOption, least=1),
-        seed=as_count(seed, "seed", OWNER, InvalidOption),
-        threads=None if threads is None else as_count(threads, "threads", OWNER, InvalidOption, least=1),
-        progress=progress,
+        resamples=draws,
+        seed=start,
+        threads=as_threads(threads, OWNER),
+        progress=as_progress(progress, OWNER),
         target=target,
     )
 

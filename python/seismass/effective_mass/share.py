@@ -8,9 +8,10 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import interval_of
-from seismass.base.values import FloatArray, as_number, brief, frozen, is_one_of, refusal, short_repr
+from seismass.base.values import FloatArray, as_number, frozen, refusal, short_repr
 from seismass.effective_mass.models import bootstrap_counts, interpolated, is_below, kind_of
 
 ShareStatistic: TypeAlias = Literal["mean", "ln mean", "quantile"]
@@ -104,8 +105,7 @@ def equal_share(
     (0.55, 'root')
     """
     owner = "equal share"
-    if not is_one_of(statistic, get_args(ShareStatistic)):
-        raise refusal(InvalidOption, "statistic", owner, "one of mean, ln mean, quantile", brief(statistic))
+    as_word(statistic, get_args(ShareStatistic), "statistic", owner)
     level = as_number(probability, "probability", owner, InvalidOption)
     grid, of_model, of_real = (np.asarray(values, dtype=np.float64) for values in (shares, model, sliding))
     if of_model.shape[:2] != (len(grid), len(of_real)) or not (np.diff(grid) > 0.0).all():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Final
@@ -13,12 +13,12 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass import _kernel
+from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
 from seismass.base.values import brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import view
-from seismass.effective_mass.runs import Stages
 from seismass.media.result import Result, finite_values
 from seismass.model.codes import code_fraction
 from seismass.motions.records import Suite, builtin_suite
@@ -137,7 +137,7 @@ def evidence(
     vary: bool = False,
     resamples: int = 300,
     threads: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
     store: StoredResults = NOTHING_STORED,
 ) -> Evidence:
     """Return which share of the design live load, as mass, gives archetypes the response with the goods that slide.
@@ -208,11 +208,11 @@ def evidence(
     varied = variants(fewer, suites, typical) if vary else []
     everything = [*work, *((_Part("vary", each.suite, each.setting, False), each.archetype) for each in varied)]
     total = sum(runs_of(each, part.setting, len(part.suite), part.redesign) for part, each in everything)
-    stages = Stages(progress, total)
+    stages = Progress(progress, total, "evidence")
 
     def solved(part: _Part, archetype: Archetype, slope: float | None = None) -> Answer:
         runs = runs_of(archetype, part.setting, len(part.suite), part.redesign)
-        tell = stages.next(runs) or (lambda *_: None)
+        tell = stages.part(runs) or (lambda *_: None)
         digest = inputs_digest(part.setting, archetype, part.redesign, motion_contents(part.suite))[:24]
         how: dict[str, Any] = {"redesign": part.redesign, "threads": threads, "report": lambda done: tell(done, runs)}
         make = lambda: solved_archetype(archetype, part.setting, part.suite, **how)  # noqa: E731

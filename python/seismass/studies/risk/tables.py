@@ -9,8 +9,9 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 import numpy as np
 import polars as pl
 
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, brief, counted, is_one_of, refusal
+from seismass.base.values import FloatArray, counted, refusal
 from seismass.effective_mass.models import (
     Kind,
     ModelDamping,
@@ -37,9 +38,7 @@ Estimator: TypeAlias = Literal["lognormal", "empirical"]
 
 def check_estimator(estimator: Any, owner: str) -> Estimator:
     """Return the name of an estimator."""
-    if not is_one_of(estimator, get_args(Estimator)):
-        raise refusal(InvalidOption, "estimator", owner, "lognormal or empirical", brief(estimator))
-    checked: Estimator = estimator
+    checked: Estimator = as_word(estimator, get_args(Estimator), "estimator", owner)
     return checked
 
 

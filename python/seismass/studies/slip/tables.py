@@ -13,10 +13,10 @@ from seismass.base.statistics import QUANTILES, interval_of, quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, counted
 from seismass.effective_mass.rule import one_direction_of_slip
-from seismass.effective_mass.runs import NamedMotions
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.model.tipping import BlockSize
+from seismass.runs.peaks import NamedMotions
 from seismass.studies.slip.clearance import Clearance, place_columns, place_names, places_of
 from seismass.studies.slip.estimates import log_ratio
 from seismass.studies.slip.runs import SlipRuns, SolvedMotion

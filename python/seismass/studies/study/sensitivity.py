@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final, get_args
 import numpy as np
 import polars as pl
 
+from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
 from seismass.base.values import short_repr
 from seismass.base.views import view
@@ -119,7 +120,7 @@ def study_sensitivity(
     *,
     as_is: StudyResult | None = None,
     threads: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
     store: StoredResults = NOTHING_STORED,
 ) -> Sensitivity:
     """Run the study again with each choice changed alone, from springs and damping to the statistic over records.
@@ -151,9 +152,9 @@ def study_sensitivity(
     summary = as_is.summary
     rows = _rows(AS_IS, "", summary, base_drifts, np.mean)
     of_base: dict[str, tuple[pl.DataFrame, Drifts]] = {setup.damping_base: (summary, base_drifts)}
+    whole = Progress(progress, len(changes) + 1, "sensitivity")
     for number, change in enumerate(changes, start=1):
-        if progress is not None:
-            progress(number, len(changes) + 1)
+        whole.tell()
         table = store.of(f"changed-{number}", partial(_study_of, change, threads))
         drifts: Drifts = {model: np.array(table[model].to_list()) for model in MODELS}
         rows += _rows(change.choice, change.setting, table, drifts, np.mean)
@@ -170,8 +171,7 @@ def study_sensitivity(
         others: Drifts = {model: np.delete(values, left_out, axis=1) for model, values in base_drifts.items()}
         counts = {f"collapses_{model}": np.delete(fell, left_out, axis=1).sum(axis=1) for model, fell in fallen.items()}
         rows += _rows("one record left out", name, summary.with_columns(**counts), others, np.mean)
-    if progress is not None:
-        progress(len(changes) + 1, len(changes) + 1)
+    whole.tell()
     rows_of_changes = pl.DataFrame(rows, schema=list(SENSITIVITY_COLUMNS), orient="row").with_columns(
         pl.col("collapses").cast(pl.UInt32)
     )

@@ -6,12 +6,13 @@ package; without them built-in motions stand in, and results say so.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import polars as pl
 
+from seismass.base.arguments import ProgressLike
 from seismass.base.errors import InvalidMotion
 from seismass.base.values import brief, refusal, short_repr
 from seismass.base.views import view
@@ -160,7 +161,7 @@ def paper_scenes(
     suite: Suite | None = None,
     *,
     springs: Sequence[tuple[float, int]] = SPRINGS,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
 ) -> tuple[Section4, Platform]:
     """Solve the scenes of the paper's section 4: the three-storey building and the platform.
 
@@ -190,7 +191,7 @@ def validate(
     sensitivity: Sensitivity | None = None,
     scenes: tuple[Section4, Platform] | None = None,
     threads: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
 ) -> Validation:
     """Run all validations.
 

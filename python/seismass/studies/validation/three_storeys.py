@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import product
@@ -19,6 +19,7 @@ import numpy as np
 import polars as pl
 
 from seismass import _kernel
+from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.errors import SimulationError
 from seismass.base.values import FloatArray
 from seismass.base.views import Card
@@ -136,7 +137,7 @@ def section4(
     components: Sequence[Record],
     *,
     springs: Sequence[tuple[float, int]] = SPRINGS,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
 ) -> Section4:
     """Solve the building of section 4 for all components, peaks and second slopes, and compare the programs.
 
@@ -156,26 +157,19 @@ def section4(
         Runs, differences and histories. OpenSees has its part where its kept results are of these samples.
     """
     compared = list(product(components, COMPARED_SLOPES))
-    done, total = 0, len(compared) * (1 + len(springs))
-
-    def tell(solved: int) -> None:
-        nonlocal done
-        done += solved
-        if progress is not None:
-            progress(done, total)
-
-    tell(0)
+    whole = Progress(progress, len(compared) * (1 + len(springs)), "section 4")
+    whole.tell(0)
     grid = product(components, SECOND_SLOPES, PEAKS_G)
     runs = [_run(label(record), record, slope, peak) for record, slope, peak in grid]
     histories: list[Histories] = []
     differences: list[dict[str, Any]] = []
     for record, slope in compared:
         exact = _exact(record, slope)
-        tell(1)
+        whole.tell()
         others: list[Histories] = []
         for setting in springs:
             others.append(_springs(record, slope, *setting))
-            tell(1)
+            whole.tell()
         others += _opensees(record, slope)
         histories += [exact, *(item for item in others if item.time.size)]
         differences += [_difference(item, exact) for item in others]
