@@ -31,8 +31,9 @@ import polars as pl
 import seismass as sm
 from environment import page_module
 from seismass.base.values import FloatArray
-from seismass.effective_mass.models import attached, full_weight, interpolated
+from seismass.effective_mass.models import attached, full_weight
 from seismass.effective_mass.rule import by_hand
+from seismass.effective_mass.share import interpolated
 from seismass.model.building import Building
 from seismass.model.scene import Scene
 from seismass.motions.records import Pair

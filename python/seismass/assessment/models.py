@@ -14,6 +14,7 @@ from seismass.assessment.building import OwnBuilding
 from seismass.assessment.file_site import PERIOD_MASSES
 from seismass.base.arguments import ProgressLike
 from seismass.base.errors import InvalidOption, SimulationError
+from seismass.base.statistics import or_infinite
 from seismass.base.values import FloatArray, as_number
 from seismass.design.scaling import ScalingResult, scale_by_code
 from seismass.design.scaling.asce7 import period_of_mass
@@ -258,7 +259,7 @@ def motion_of_runs(runs: pl.DataFrame) -> int:
     by_motion = rows.group_by("motion", maintain_order=True).agg(
         pl.col("collapsed").any(), pl.col("peak_drift").max(), slides=(pl.col("peak_slip") > 0.0).any()
     )
-    drift = np.where(by_motion["collapsed"].to_numpy(), np.inf, by_motion["peak_drift"].to_numpy())
+    drift = or_infinite(by_motion["peak_drift"].to_numpy(), by_motion["collapsed"].to_numpy())
     slides = by_motion["slides"].fill_null(value=False).to_numpy() & np.isfinite(drift)
     return _median(drift, np.flatnonzero(slides) if slides.any() else np.arange(len(drift)))
 

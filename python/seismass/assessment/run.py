@@ -47,9 +47,10 @@ from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.files import without_formulas
+from seismass.base.statistics import bootstrap_counts
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.design.scaling import ScalingResult
-from seismass.effective_mass.models import SHARES_BEYOND, bootstrap_counts, check_cap, goes_beyond
+from seismass.effective_mass.models import SHARES_BEYOND, check_cap, goes_beyond
 from seismass.model.codes import CodeFraction
 from seismass.model.friction import bound_factors
 from seismass.motions.motion import motion_names, scaled_motions

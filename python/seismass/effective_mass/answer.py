@@ -16,13 +16,12 @@ from numpy.typing import ArrayLike
 
 from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.statistics import DRIFT_CAP
+from seismass.base.statistics import DRIFT_CAP, Statistic
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.effective_mass.models import (
     SAME_DAMPING,
     SHARES_BEYOND,
     ModelDamping,
-    Statistic,
     attached,
     check_any_load,
     goes_beyond,

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from seismass import _kernel
 from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.statistics import QUANTILES, over_records, quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import view
@@ -23,17 +24,11 @@ from seismass.design.scaling import ScalingResult, scale_asce7_10
 from seismass.effective_mass.models import (
     DEFAULT_FRACTIONS,
     SAME_DAMPING,
-    Kind,
     ModelDamping,
     attached,
     building_of,
     check_damping,
     full_weight,
-    interpolated,
-    is_below,
-    kind_of,
-    over_records,
-    resampled,
 )
 from seismass.effective_mass.rule import (
     OFFSET,
@@ -46,6 +41,7 @@ from seismass.effective_mass.rule import (
     floor_coefficient,
     share_by_hand,
 )
+from seismass.effective_mass.share import Kind, equal_share, interpolated, is_below, kind_of
 from seismass.media.result import Result
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import DEFAULT_DAMPING, Building
@@ -354,11 +350,9 @@ class EffectiveMassMap(Result):
         for low, high in pairwise(ETA_EDGES):
             inside = value[(low <= eta) & (eta < high)]
             if len(inside):
-                p16, median, p84 = np.percentile(inside, [16.0, 50.0, 84.0]).tolist()
+                quantiles = {name: float(quantile(inside, share)) for name, share in QUANTILES.items()}
                 upper = None if np.isinf(high) else high
-                rows.append(
-                    {"eta_from": low, "eta_to": upper, "cases": len(inside), "p16": p16, "median": median, "p84": p84}
-                )
+                rows.append({"eta_from": low, "eta_to": upper, "cases": len(inside), **quantiles})
         return pl.DataFrame(rows, schema_overrides={"eta_to": pl.Float64})
 
 
@@ -565,14 +559,10 @@ def _intervals(
     """Bootstrap interval of each friction coefficient; the resampled models are shared."""
     if motions.clusters < 2:
         return None, None
-    both = np.concatenate([model.largest, sliding.largest])
     how: dict[str, Any] = {"cluster_of": motions.cluster_of, "resamples": options.resamples, "seed": options.seed}
-    drawn, _ = resampled(both, both[:1], statistic="mean", **how)
-    shares, fractions = model.scenes, np.linspace(0.0, 1.0, options.shares)
-    tail = 50.0 * (1.0 - options.confidence)
-    ends = np.ones((2, sliding.scenes))
+    how |= {"confidence": options.confidence}
+    fractions, ends = np.linspace(0.0, 1.0, options.shares), np.ones((2, sliding.scenes))
     for case in np.flatnonzero(slides):
-        against = np.broadcast_to(drawn[:, shares + case, None], (len(drawn), shares))
-        ends[:, case] = np.percentile(interpolated(fractions, drawn[:, :shares], against), [tail, 100.0 - tail])
+        ends[:, case] = equal_share(fractions, model.largest, sliding.largest[case], **how).interval
     ends[:, np.array(options.mus) == 0.0] = 0.0
     return ends[0], ends[1]

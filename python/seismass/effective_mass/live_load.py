@@ -20,7 +20,7 @@ from seismass import _kernel
 from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.distributions import Distribution
 from seismass.base.errors import InvalidOption
-from seismass.base.statistics import DRIFT_CAP, few_collapses
+from seismass.base.statistics import DRIFT_CAP, few_collapses, over_records, quantile
 from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import view
 from seismass.effective_mass.models import (
@@ -31,10 +31,8 @@ from seismass.effective_mass.models import (
     check_damping,
     check_fractions,
     check_loaded,
-    interpolated,
-    over_records,
 )
-from seismass.effective_mass.share import equal_share
+from seismass.effective_mass.share import equal_share, interpolated
 from seismass.media.result import Result, finite_values
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
@@ -244,8 +242,8 @@ def live_load_uncertainty(
     return LiveLoadUncertainty(
         share=share,
         interval=interval,
-        share_84=float(np.quantile(values, 0.84)),
-        quantiles=pl.DataFrame({"probability": LEVELS, "share": np.quantile(values, LEVELS)}),
+        share_84=float(quantile(values, 0.84)),
+        quantiles=pl.DataFrame({"probability": LEVELS, "share": [float(quantile(values, level)) for level in LEVELS]}),
         tornado=_tornado(frictions[count:], present[count:], shares_of_runs[count:]),
         samples=pl.DataFrame(
             {

@@ -12,7 +12,16 @@ from seismass import _kernel
 from seismass.base.arguments import ProgressLike, as_bootstrap, as_progress, as_threads
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidOption
-from seismass.base.statistics import DRIFT_CAP, few_collapses
+from seismass.base.statistics import (
+    DRIFT_CAP,
+    Statistic,
+    bootstrap_counts,
+    check_statistic,
+    few_collapses,
+    interval_of,
+    over_records,
+    weighted,
+)
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.effective_mass.models import (
     DEFAULT_FRACTIONS,
@@ -20,29 +29,16 @@ from seismass.effective_mass.models import (
     FROM_ONE,
     LARGEST_SHARE,
     SHARES_BEYOND,
-    Kind,
     ModelDamping,
-    Statistic,
     attached,
-    bootstrap_counts,
     building_of,
     check_cap,
     check_damping,
     check_fractions,
-    check_statistic,
-    crossings,
-    extended,
-    first_bracket,
     friction,
     full_weight,
     goes_beyond,
-    interpolated,
-    is_below,
     joined,
-    kind_of,
-    over_records,
-    refined_root,
-    weighted,
 )
 from seismass.effective_mass.result import (
     SCHEMA_VERSION,
@@ -53,6 +49,16 @@ from seismass.effective_mass.result import (
     storey_drifts,
 )
 from seismass.effective_mass.rule import by_hand, remarks_of_structure
+from seismass.effective_mass.share import (
+    Kind,
+    crossings,
+    extended,
+    first_bracket,
+    interpolated,
+    is_below,
+    kind_of,
+    refined_root,
+)
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.model.springs import SHAPE_FIELDS
@@ -245,10 +251,8 @@ class Search:
             return None, None
         counts = bootstrap_counts(self.motions.cluster_of, options.resamples, options.seed)
         model_drift, sliding_drift = self._weighted(sliding, model, counts)
-        tail = 50.0 * (1.0 - options.confidence)
-        low, high = np.percentile(self._shares(kind, model_drift, sliding_drift), [tail, 100.0 - tail])
-        band = np.percentile(sliding_drift / model_drift, [tail, 100.0 - tail], axis=0)
-        return (float(low), float(high)), band
+        low, high = interval_of(self._shares(kind, model_drift, sliding_drift), options.confidence)
+        return (float(low), float(high)), np.array(interval_of(sliding_drift / model_drift, options.confidence))
 
     def _shares(self, kind: Kind, model: FloatArray, sliding: FloatArray) -> FloatArray:
         """Effective fraction of each row of drifts of model and real building, by interpolation on the grid."""

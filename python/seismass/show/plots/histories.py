@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from seismass.base.arguments import as_word, is_one_of
+from seismass.base.arguments import is_one_of
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_count, as_list, as_one_of, brief, is_list, refusal
@@ -52,7 +52,8 @@ def event_kinds(kinds: bool | Sequence[str], usual: tuple[str, ...], owner: str)
     requirement = f"True, False or some of {', '.join(EVENT_KINDS)}"
     listed = (kinds,) if isinstance(kinds, str) else tuple(as_list(kinds, "events", owner, InvalidOption, requirement))
     for kind in listed:
-        as_word(kind, EVENT_KINDS, "events", owner)
+        if not is_one_of(kind, EVENT_KINDS):
+            raise refusal(InvalidOption, "events", owner, requirement, brief(kind))
     return listed
 
 

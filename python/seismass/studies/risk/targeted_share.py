@@ -22,7 +22,6 @@ from seismass.base.views import view
 from seismass.effective_mass.answer import effective_mass
 from seismass.effective_mass.models import (
     SAME_DAMPING,
-    Kind,
     ModelDamping,
     attached,
     building_of,
@@ -31,6 +30,7 @@ from seismass.effective_mass.models import (
     check_loaded,
 )
 from seismass.effective_mass.result import EffectiveMass
+from seismass.effective_mass.share import Kind
 from seismass.media.result import Result, finite_values
 from seismass.model.scene import Scene
 from seismass.motions.motion import HasMotion, Motion, MotionLike

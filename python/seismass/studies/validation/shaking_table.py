@@ -14,6 +14,7 @@ from typing import Any, Final, Literal, TypeAlias
 import numpy as np
 import polars as pl
 
+from seismass.base.statistics import quantile
 from seismass.base.values import FloatArray
 from seismass.base.views import Card
 from seismass.model.block import blocks_on_floors
@@ -237,8 +238,7 @@ def robust_numbers(runs: pl.DataFrame) -> dict[str, Any]:
 
 def _fractiles(values: pl.Series) -> list[float]:
     """5, 50 and 95 % fractiles."""
-    fractiles: list[float] = np.quantile(values.to_numpy(), (0.05, 0.5, 0.95)).tolist()
-    return fractiles
+    return [float(quantile(values.to_numpy(), share)) for share in (0.05, 0.5, 0.95)]
 
 
 def _spread(runs: pl.DataFrame, name: str) -> float:
