@@ -158,6 +158,9 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     """
     command = next((word for word in words if not word.startswith("-")), "")
     parser = build_parser(command)
+    if command and command not in COMMANDS:
+        known = ", ".join(COMMANDS)
+        parser.error(f"invalid choice: {command!r}{did_you_mean(command, COMMANDS)}; commands are {known}")
     actions = (action for action in parser._actions if isinstance(action, argparse._SubParsersAction))
     command_parser = next(actions).choices.get(command, parser)
     if list(words) == [command] and command in NEVER_BARE:
