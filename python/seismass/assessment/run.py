@@ -14,7 +14,6 @@ from seismass import _kernel
 from seismass.assessment.advice import advice_of, assumptions_of, remarks_of
 from seismass.assessment.answer import (
     ANALYSIS,
-    SHARES,
     advised_share,
     analysis_table,
     answer_of,
@@ -50,7 +49,7 @@ from seismass.base.files import without_formulas
 from seismass.base.statistics import bootstrap_counts
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.design.scaling import ScalingResult
-from seismass.effective_mass.models import SHARES_BEYOND, check_cap, goes_beyond
+from seismass.effective_mass.models import DEFAULT_FRACTIONS, SHARES_BEYOND, check_cap, goes_beyond
 from seismass.model.codes import CodeFraction
 from seismass.model.friction import bound_factors
 from seismass.motions.motion import motion_names, scaled_motions
@@ -59,8 +58,6 @@ from seismass.motions.spectra import TargetSpectrum
 from seismass.runs.peaks import named_motions
 from seismass.runs.simulate import instruction_set
 
-SHARES_OF_AMOUNTS: Final = np.linspace(0.0, 1.0, 21)
-"""Shares at which models are solved for another amount of goods."""
 FIXED_MODELS: Final = 4
 """Models that every assessment with goods solves beside those with goods that slide."""
 
@@ -151,12 +148,12 @@ def assess(
     loaded = bool((stated.goods_mass > 0.0).any())
     frictions = friction_factors(stated) if loaded else {}
     models = len(frictions) + FIXED_MODELS if loaded else 1
-    fractions = len(frictions) + SHARES if loaded else 0
+    fractions = len(frictions) + len(DEFAULT_FRACTIONS) if loaded else 0
     designs = 2 * len(design_shares(stated)) if loaded and stated.design is not None else 0
     larger = len(SHARES_BEYOND) if loaded and goes_beyond(stated.scene(spectrum)) else 0
     floors, others = other_amounts(stated)
     models_of_tipping = other_models(stated)
-    of_amount = len(frictions) + len(SHARES_OF_AMOUNTS) + larger
+    of_amount = len(frictions) + len(DEFAULT_FRACTIONS) + larger
     runs_of_motion = models + fractions + larger + designs + (len(others) + len(models_of_tipping)) * of_amount
     stages = Progress(progress, runs_of_motion * len(suite), "assessment")
     bootstrap = {"confidence": confidence, "resamples": resamples, "seed": seed}
@@ -176,7 +173,7 @@ def assess(
         try:
             own_scaling = scaled_to_site(case, suite, spectrum, scaling_period, threads=threads) if scale else None
             motions = scaled_motions(suite, _factors(suite, own_scaling))
-            how = (motions, {**bootstrap, "resamples": 1}, threads, tell, SHARES_OF_AMOUNTS)
+            how = (motions, {**bootstrap, "resamples": 1}, threads, tell)
             effective = fractions_by_friction(case, spectrum, frictions, *how)
         except (InvalidScene, InvalidOption) as error:  # P-Delta or the site spectrum may not allow so much
             return PresentGoods(floors, case.present_share, reason=f"{error}")

@@ -94,8 +94,11 @@ def run(args: argparse.Namespace) -> int:
     from seismass.studies.study.run import study_digest
 
     choices = ("code", "mu", "damping_base", "combination", "height", "p_delta", "collapse_drift_ratio", "drift_cap")
-    renamed = {"occupancies": "occupancy", "scaling_period": "period", "yield_at_r1": "yield_at_R1"}
-    parameters = StudyParameters(**arguments(args, *choices, *SPRING_OPTIONS, **renamed))
+    renamed = {"scaling_period": "period", "yield_at_r1": "yield_at_R1"}
+    parameters = StudyParameters(
+        **arguments(args, *choices, *SPRING_OPTIONS, **renamed),
+        occupancies=None if args.occupancy is None else tuple(args.occupancy),
+    )
     target = read_target(args)
     suite = read_motions(args, "seven")
     inputs = f"{study_digest(suite, target, parameters)} {VERSION} {instruction_set()}"

@@ -21,15 +21,7 @@ from seismass.base.values import FloatArray, as_count, as_number, brief, content
 from seismass.base.views import view
 from seismass.design import Combination, response_spectrum_analysis, vibration_modes
 from seismass.design.scaling import ScalingResult, scale_asce7_10
-from seismass.effective_mass.models import (
-    DEFAULT_FRACTIONS,
-    SAME_DAMPING,
-    ModelDamping,
-    attached,
-    building_of,
-    check_damping,
-    full_weight,
-)
+from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, building_of, check_damping, full_weight
 from seismass.effective_mass.rule import (
     OFFSET,
     RULES,
@@ -140,7 +132,7 @@ class EffectiveMassParameters:
     confidence: float = 0.90
     resamples: int = 500
     seed: int = 0
-    shares: int = len(DEFAULT_FRACTIONS)
+    shares: int = 101
 
     def __post_init__(self) -> None:
         """Judge the axes and keep numbers as Python's own; building, design and scaling judge the rest."""

@@ -7,19 +7,19 @@ from functools import partial
 from itertools import groupby
 from typing import Any, Final
 
-import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass.base.arguments import Progress, ProgressLike
+from seismass.base.arguments import Progress, ProgressLike, as_bootstrap, as_threads
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import DRIFT_CAP, few_collapses
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
-from seismass.base.values import FloatArray, brief, refusal
+from seismass.base.values import FloatArray, as_one_of, brief, is_list, refusal
 from seismass.effective_mass.models import (
     SAME_DAMPING,
     ModelDamping,
     attached,
+    check_cap,
     check_damping,
     check_fractions,
     check_loaded,
@@ -32,8 +32,6 @@ from seismass.runs.grid.grid import Grid
 from seismass.runs.peaks import NamedMotions, Peaks, named_motions, solve
 
 OWNER: Final = "effective mass table"
-SHARES: Final = np.linspace(0.0, 1.0, 21)
-"""Shares at which models are solved; crossings are linear between them."""
 _AT_ONCE: Final = 64
 
 
@@ -88,16 +86,17 @@ def effective_mass_table(
     >>> sm.evidence.effective_mass_table(grid, sm.builtin_suite("seven"))["kind"].to_list()
     ['root', 'stuck', 'root', 'stuck']
     """
-    named, shares, convention = (
-        named_motions(motions, OWNER),
-        check_fractions(fractions, OWNER, SHARES),
-        check_damping(damping, OWNER),
-    )
+    named, shares = named_motions(motions, OWNER), check_fractions(fractions, OWNER)
+    convention, cap = check_damping(damping, OWNER), check_cap(drift_cap, OWNER)
+    as_one_of(store, StoredResults, "store", OWNER, InvalidOption)
+    if not (isinstance(scenes, Grid) or is_list(scenes)) or not len(scenes):
+        raise refusal(InvalidOption, "scenes", OWNER, "a Grid or a list of Scenes", brief(scenes))
     if isinstance(scenes, Grid) and {"scale", "motion"} & set(scenes.table(1, 1).columns):
         raise refusal(InvalidOption, "scenes", OWNER, "a grid without scale and motion", brief(scenes))
     stages = Progress(progress, len(scenes) * (1 + len(shares)) * len(named), OWNER)
-    how: dict[str, Any] = {"drift_cap": drift_cap, "threads": threads}
-    bootstrap: dict[str, Any] = {"cluster_of": named.cluster_of, "resamples": resamples, "seed": seed}
+    how: dict[str, Any] = {"drift_cap": cap, "threads": as_threads(threads, OWNER)}
+    _, count, start = as_bootstrap(0.9, resamples, seed, OWNER)
+    bootstrap: dict[str, Any] = {"cluster_of": named.cluster_of, "resamples": count, "seed": start}
 
     def part(first: int) -> pl.DataFrame:
         numbers = range(first, min(first + _AT_ONCE, len(scenes)))

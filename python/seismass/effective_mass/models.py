@@ -15,10 +15,8 @@ from seismass.model.building import Building
 from seismass.model.scene import Scene
 from seismass.runs.peaks import Peaks
 
-DEFAULT_FRACTIONS: Final = np.linspace(0.0, 1.0, 101)
-"""Shares at which models are solved before roots are refined."""
-FRACTIONS_OF_VECTORS: Final = np.linspace(0.0, 1.0, 21)
-"""The same where drifts are lengths of vectors, for which a model takes a run in two directions."""
+DEFAULT_FRACTIONS: Final = np.linspace(0.0, 1.0, 21)
+"""Shares at which models are solved before roots are refined; intervals are linear between them."""
 
 
 def check_cap(drift_cap: Any, owner: str) -> float:
@@ -29,10 +27,10 @@ def check_cap(drift_cap: Any, owner: str) -> float:
     return cap
 
 
-def check_fractions(fractions: Any, owner: str, default: FloatArray = DEFAULT_FRACTIONS) -> FloatArray:
-    """Return shares in increasing order from 0 to 1, those of a default where none are given."""
+def check_fractions(fractions: Any, owner: str) -> FloatArray:
+    """Return shares in increasing order from 0 to 1, by default in steps of 0.05."""
     if fractions is None:
-        return default
+        return DEFAULT_FRACTIONS
     shares = as_array(fractions, "fractions", owner, InvalidOption)
     requirement = "a list in increasing order that begins with 0 and ends with 1"
     if len(shares) < 2 or shares[0] != 0.0 or shares[-1] != 1.0 or not (np.diff(shares) > 0.0).all():

@@ -24,8 +24,6 @@ from seismass.base.statistics import (
 )
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.effective_mass.models import (
-    DEFAULT_FRACTIONS,
-    FRACTIONS_OF_VECTORS,
     FROM_ONE,
     LARGEST_SHARE,
     SHARES_BEYOND,
@@ -109,7 +107,7 @@ def checked_options(
         drift=check_drift(drift, OWNER),
         drift_cap=check_cap(drift_cap, OWNER),
         damping=check_damping(damping, OWNER),
-        fractions=check_fractions(fractions, OWNER, FRACTIONS_OF_VECTORS if drift == "vector" else DEFAULT_FRACTIONS),
+        fractions=check_fractions(fractions, OWNER),
         confidence=probability,
         resamples=draws,
         seed=start,

@@ -10,10 +10,10 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seismass.base.arguments import as_word
+from seismass.base.arguments import as_bootstrap, as_share, as_word
 from seismass.base.errors import InvalidOption, SimulationError
 from seismass.base.statistics import ShareStatistic, bootstrap_counts, interval_of, weighted
-from seismass.base.values import FloatArray, as_number, frozen, refusal, short_repr
+from seismass.base.values import FloatArray, as_array, as_number, brief, frozen, refusal, short_repr
 
 ShareKind: TypeAlias = Literal["root", "multiple", "zero", "one", "rare", "flat"]
 Kind: TypeAlias = Literal["stuck", "root", "multiple", "zero", "one", "beyond", "collapsed"]
@@ -235,28 +235,43 @@ def equal_share(
     """
     owner = "equal share"
     as_word(statistic, get_args(ShareStatistic), "statistic", owner)
-    level = as_number(probability, "probability", owner, InvalidOption)
-    grid, of_model, of_real = (np.asarray(values, dtype=np.float64) for values in (shares, model, sliding))
+    level = as_share(probability, "probability", owner)
+    within, count, first = as_bootstrap(confidence, resamples, seed, owner, least=0)
+    grid = as_array(shares, "shares", owner, InvalidOption)
+    of_model, of_real = _numbers(model, "model", owner, 2), _numbers(sliding, "sliding", owner, 1)
     if of_model.shape[:2] != (len(grid), len(of_real)) or not (np.diff(grid) > 0.0).all():
         requirement = "of shape (shares, motions, ...), with increasing shares and the motions of the real buildings"
         raise refusal(InvalidOption, "model", owner, requirement, f"{of_model.shape} beside {of_real.shape}")
     clusters = np.arange(len(of_real)) if cluster_of is None else np.asarray(cluster_of)
+    if clusters.shape != (len(of_real),) or clusters.dtype.kind not in "iu" or clusters.min() < 0:
+        raise refusal(InvalidOption, "cluster_of", owner, "a whole number from 0 for each motion", brief(cluster_of))
     counts = np.ones((1, len(of_real)))
     if clusters.max() > 0:
-        counts = np.concatenate([counts, bootstrap_counts(clusters, resamples, seed)])
+        counts = np.concatenate([counts, bootstrap_counts(clusters, count, first)])
     curves = weighted(of_model, counts, statistic, level)
     targets = weighted(of_real[None], counts, statistic, level)[:, 0]
     against = np.broadcast_to(targets[:, None], curves.shape)
     values = interpolated(grid, curves, against)
     values = np.where(values == 1.0, np.where(is_below(curves, against)[:, -1], grid[-1], values), values)
-    kind = _kind(grid, curves[0], float(targets[0]), least)
+    kind = _kind(grid, curves[0], float(targets[0]), as_number(least, "least", owner, InvalidOption))
     interval = None
     if len(values) > 1 and kind != "rare":
-        low, high = interval_of(values[1:, None], confidence)
+        low, high = interval_of(values[1:, None], within)
         interval = float(low[0]), float(high[0])
     value = float("nan") if kind == "rare" else float(values[0])
     answer = value, interval, kind, float(targets[0]), frozen(grid), frozen(curves[0])
-    return EqualShare(*answer, confidence, frozen(targets[1:]), frozen(curves[1:]))
+    return EqualShare(*answer, within, frozen(targets[1:]), frozen(curves[1:]))
+
+
+def _numbers(values: ArrayLike, name: str, owner: str, least: int) -> FloatArray:
+    """Return an array of numbers with at least so many axes, none of them empty."""
+    try:
+        array = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        array = np.empty(0)
+    if array.ndim < least or not array.size:
+        raise refusal(InvalidOption, name, owner, f"an array of numbers with at least {least} axes", brief(values))
+    return array
 
 
 def _kind(shares: FloatArray, curve: FloatArray, target: float, least: float) -> ShareKind:

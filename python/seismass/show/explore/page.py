@@ -15,8 +15,9 @@ from jinja2 import ChoiceLoader, Environment, PackageLoader
 from markupsafe import Markup
 
 from seismass import _kernel
-from seismass.base.errors import MissingPackage
+from seismass.base.errors import InvalidOption, MissingPackage
 from seismass.base.statistics import bootstrap_counts
+from seismass.base.values import as_path
 from seismass.design import response_spectrum_analysis
 from seismass.design.scaling import scale_asce7_10
 from seismass.effective_mass import effective_mass, rule
@@ -182,7 +183,7 @@ def explorer_html(kernel: Path | None = None) -> str:
     OSError
         The kernel cannot be read.
     """
-    wasm = Path(kernel_file() if kernel is None else kernel).read_bytes()
+    wasm = (kernel_file() if kernel is None else as_path(kernel, "live page", InvalidOption)).read_bytes()
     factors = [0.0, *(float(factor) for factor in FACTORS)]
     animation = element_html(
         {

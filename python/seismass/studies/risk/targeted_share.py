@@ -209,8 +209,6 @@ class RiskTargetedShare(Result):
         raise NotImplementedError
 
 
-DEFAULT_SHARES: Final = np.linspace(0.0, 1.0, 21)
-"""Shares at which models are solved before roots are refined."""
 OTHER_LIMITS: Final = (0.25, 0.5, 1.5)
 """Other limits of which the share is given, over the limit asked for."""
 
@@ -321,9 +319,7 @@ def risk_targeted_share(
         seed=start,
         threads=as_threads(threads, OWNER),
     )
-    grid = np.unique(
-        np.append(check_fractions(DEFAULT_SHARES if shares is None else shares, OWNER), options.code_share)
-    )
+    grid = np.unique(np.append(check_fractions(shares, OWNER), options.code_share))
     limits = _limits(options.limit, other_limits)
     design = as_number(design_rate, "design_rate", OWNER, InvalidOption)
     listed = _listed(motions)

@@ -17,7 +17,17 @@ from seismass.base.arguments import ProgressLike
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
-from seismass.base.values import FloatArray, brief, content_hash, printable, refusal, same_content, short_repr
+from seismass.base.values import (
+    FloatArray,
+    as_flag,
+    as_one_of,
+    brief,
+    content_hash,
+    printable,
+    refusal,
+    same_content,
+    short_repr,
+)
 from seismass.base.views import view
 from seismass.design.scaling import ScalingResult, scale_asce7_10
 from seismass.media.result import Result
@@ -187,9 +197,8 @@ def run_study(
     KeyboardInterrupt
         Ctrl-C was pressed.
     """
-    settings = StudyParameters() if parameters is None else parameters
-    if not isinstance(suite, Suite):
-        raise refusal(InvalidMotion, "suite", "study", "a Suite of records", brief(suite))
+    settings = checked_study(suite, target, parameters, store)
+    as_flag(effective, "effective", "study", InvalidOption)
     is_stated = scaling is not None
     if scaling is None:
         scaling = scale_asce7_10(
@@ -324,6 +333,18 @@ def _scaling_metadata(scaling: ScalingResult) -> dict[str, Any]:
         "periods": [float(scaling.periods[0]), float(scaling.periods[-1]), len(scaling.periods)],
         "governing_period": float(scaling.governing_period),
     }
+
+
+def checked_study(
+    suite: Suite, target: TargetSpectrum, parameters: StudyParameters | None, store: StoredResults
+) -> StudyParameters:
+    """Return the parameters of a study, by default the paper's, where all four are what they must be."""
+    as_one_of(store, StoredResults, "store", "study", InvalidOption)
+    as_one_of(suite, Suite, "suite", "study", InvalidMotion)
+    as_one_of(target, TargetSpectrum, "target", "study", InvalidOption)
+    return as_one_of(
+        StudyParameters() if parameters is None else parameters, StudyParameters, "parameters", "study", InvalidOption
+    )
 
 
 def motions_text(suite: dict[str, Any]) -> str:

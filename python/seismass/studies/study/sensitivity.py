@@ -11,8 +11,9 @@ import numpy as np
 import polars as pl
 
 from seismass.base.arguments import Progress, ProgressLike
+from seismass.base.errors import InvalidOption
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
-from seismass.base.values import short_repr
+from seismass.base.values import as_one_of, short_repr
 from seismass.base.views import view
 from seismass.design import Combination
 from seismass.design.scaling import ScalingResult, scale_modal_pushover
@@ -22,7 +23,7 @@ from seismass.motions.records import Suite
 from seismass.motions.spectra import TargetSpectrum
 from seismass.studies.study.columns import SENSITIVITY_COLUMNS
 from seismass.studies.study.parameters import MODELS, DampingBase, StudyParameters
-from seismass.studies.study.run import StudyResult, run_study
+from seismass.studies.study.run import StudyResult, checked_study, run_study
 from seismass.studies.study.tables import Drifts, collapsed_of, drifts_of
 
 if TYPE_CHECKING:
@@ -144,15 +145,17 @@ def study_sensitivity(
     InvalidOption, InvalidMotion, KeyboardInterrupt
         As for `run_study`.
     """
-    setup = StudyParameters() if parameters is None else parameters
+    setup = checked_study(suite, target, parameters, store)
+    if as_is is not None:
+        as_one_of(as_is, StudyResult, "as_is", "study", InvalidOption)
     changes = [*_changes(setup, target, suite), *_motion_changes(setup, target, suite, threads)]
+    whole = Progress(progress, len(changes) + 1, "study")
     if as_is is None:
         as_is = run_study(suite, target, setup, threads=threads)
     base_drifts, fallen = drifts_of(as_is.responses, len(suite), setup), collapsed_of(as_is.responses, len(suite))
     summary = as_is.summary
     rows = _rows(AS_IS, "", summary, base_drifts, np.mean)
     of_base: dict[str, tuple[pl.DataFrame, Drifts]] = {setup.damping_base: (summary, base_drifts)}
-    whole = Progress(progress, len(changes) + 1, "sensitivity")
     for number, change in enumerate(changes, start=1):
         whole.tell()
         table = store.of(f"changed-{number}", partial(_study_of, change, threads))
