@@ -16,8 +16,8 @@ from scipy.optimize import brentq
 import seismass as sm
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.design import response_spectrum_analysis
-from seismass.effective_mass.models import TOLERANCE, interpolated, refined_root
 from seismass.effective_mass.search import without_friction
+from seismass.effective_mass.share import TOLERANCE, interpolated, refined_root
 from seismass.motions.spectra import mean_spectrum
 
 SUITE = sm.builtin_suite("seven")

@@ -17,9 +17,9 @@ import numpy as np
 import pytest
 
 import seismass as sm
+from seismass.base.statistics import bootstrap_counts
 from seismass.cli import main
 from seismass.design import response_spectrum_analysis
-from seismass.effective_mass.models import bootstrap_counts
 from seismass.effective_mass.rule import by_hand
 from seismass.media.page import page_html
 from seismass.motions.spectra import mean_spectrum

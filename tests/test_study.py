@@ -307,7 +307,7 @@ def test_growth_is_not_counted_over_a_gap(missing: float | None) -> None:
         ({"mu": ("0.4",)}, "mu of study must be a number; got '0.4'"),
         ({"mu": 0.4}, "mu of study must be a tuple of at least one value, none twice; got 0.4"),
         ({"mu": (0.4, 0.4)}, "mu of study must be a tuple of at least one value, none twice; got (0.4, 0.4)"),
-        ({"damping_base": "none"}, "damping_base of study must be bare, loaded or own; got 'none'"),
+        ({"damping_base": "none"}, "damping_base of study must be one of bare, loaded, own; got 'none'"),
         ({"height": 0.0}, "height of study must be a positive number; got 0"),
         ({"p_delta": 1}, "p_delta of study must be True or False; got 1"),
         ({"collapse_drift_ratio": -1.0}, "collapse_drift_ratio of study must be a positive number; got -1"),

@@ -6,7 +6,6 @@ Text, page and JSON say what stands here, and nothing else beside it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -20,6 +19,7 @@ from seismass.assessment.floors import by_floor
 from seismass.assessment.models import ADVISED, ATTACHED, BARE, SLIDING_ALL
 from seismass.assessment.rocking import tipping_sentences
 from seismass.assessment.statement import NO_MATTER, PresentGoods, collapsing, statement_of
+from seismass.base.arguments import ProgressLike
 from seismass.base.statistics import capped, few_collapses
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
@@ -27,9 +27,9 @@ from seismass.design.scaling import ScalingResult
 from seismass.effective_mass import EffectiveMass
 from seismass.effective_mass.answer import Designed, solved_designs, solved_frictions
 from seismass.effective_mass.models import DEFAULT_FRACTIONS, SAME_DAMPING
-from seismass.effective_mass.runs import named_motions
 from seismass.effective_mass.search import OWNER, checked_options
 from seismass.motions.spectra import TargetSpectrum
+from seismass.runs.peaks import named_motions
 
 ROUNDING_STEP: Final = 0.01
 """An advised share is the next multiple of it; with a coarse one the drift of analysis 1 would jump."""
@@ -413,8 +413,6 @@ def analysis_table(answer: Answer, building: OwnBuilding) -> pl.DataFrame:
 DESIGN_SHARES_IN_PLANE: Final = np.linspace(0.0, 1.0, 6)
 """Shares of a design of strengths in two directions, where goods that slide take a hundred times as long."""
 
-Progress = Callable[[int, int], object]
-
 
 def fractions_by_friction(
     building: OwnBuilding,
@@ -423,7 +421,7 @@ def fractions_by_friction(
     motions: list[Any],
     bootstrap: dict[str, Any],
     threads: int | None,
-    progress: Progress | None,
+    progress: ProgressLike,
 ) -> dict[str, EffectiveMass]:
     """Return the effective fraction at each friction, a factor for each model; the attached models are the same."""
     if not frictions:
@@ -456,7 +454,7 @@ def design_share(
     factor: float,
     motions: list[Any],
     threads: int | None,
-    progress: Progress | None,
+    progress: ProgressLike,
 ) -> DesignShare:
     """Return the share that goes into the design of the strengths and is attached, at one factor of friction, without a
     bootstrap.

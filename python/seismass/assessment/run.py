@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
@@ -42,24 +42,24 @@ from seismass.assessment.models import (
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.assessment.rocking import other_models, tipping_table
 from seismass.assessment.statement import PresentGoods, governing_drifts, other_amounts, present_goods
+from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.files import without_formulas
+from seismass.base.statistics import bootstrap_counts
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.design.scaling import ScalingResult
-from seismass.effective_mass.models import DEFAULT_FRACTIONS, SHARES_BEYOND, bootstrap_counts, check_cap, goes_beyond
-from seismass.effective_mass.runs import Stages, named_motions
+from seismass.effective_mass.models import DEFAULT_FRACTIONS, SHARES_BEYOND, check_cap, goes_beyond
 from seismass.model.codes import CodeFraction
 from seismass.model.friction import bound_factors
 from seismass.motions.motion import motion_names, scaled_motions
 from seismass.motions.records import Pair, Pairs, Record, Suite, builtin_pairs, builtin_suite
 from seismass.motions.spectra import TargetSpectrum
+from seismass.runs.peaks import named_motions
 from seismass.runs.simulate import instruction_set
 
 FIXED_MODELS: Final = 4
 """Models that every assessment with goods solves beside those with goods that slide."""
-
-Progress = Callable[[int, int], object]
 
 
 def assess(
@@ -76,7 +76,7 @@ def assess(
     resamples: int = 2000,
     seed: int = 0,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> Assessment:
     """Assess a building with its goods: the share of the live load to count as mass, drifts and slips.
 
@@ -154,24 +154,22 @@ def assess(
     floors, others = other_amounts(stated)
     models_of_tipping = other_models(stated)
     of_amount = len(frictions) + len(DEFAULT_FRACTIONS) + larger
-    stages = Stages(
-        progress,
-        (models + fractions + larger + designs + (len(others) + len(models_of_tipping)) * of_amount) * len(suite),
-    )
+    runs_of_motion = models + fractions + larger + designs + (len(others) + len(models_of_tipping)) * of_amount
+    stages = Progress(progress, runs_of_motion * len(suite), "assessment")
     bootstrap = {"confidence": confidence, "resamples": resamples, "seed": seed}
     effective = fractions_by_friction(
-        stated, spectrum, frictions, scaled, bootstrap, threads, stages.next((fractions + larger) * len(suite))
+        stated, spectrum, frictions, scaled, bootstrap, threads, stages.part((fractions + larger) * len(suite))
     )
     advised = advised_share(effective)
     design = None
     if designs and advised is not None:
         factor = frictions[deciding(effective)]
-        design = design_share(stated, spectrum, factor, scaled, threads, stages.next(designs * len(suite)))
+        design = design_share(stated, spectrum, factor, scaled, threads, stages.part(designs * len(suite)))
     scenes = compared_models(stated, spectrum, advised)
 
     def amount(floors: str, case: OwnBuilding) -> PresentGoods:
         """The answer for another amount of goods, with motions scaled for it."""
-        tell = stages.next(of_amount * len(suite))
+        tell = stages.part(of_amount * len(suite))
         try:
             own_scaling = scaled_to_site(case, suite, spectrum, scaling_period, threads=threads) if scale else None
             motions = scaled_motions(suite, _factors(suite, own_scaling))
@@ -192,7 +190,7 @@ def assess(
     components = [record for motion in scaled for record in (tuple(motion) if in_plane else (motion,))]
     horizontal = [record for motion in scaled for record in (tuple(motion)[:2] if in_plane else (motion,))]
     runs, slips = solve_models(
-        stated, scenes, scaled, names, threads=threads, progress=stages.next(models * len(suite))
+        stated, scenes, scaled, names, threads=threads, progress=stages.part(models * len(suite))
     )
     sliding_scene = stated.scene(spectrum)
     drawn = named_motions(scaled, "assessment", sliding_scene)

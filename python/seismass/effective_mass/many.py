@@ -10,10 +10,11 @@ from typing import Any, Final
 import polars as pl
 from numpy.typing import ArrayLike
 
+from seismass.base.arguments import Progress, ProgressLike, as_bootstrap, as_threads
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import DRIFT_CAP, few_collapses
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
-from seismass.base.values import FloatArray, as_count, as_one_of, as_threads, brief, refusal
+from seismass.base.values import FloatArray, as_one_of, brief, is_list, refusal
 from seismass.effective_mass.models import (
     SAME_DAMPING,
     ModelDamping,
@@ -23,12 +24,12 @@ from seismass.effective_mass.models import (
     check_fractions,
     check_loaded,
 )
-from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
 from seismass.effective_mass.search import without_friction
 from seismass.effective_mass.share import equal_share
 from seismass.model.scene import Scene
 from seismass.motions.motion import MotionLike
 from seismass.runs.grid.grid import Grid
+from seismass.runs.peaks import NamedMotions, Peaks, named_motions, solve
 
 OWNER: Final = "effective mass table"
 _AT_ONCE: Final = 64
@@ -44,7 +45,7 @@ def effective_mass_table(
     resamples: int = 200,
     seed: int = 0,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
     store: StoredResults = NOTHING_STORED,
 ) -> pl.DataFrame:
     """Return the effective fraction of many buildings with goods, as `effective_mass` defines it.
@@ -88,18 +89,14 @@ def effective_mass_table(
     named, shares = named_motions(motions, OWNER), check_fractions(fractions, OWNER)
     convention, cap = check_damping(damping, OWNER), check_cap(drift_cap, OWNER)
     as_one_of(store, StoredResults, "store", OWNER, InvalidOption)
-    as_one_of(scenes, (Grid, Sequence), "scenes", OWNER, InvalidOption)
-    if isinstance(scenes, str) or not len(scenes):
+    if not (isinstance(scenes, Grid) or is_list(scenes)) or not len(scenes):
         raise refusal(InvalidOption, "scenes", OWNER, "a Grid or a list of Scenes", brief(scenes))
     if isinstance(scenes, Grid) and {"scale", "motion"} & set(scenes.table(1, 1).columns):
         raise refusal(InvalidOption, "scenes", OWNER, "a grid without scale and motion", brief(scenes))
-    stages = Stages(progress, len(scenes) * (1 + len(shares)) * len(named))
+    stages = Progress(progress, len(scenes) * (1 + len(shares)) * len(named), OWNER)
     how: dict[str, Any] = {"drift_cap": cap, "threads": as_threads(threads, OWNER)}
-    bootstrap: dict[str, Any] = {
-        "cluster_of": named.cluster_of,
-        "resamples": as_count(resamples, "resamples", OWNER, InvalidOption, least=1),
-        "seed": as_count(seed, "seed", OWNER, InvalidOption),
-    }
+    _, count, start = as_bootstrap(0.9, resamples, seed, OWNER)
+    bootstrap: dict[str, Any] = {"cluster_of": named.cluster_of, "resamples": count, "seed": start}
 
     def part(first: int) -> pl.DataFrame:
         numbers = range(first, min(first + _AT_ONCE, len(scenes)))
@@ -107,9 +104,9 @@ def effective_mass_table(
         rows: list[dict[str, Any]] = []
         for _, group in groupby(listed, key=lambda scene: scene.storeys):
             alike = list(group)
-            sliding = solve(alike, named, **how, progress=stages.next(len(alike) * len(named)))
+            sliding = solve(alike, named, **how, progress=stages.part(len(alike) * len(named)))
             attached_scenes = [attached(scene, float(share), convention) for scene in alike for share in shares]
-            model = solve(attached_scenes, named, **how, progress=stages.next(len(attached_scenes) * len(named)))
+            model = solve(attached_scenes, named, **how, progress=stages.part(len(attached_scenes) * len(named)))
             rows += _rows(alike, shares, sliding, model, named, bootstrap)
         return pl.DataFrame(rows, infer_schema_length=None).insert_column(
             0, pl.Series("scene", [i + 1 for i in numbers])

@@ -16,11 +16,11 @@ from markupsafe import Markup
 
 from seismass import _kernel
 from seismass.base.errors import InvalidOption, MissingPackage, SeismassError
+from seismass.base.statistics import bootstrap_counts
 from seismass.base.values import as_path
 from seismass.design import response_spectrum_analysis
 from seismass.design.scaling import scale_asce7_10
 from seismass.effective_mass import effective_mass, rule
-from seismass.effective_mass.models import bootstrap_counts
 from seismass.media.page import DIFFERENCES, page_html, templates
 from seismass.media.roles import CODE, SLIDE, YIELDS
 from seismass.model.block import blocks_on_floors

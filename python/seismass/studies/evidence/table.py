@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Final
@@ -13,6 +13,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass import _kernel
+from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
@@ -28,7 +29,6 @@ from seismass.base.values import (
     short_repr,
 )
 from seismass.base.views import view
-from seismass.effective_mass.runs import Stages
 from seismass.media.result import Result, finite_values
 from seismass.model.codes import code_fraction
 from seismass.motions.records import Suite, builtin_suite
@@ -147,7 +147,7 @@ def evidence(
     vary: bool = False,
     resamples: int = 300,
     threads: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
     store: StoredResults = NOTHING_STORED,
 ) -> Evidence:
     """Return which share of the design live load, as mass, gives archetypes the response with the goods that slide.
@@ -206,8 +206,8 @@ def evidence(
         settings = replace(settings, **QUICK)
         listed = listed[:: -(-len(listed) // _QUICK_ARCHETYPES)]
     as_one_of(store, StoredResults, "store", "evidence", InvalidOption)
-    suites = [builtin_suite("forty") if suite is None else suite, *([] if other is None else [other])]
-    if not all(len(as_one_of(each, Suite, "suite", "evidence", InvalidMotion)) for each in suites):
+    suites: list[Any] = [builtin_suite("forty") if suite is None else suite, *([] if other is None else [other])]
+    if not all(isinstance(each, Suite) and len(each) for each in suites):
         raise refusal(InvalidMotion, "suite", "evidence", "a Suite of records", brief(suite))
     if not {1.0, MCE} <= set(settings.levels):
         raise refusal(InvalidOption, "levels", "evidence", f"1 and {MCE:g} among others", brief(settings.levels))
@@ -223,11 +223,11 @@ def evidence(
     varied = variants(fewer, suites, typical) if vary else []
     everything = [*work, *((_Part("vary", each.suite, each.setting, False), each.archetype) for each in varied)]
     total = sum(runs_of(each, part.setting, len(part.suite), part.redesign) for part, each in everything)
-    stages = Stages(progress, total)
+    stages = Progress(progress, total, "evidence")
 
     def solved(part: _Part, archetype: Archetype, slope: float | None = None) -> Answer:
         runs = runs_of(archetype, part.setting, len(part.suite), part.redesign)
-        tell = stages.next(runs) or (lambda *_: None)
+        tell = stages.part(runs) or (lambda *_: None)
         digest = inputs_digest(part.setting, archetype, part.redesign, motion_contents(part.suite))[:24]
         how: dict[str, Any] = {"redesign": part.redesign, "threads": threads, "report": lambda done: tell(done, runs)}
         make = lambda: solved_archetype(archetype, part.setting, part.suite, **how)  # noqa: E731

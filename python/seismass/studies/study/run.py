@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import chain, count
 from pathlib import Path
@@ -14,6 +13,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass import _kernel
+from seismass.base.arguments import ProgressLike
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
@@ -166,7 +166,7 @@ def run_study(
     scaling: ScalingResult | None = None,
     effective: bool = False,
     threads: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
     store: StoredResults = NOTHING_STORED,
 ) -> StudyResult:
     """Run the parametric study.
@@ -266,7 +266,7 @@ def _solve(
     buildings: list[StudyBuilding],
     motions: list[Motion],
     threads: int | None,
-    progress: Callable[[int, int], object] | None,
+    progress: ProgressLike,
     store: StoredResults,
 ) -> tuple[int, NDArray[np.int64], pl.DataFrame]:
     """Number of distinct runs, the row of each analysis among them, and the rows."""

@@ -6,12 +6,13 @@ package; without them built-in motions stand in, and results say so.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import polars as pl
 
+from seismass.base.arguments import ProgressLike
 from seismass.base.values import short_repr
 from seismass.base.views import view
 from seismass.media.result import Result
@@ -158,7 +159,7 @@ def paper_scenes(
     suite: Suite | None = None,
     *,
     springs: Sequence[tuple[float, int]] = SPRINGS,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
 ) -> tuple[Section4, Platform]:
     """Solve the scenes of the paper's section 4: the three-storey building and the platform.
 
@@ -188,7 +189,7 @@ def validate(
     sensitivity: Sensitivity | None = None,
     scenes: tuple[Section4, Platform] | None = None,
     threads: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
 ) -> Validation:
     """Run all validations.
 

@@ -92,8 +92,8 @@ def claims(
         In the order of the paper: the shaking table, the comparison of programs, the study.
     """
     wanted = {"study": StudyResult, "section4": Section4, "platform": Platform, "sensitivity": Sensitivity}
-    for (name, kind), value in zip(wanted.items(), (study, section4, platform, sensitivity), strict=True):
-        as_one_of(value, kind if name == "study" else (kind, type(None)), name, "validation", InvalidOption)
+    for (name, kind), result in zip(wanted.items(), (study, section4, platform, sensitivity), strict=True):
+        as_one_of(result, kind if name == "study" else (kind, type(None)), name, "validation", InvalidOption)
     rows: list[_Row] = []
     if platform is not None:
         rows.append(_shaking_table(platform))

@@ -14,8 +14,10 @@ from typing import Any, Final, Literal, TypeAlias
 import numpy as np
 import polars as pl
 
-from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import FloatArray, as_list, as_one_of, brief, is_one_of, refusal
+from seismass.base.arguments import as_word
+from seismass.base.errors import InvalidMotion
+from seismass.base.statistics import quantile
+from seismass.base.values import FloatArray, as_list, as_one_of, brief, refusal
 from seismass.base.views import Card
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import Building
@@ -52,8 +54,7 @@ def components(station: Station, suite: Suite | None = None) -> tuple[Record, ..
     RecordFormatError
         As for `read_suite`.
     """
-    if not is_one_of(station, STAND_INS):
-        raise refusal(InvalidOption, "station", "validation", " or ".join(STAND_INS), brief(station))
+    as_word(station, STAND_INS, "station", "validation")
     as_one_of(suite, (Suite, type(None)), "suite", "validation", InvalidMotion)
     records: dict[str, Record] = {}
     for record in suite or ():
@@ -251,8 +252,7 @@ def robust_numbers(runs: pl.DataFrame) -> dict[str, Any]:
 
 def _fractiles(values: pl.Series) -> list[float]:
     """5, 50 and 95 % fractiles."""
-    fractiles: list[float] = np.quantile(values.to_numpy(), (0.05, 0.5, 0.95)).tolist()
-    return fractiles
+    return [float(quantile(values.to_numpy(), share)) for share in (0.05, 0.5, 0.95)]
 
 
 def _spread(runs: pl.DataFrame, name: str) -> float:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import product
@@ -19,8 +19,9 @@ import numpy as np
 import polars as pl
 
 from seismass import _kernel
+from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.errors import InvalidOption, SimulationError
-from seismass.base.values import FloatArray, as_count, as_list, as_number, as_progress, brief, refusal
+from seismass.base.values import FloatArray, as_count, as_list, as_number, brief, refusal
 from seismass.base.views import Card
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import Building
@@ -147,7 +148,7 @@ def section4(
     components: Sequence[Record],
     *,
     springs: Sequence[tuple[float, int]] = SPRINGS,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
 ) -> Section4:
     """Solve the building of section 4 for all components, peaks and second slopes, and compare the programs.
 
@@ -166,29 +167,22 @@ def section4(
     Section4
         Runs, differences and histories. OpenSees has its part where its kept results are of these samples.
     """
-    records, report = check_components(components), as_progress(progress, "validation")
+    records = check_components(components)
     pairs = [_checked_spring(pair) for pair in as_list(springs, "springs", "validation", InvalidOption, SPRINGS_ARE)]
     compared = list(product(records, COMPARED_SLOPES))
-    done, total = 0, len(compared) * (1 + len(pairs))
-
-    def tell(solved: int) -> None:
-        nonlocal done
-        done += solved
-        if report is not None:
-            report(done, total)
-
-    tell(0)
+    whole = Progress(progress, len(compared) * (1 + len(pairs)), "validation")
+    whole.tell(0)
     grid = product(records, SECOND_SLOPES, PEAKS_G)
     runs = [_run(label(record), record, slope, peak) for record, slope, peak in grid]
     histories: list[Histories] = []
     differences: list[dict[str, Any]] = []
     for record, slope in compared:
         exact = _exact(record, slope)
-        tell(1)
+        whole.tell()
         others: list[Histories] = []
         for ratio, steps in pairs:
             others.append(_springs(record, slope, ratio, steps))
-            tell(1)
+            whole.tell()
         others += _opensees(record, slope)
         histories += [exact, *(item for item in others if item.time.size)]
         differences += [_difference(item, exact) for item in others]

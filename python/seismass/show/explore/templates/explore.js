@@ -14,7 +14,7 @@
   const FILM = 8; // s
   const PUSHED = "your push";
   const STEP = 1000; // ms between two cases that Back and Undo return to
-  const SHARES = 101;
+  const SHARES = 21;
   const LARGEST_DRAWN = 2; // goods over floor mass of the largest block that is drawn; heavier ones are drawn relative to the heaviest
 
   let kernel = null;
