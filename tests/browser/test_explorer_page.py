@@ -220,7 +220,7 @@ def test_fraction_is_that_of_the_package(html: str, open_page: Any, tmp_path: Pa
     assert expected.interval is not None
     low, high = expected.interval
     assert words.startswith(
-        f"Effective fraction {expected.value:.3f} (90 % interval over the built-in motions {low:.2f} to {high:.2f}); "
+        f"Effective fraction {expected.value:.3f} (90 % interval over the built-in motions {low:.2f} to {high:.2f}). "
     )
     assert expected.kind == "root"
     assert "One share gives the drift of the building whose goods slide." in words

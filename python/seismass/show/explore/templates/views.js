@@ -82,7 +82,7 @@ function fractionWords(found, rule) {
   return {
     short: `Over the built-in motions ${per100(found.value)} of the goods act as mass, 90 % interval ${per100(found.low)} to ${per100(found.high)}.`,
     long:
-      `Effective fraction ${fixed(found.value, 3)} (90 % interval over the built-in motions ${fixed(found.low, 2)} to ${fixed(found.high, 2)}); ` +
+      `Effective fraction ${fixed(found.value, 3)} (90 % interval over the built-in motions ${fixed(found.low, 2)} to ${fixed(found.high, 2)}). ` +
       `${KIND_WORDS[found.kind].replace(/^./, (letter) => letter.toUpperCase())}. By hand: ${rule.words}.`,
   };
 }
