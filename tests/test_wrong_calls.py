@@ -136,6 +136,8 @@ CALLS: dict[str, tuple[Callable[..., Any], dict[str, Any]]] = {
     "simulate": (sm.simulate, {"scene": SCENE, "motion": MOTION}),
     "simulate_many": (sm.simulate_many, {"scenes": SCENE, "motions": MOTION}),
     "stream_many": (sm.stream_many, {"scenes": SCENE, "motions": MOTION}),
+    "digits": (sm.runs.digits, {"response": RESPONSE}),
+    "digits_of_batch": (sm.runs.digits_of_batch, {"scenes": [SCENE], "motions": [MOTION]}),
     "long_table": (sm.long_table, {"table": BATCH, "scenes": SCENE}),
     "spring_forces": (sm.runs.spring_forces, {"building": BUILDING, "storey": 1, "drifts": [0.0, 0.01, -0.01]}),
     "Record": (sm.Record, {"acceleration": [0.0, 1.0], "dt": 0.01, "name": "a", "azimuth": 10.0}),

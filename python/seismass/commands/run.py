@@ -35,6 +35,7 @@ def run(args: argparse.Namespace) -> int:
     if args.example:
         print(example_scene().read_text(encoding="utf-8"), end="")
         return 0
+    from seismass.runs.peak_digits import digits_remarks
     from seismass.runs.simulate import simulate
     from seismass.show.response_text import run_text
 
@@ -52,12 +53,21 @@ def run(args: argparse.Namespace) -> int:
         print(json.dumps(as_json(file, response), indent=2, allow_nan=False))
         return 0
     title, source = file.name or file.path.stem, "".join(record.name for record in file.records[:1])
-    show(run_text(response, title=title, note=file.note, source=source, remarks=file.remarks))
+    show(
+        run_text(
+            response,
+            title=title,
+            note=file.note,
+            source=source,
+            remarks=(*(file.remarks or response.remarks), *digits_remarks(response)),
+        )
+    )
     return 0
 
 
 def _run_plane(args: argparse.Namespace, file: SceneFile) -> int:
     """Solve a scene in two directions and print it."""
+    from seismass.runs.peak_digits import digits_remarks
     from seismass.runs.simulate import simulate
     from seismass.show.response_text import plane_run_text
 
@@ -68,7 +78,7 @@ def _run_plane(args: argparse.Namespace, file: SceneFile) -> int:
     if args.json:
         print(json.dumps(as_json(file, response), indent=2, allow_nan=False))
     else:
-        show(plane_run_text(response, title=file.name or file.path.stem))
+        show("\n".join([plane_run_text(response, title=file.name or file.path.stem), *digits_remarks(response)]))
     return 0
 
 
@@ -92,7 +102,9 @@ def _write_histories(response: Response | PlaneResponse, path: Path) -> None:
 
 def as_json(file: SceneFile, response: Response | PlaneResponse) -> dict[str, Any]:
     """Return what `--json` prints: the response, under the name and with the remarks of the file."""
-    return response.to_dict() | {"name": file.name, "remarks": list(file.remarks)}
+    from seismass.runs.peak_digits import digits
+
+    return response.to_dict() | {"name": file.name, "remarks": list(file.remarks), "digits": digits(response)}
 
 
 COMMAND = Command(
