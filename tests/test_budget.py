@@ -20,7 +20,7 @@ LINES = """
 assessment 7213   base 2419   commands 4234   design 3907   design/scaling 1119   effective_mass 3297   media 1525
 model 3215   motions 377   motions/matching 1476   motions/pulses 1061   motions/records 3993
 motions/records/formats 3853   motions/records/synthetic 1150   motions/scaling 810   motions/spectra 1819   runs 3345
-runs/grid 1725   show 3429   show/animation 1523   show/assessment 2306   show/explore 297   show/plots 1843
+runs/grid 1725   show 3429   show/animation 1523   show/assessment 2308   show/explore 297   show/plots 1843
 show/study 1985   studies 8   studies/campaign 1626   studies/evidence 1157   studies/fragility 3188
 studies/risk 1664   studies/slip 1682   studies/study 1766   studies/validation 1227   top 97
 """

@@ -174,20 +174,20 @@ def advice_of(
         lines.append("A share that fits drifts says nothing of collapse: strengthen the building before it is used.")
     else:
         one, _ = answer.analyses
-        both = (
+        what = (
             f"Analysis 1: attach {one.share_of_goods_present:.2f} of the goods present "
-            f"({one.share_of_design_live_load:.2f} of the design live load) as mass. Analysis 2: attach none. In both",
-            "Take the larger drift of each storey.",
+            f"({one.share_of_design_live_load:.2f} of the design live load) as mass. Analysis 2: attach none. In both "
+            "keep"
         )
         if one.share_of_goods_present == 0.0:
-            both = ("One analysis: attach none of the loose goods as mass.", "Its drifts count.")
+            what = "One analysis: attach none of the loose goods as mass. Keep"
         lines.append(
-            f"{both[0]} keep the whole weight of the goods in P-Delta, and the damping of the building without goods. "
-            f"{both[1]}"
+            f"{what} the whole weight of the goods in P-Delta, and the damping of the building without goods."
+            + " Take the larger drift of each storey." * (one.share_of_goods_present > 0.0)
         )
         lines += [*([_envelope(building, storeys, sliding)] if one.share_of_goods_present else []), answer.design]
         lines += rule_advice(building, effective)
-    lines += _checks(building, storeys, sliding)
+    lines += _checks(building, storeys, (*sliding, ADVISED, BARE))
     lines.append(_against_code(building, storeys, sliding))
     lines += _slip_advice(slip, building.shown, in_plane=building.other is not None)
     return (*lines, *base_advice(runs, building.shown))
@@ -215,14 +215,14 @@ def _checks(building: OwnBuilding, storeys: pl.DataFrame, models: Any) -> list[s
     if building.heights is None:
         unit = building.shown.unit("drift")
         return [f"Heights are not known: drifts are in {unit}, without P-Delta and without a limit."]
-    rows = storeys.filter(pl.col("model").is_in(list(models)))
+    rows, called = storeys.filter(pl.col("model").is_in(list(models))), {**NAMES, BARE: "no goods"}
     lines = []
     limit = 100.0 * building.drift_limit
     row = rows.sort("mean", descending=True).row(0, named=True)
     verdict = "above" if row["mean_over_limit"] > 1.0 else "within"
     lines.append(
         f"The capped mean drift ratio is {verdict} the limit of {limit:g} %: largest {100.0 * row['mean']:.2f} % "
-        f"(storey {row['storey']}, {NAMES[row['model']]}; motions above the limit: {row['motions_above_limit']})."
+        f"(storey {row['storey']}, {called[row['model']]}; motions above the limit: {row['motions_above_limit']})."
     )
     stable = rows.drop_nulls("theta").sort("theta", descending=True)
     if stable.height:
@@ -232,8 +232,8 @@ def _checks(building: OwnBuilding, storeys: pl.DataFrame, models: Any) -> list[s
         needed = "above" if elastic > THETA_THRESHOLD else "up to"
         lines.append(
             f"The stability coefficient P d/(V h) is {verdict} its limit of {building.theta_limit:g}: largest "
-            f"{row['theta']:.3f} (storey {row['storey']}, {NAMES[row['model']]}); its elastic value P/(k h) is at most "
-            f"{elastic:.3f}, {needed} the {THETA_THRESHOLD:g} below which ASCE 7-10 neglects P-Delta."
+            f"{row['theta']:.3f} (storey {row['storey']}, {called[row['model']]}); its elastic value P/(k h) is at "
+            f"most {elastic:.3f}, {needed} the {THETA_THRESHOLD:g} below which ASCE 7-10 neglects P-Delta."
         )
     return lines
 

@@ -249,7 +249,8 @@ def _drift_panel(axes: Axes, result: AssessmentTables, rows: list[StoreyDrifts],
     used = f"drifts most, {scale * row.largest:.2f} {unit}"
     if limit is not None:
         used = f"uses {scale * row.largest:.0f} % of its drift limit"
-    _title(axes, f"Storey {row.storey} {used}" + (f": {row.model}" if answer else "; no answer"), size.title)
+    why = f": {row.model}" if answer else "; no answer" if result.effective else ", without goods"
+    _title(axes, f"Storey {row.storey} {used}{why}", size.title)
 
 
 def _short(model: str) -> str:

@@ -199,8 +199,8 @@ def _drifts(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     headers = {**names, "collapsed": "collapsed runs"}
     if ratio:
         headers |= {"motions_above_limit": "motions above the limit", "theta": "stability coefficient"}
-    row = result.storeys.sort("mean", descending=True).row(0, named=True)
-    note = f"The largest is {scale * row['mean']:.2f} {unit}, storey {row['storey']}, {NAMES[row['model']]}."
+    row = result.governing.sort("governing", descending=True).row(0, named=True)
+    note = f"The largest is {scale * row['governing']:.2f} {unit}, storey {row['storey']}, {row['governed_by']}."
     return [
         *(storeys_html(result, len(result.storey_names)) if result.answer is not None else []),
         pictures.figure(

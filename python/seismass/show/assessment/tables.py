@@ -140,7 +140,7 @@ def storey_drifts(storeys: pl.DataFrame, governing: pl.DataFrame) -> list[Storey
     first, second = (storeys.filter(model=name)["mean"] for name in (ADVISED, BARE))
     numbers = {"1": ADVISED, "2": BARE} if first.len() and not first.equals(second) else {"1": BARE}
     if first.len() == 0 and (storeys["model"] == SLIDING).any():
-        numbers = {}  # there is no answer
+        numbers = {"0": BARE}  # there is no answer
     for row in governing.iter_rows(named=True):
         of_storey = storeys.filter(storey=row["storey"])
         unit = row["limit"] or 1.0

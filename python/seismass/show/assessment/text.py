@@ -168,7 +168,7 @@ def storey_bars(result: Assessment) -> list[str]:
         for ends, sign in ((row.scatter, "-"), (row.sliding, "=")):
             for cell in range(place(ends[0]), place(ends[1]) + 1) if ends is not None else ():
                 cells[cell] = sign
-        marks = {"c": row.code, **row.analyses, "|": 1.0 if limit else None}
+        marks = {"c": row.code, "|": 1.0 if limit else None, **row.analyses}
         for sign, value in marks.items():
             if value is not None:
                 cells[place(value)] = sign
@@ -178,7 +178,8 @@ def storey_bars(result: Assessment) -> list[str]:
         allowed += f" of {units.text('slip', clear[row.storey], '.3g')}" if slip and row.storey in clear else ""
         model = row.model if result.answer.analyses else ""
         table.append([_named(row.storey, row.name), f"|{''.join(cells)}|", used, allowed, model])
-    parts = ["1 and 2 analyses" if len(result.answer.pair) > 1 else "1 the analysis"] if rows[0].analyses else []
+    words = {"1": "1 the analysis", "0": "0 no goods", "12": "1 and 2 analyses"}
+    parts = [words["".join(rows[0].analyses)]]
     parts += ["= goods that slide, over the frictions", "c the model of the code"] * (rows[0].sliding is not None)
     parts += ["- 16 to 84 % of the motions", *["| the limit"] * limit]
     shown = [index for index in range(5) if any(row[index] for row in table)]
