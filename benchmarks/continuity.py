@@ -25,8 +25,8 @@ from seismass.assessment.answer import rounded_up
 from seismass.assessment.checks import checked_storeys, collapses_of, governing_table
 from seismass.assessment.models import compared_models, friction_factors, scaled_to_site, solve_models
 from seismass.effective_mass.answer import solved_frictions
-from seismass.effective_mass.runs import named_motions
 from seismass.effective_mass.search import checked_options
+from seismass.runs.peaks import named_motions
 
 SHARES = np.linspace(0.0, 1.0, 21)
 STEP = 0.02

@@ -30,10 +30,10 @@ import numpy as np
 import seismass as sm
 from environment import page_module
 from seismass.assessment.models import scaled_to_site
-from seismass.effective_mass.models import bootstrap_counts, quantile_interval
-from seismass.effective_mass.runs import named_motions
+from seismass.base.statistics import bootstrap_counts, quantile_interval
 from seismass.media.text_table import text_table
 from seismass.runs.batch import solve_many
+from seismass.runs.peaks import named_motions
 
 TARGET = 0.6
 """Seconds that one call may take on two cores."""

@@ -42,9 +42,9 @@ from seismass.effective_mass.rule import (
     floor_coefficient,
     share_by_hand,
 )
-from seismass.effective_mass.runs import named_motions, solve
 from seismass.motions.records import NearFaultPulse, Suite, SyntheticParameters, synthetic_motion
 from seismass.motions.spectra import TargetSpectrum, corner_period, mean_spectrum
+from seismass.runs.peaks import named_motions, solve
 
 ROOT: Final = Path(__file__).parents[1]
 RESULTS: Final = ROOT / "benchmarks" / "results" / "rules.parquet"

@@ -31,14 +31,15 @@ import polars as pl
 import seismass as sm
 from environment import page_module
 from seismass.base.values import FloatArray
-from seismass.effective_mass.models import attached, full_weight, interpolated
+from seismass.effective_mass.models import attached, full_weight
 from seismass.effective_mass.rule import by_hand
-from seismass.effective_mass.runs import named_motions, solve
+from seismass.effective_mass.share import interpolated
 from seismass.model.building import Building
 from seismass.model.scene import Scene
 from seismass.motions.records import Pair
 from seismass.motions.spectra import mean_spectrum
 from seismass.runs.batch import solve_many
+from seismass.runs.peaks import named_motions, solve
 
 ROOT: Final = Path(__file__).parents[1]
 RESULTS: Final = ROOT / "benchmarks" / "results" / "two_directions.json"

@@ -137,8 +137,8 @@ def test_the_share_advised_covers_every_friction(warehouse: sm.Assessment) -> No
     assert max(values) <= warehouse.advised < max(values) + 0.01
     assert warehouse.advised_of_live_load == pytest.approx(0.8 * warehouse.advised, rel=1e-12)
     # By the definition a larger share is never short: the largest drift of each friction is covered.
-    advised = warehouse.effective["real_mu_high"].curve.filter(storey=0, fraction=warehouse.advised)
-    assert advised["ratio"].item() <= 1.0
+    curve = warehouse.effective["real_mu_high"].curve.filter(storey=0)
+    assert curve.filter(pl.col("fraction") >= warehouse.advised)["ratio"].max() <= 1.0
     assert warehouse.storeys["model"].unique(maintain_order=True).to_list() == MODELS
 
 
@@ -292,9 +292,9 @@ def test_results_do_not_depend_on_threads_and_progress_ends() -> None:
     one = sm.assess(tables(), FEW, resamples=20, threads=1, progress=lambda done, total: calls.append((done, total)))
     two = sm.assess(tables(), FEW, resamples=20, threads=2)
     assert one.to_dict() == two.to_dict()
-    # Seven models, three frictions, 101 shares, two models at each of 21 shares of a design, and with full floors three
+    # Seven models, three frictions, 21 shares, two models at each of 21 shares of a design, and with full floors three
     # frictions and 21 shares, under three motions.
-    assert calls[-1] == ((7 + 3 + 101 + 42 + 24) * 3, (7 + 3 + 101 + 42 + 24) * 3)
+    assert calls[-1] == ((7 + 3 + 21 + 42 + 24) * 3, (7 + 3 + 21 + 42 + 24) * 3)
     assert [done for done, _ in calls] == sorted(done for done, _ in calls)
 
 

@@ -17,17 +17,17 @@ RAISE = "raise the number in the same commit and say in CHANGELOG.md which featu
 
 # Ceilings are the present numbers: lower them where less is left. "top" holds the files beside the folders.
 LINES = """
-assessment 7213   base 2419   commands 4234   design 3907   design/scaling 1119   effective_mass 3297   media 1525
-model 3215   motions 377   motions/matching 1476   motions/pulses 1061   motions/records 3993
-motions/records/formats 3853   motions/records/synthetic 1150   motions/scaling 810   motions/spectra 1819   runs 3345
-runs/grid 1725   show 3429   show/animation 1523   show/assessment 2308   show/explore 297   show/plots 1843
-show/study 1985   studies 8   studies/campaign 1626   studies/evidence 1157   studies/fragility 3188
-studies/risk 1664   studies/slip 1682   studies/study 1766   studies/validation 1227   top 97
+assessment 7192   base 2560   commands 4207   design 3891   design/scaling 1107   effective_mass 2889   media 1554
+model 3214   motions 377   motions/matching 1478   motions/pulses 1061   motions/records 3987
+motions/records/formats 3853   motions/records/synthetic 1150   motions/scaling 799   motions/spectra 1820   runs 3709
+runs/grid 1720   show 3429   show/animation 1522   show/assessment 2296   show/explore 317   show/plots 1837
+show/study 1985   studies 8   studies/campaign 1626   studies/evidence 1169   studies/fragility 3159
+studies/risk 1626   studies/slip 1662   studies/study 1790   studies/validation 1251   top 97
 """
-FILES, SMALL_FILES, SMALL, LONGEST = 270, 6, 60, 600  # small: fewer than 60 lines, without __init__.py
+FILES, SMALL_FILES, SMALL, LONGEST = 272, 6, 60, 600  # small: fewer than 60 lines, without __init__.py
 DOCSTRING = 3  # lines of what no user can reach
 KERNEL_RUNS = """
-effective_mass/runs.py motions/spectra/inelastic.py runs/batch.py runs/batch_tables.py runs/simulate.py
+motions/spectra/inelastic.py runs/batch.py runs/simulate.py
 """
 TOP = """
 .ci .github .gitignore CHANGELOG.md CITATION.cff CONTRIBUTING.md Cargo.lock Cargo.toml LICENSE-APACHE LICENSE-MIT

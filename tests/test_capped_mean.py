@@ -12,7 +12,7 @@ import pytest
 import seismass as sm
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import capped, few_collapses
-from seismass.effective_mass.runs import named_motions, solve
+from seismass.runs.peaks import named_motions, solve
 
 SUITE = [record.scaled(1.5) for record in sm.builtin_suite("seven")]
 HALVINGS = 20

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass.assessment.answer import DESIGN_SHARES, design_share, fractions_by_friction
+from seismass.assessment.answer import design_share, fractions_by_friction
+from seismass.effective_mass.models import DEFAULT_FRACTIONS
 
 TWO_STOREYS = Path(__file__).with_name("data") / "two_storeys.json"
 """A building file: two storeys with goods on the first, that slide under the built-in suite."""
@@ -33,7 +34,7 @@ def largest(motions: list[sm.Record]) -> np.ndarray:
     """Largest drift ratio by design share and motion, each by a run of its own."""
     own = building(None)
     rows = []
-    for share in DESIGN_SHARES:
+    for share in DEFAULT_FRACTIONS:
         scene = sm.Scene(own.structure(None, share * own.goods_mass), own.scene().blocks)
         rows.append([(sm.simulate(scene, motion).peak_drift / 4.0).max() for motion in motions])
     return np.array(rows)
@@ -45,7 +46,7 @@ def test_without_a_collapse_it_is_that_of_the_public_function(motions: list[sm.R
         lambda share: own.structure(None, share * own.goods_mass),
         own.scene().blocks,
         motions,
-        fractions=DESIGN_SHARES,
+        fractions=DEFAULT_FRACTIONS,
         resamples=1,
     )
     found = design_share(own, None, 1.0, motions, None, None)
@@ -71,7 +72,7 @@ def test_many_collapses_leave_none_and_say_which(motions: list[sm.Record], large
     second = np.sort(largest, axis=1)[:, -2]
     ratio = float(np.median(second))
     fallen = (largest > ratio).sum(axis=1)
-    many = DESIGN_SHARES[fallen > 1]
+    many = DEFAULT_FRACTIONS[fallen > 1]
     found = design_share(building(ratio), None, 1.0, motions, None, None)
     assert found.effective is None
     assert found.reason == (
@@ -81,14 +82,14 @@ def test_many_collapses_leave_none_and_say_which(motions: list[sm.Record], large
 
 
 def test_frictions_have_their_models_in_common(motions: list[sm.Record]) -> None:
-    """The runs: three frictions and 101 shares, and what roots take beside; values as each friction alone gives."""
+    """The runs: three frictions and 21 shares, and what roots take beside; values as each friction alone gives."""
     own, calls = building(None), []
     frictions = {"real": 1.0, "real_mu_low": 0.67, "real_mu_high": 1.5}
     bootstrap = {"confidence": 0.9, "resamples": 20, "seed": 0}
     found = fractions_by_friction(
         own, None, frictions, motions, bootstrap, None, lambda done, total: calls.append((done, total))
     )
-    assert calls[-1] == ((3 + 101) * 11, (3 + 101) * 11)
+    assert calls[-1] == ((3 + 21) * 11, (3 + 21) * 11)
     for name, factor in frictions.items():
         alone = sm.effective_mass(own.scene(mu_factor=factor), motions, resamples=20)
         assert found[name].to_dict() == alone.to_dict()

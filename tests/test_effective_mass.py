@@ -16,8 +16,8 @@ from scipy.optimize import brentq
 import seismass as sm
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.design import response_spectrum_analysis
-from seismass.effective_mass.models import TOLERANCE, interpolated, refined_root
 from seismass.effective_mass.search import without_friction
+from seismass.effective_mass.share import TOLERANCE, interpolated, refined_root
 from seismass.motions.spectra import mean_spectrum
 
 SUITE = sm.builtin_suite("seven")
@@ -252,7 +252,13 @@ def test_interval_is_the_paired_bootstrap(drifts: tuple[Any, Any], statistic: An
         values.append(share_by_hand(curve, drift))
         ratios.append(drift / curve)
     found = sm.effective_mass(
-        case(3, 0.47, 1.0, 2.0, 0.3), recorded, statistic=statistic, confidence=0.8, resamples=200, seed=3
+        case(3, 0.47, 1.0, 2.0, 0.3),
+        recorded,
+        statistic=statistic,
+        fractions=SHARES,
+        confidence=0.8,
+        resamples=200,
+        seed=3,
     )
     # The last bits of the sums differ; interpolation multiplies them by the inverse slope of the curve.
     assert found.interval == pytest.approx(np.percentile(values, [10.0, 90.0]), abs=1e-9)
@@ -262,6 +268,15 @@ def test_interval_is_the_paired_bootstrap(drifts: tuple[Any, Any], statistic: An
     np.testing.assert_allclose(largest["ratio_low"], low, rtol=1e-12)
     np.testing.assert_allclose(largest["ratio_high"], high, rtol=1e-12)
     assert found.curve.filter(found.curve["storey"] > 0)["ratio_low"].null_count() == 3 * 101
+
+
+@pytest.mark.parametrize("case_of", [(3, 0.47, 1.0, 2.0, 0.3), (2, 1.0, 1.5, 2.0, 0.2), (2, 0.38, 0.5, 4.0, 0.2)])
+def test_shares_by_default_give_the_value_of_five_times_as_many(case_of: tuple[Any, ...]) -> None:
+    """Roots are refined on exact models; the interval alone is interpolated between shares."""
+    few, many = (sm.effective_mass(case(*case_of), MOTIONS, fractions=shares) for shares in (None, SHARES))
+    assert few.kind == many.kind
+    np.testing.assert_allclose(few.roots, many.roots, rtol=1e-11)
+    assert few.interval == pytest.approx(many.interval, abs=0.005)
 
 
 def test_seed_draws_other_resamples() -> None:
@@ -341,7 +356,7 @@ def test_threads_and_progress() -> None:
     one = sm.effective_mass(scene, MOTIONS, threads=1, progress=lambda done, total: seen.append((done, total)))
     two = sm.effective_mass(scene, MOTIONS, threads=2)
     assert one.to_json() == two.to_json()
-    assert seen[-1] == (102 * 7, 102 * 7)
+    assert seen[-1] == (22 * 7, 22 * 7)
 
 
 def test_drift_ratios_and_p_delta() -> None:
@@ -393,7 +408,7 @@ def test_collapse() -> None:
 
     draws = np.random.default_rng(0).multinomial(7, np.full(7, 1.0 / 7.0), size=300)
     values = [by_hand(np.repeat(np.arange(7), draw)) for draw in draws]
-    drawn = sm.effective_mass(scene, MOTIONS, statistic="median", resamples=300)
+    drawn = sm.effective_mass(scene, MOTIONS, statistic="median", fractions=SHARES, resamples=300)
     assert drawn.interval == pytest.approx(np.percentile(values, [5.0, 95.0]), abs=1e-9)
     others = [by_hand(np.delete(np.arange(7), motion)) for motion in range(7)]
     np.testing.assert_allclose(drawn.records["value_without"], others, atol=1e-9)
@@ -402,7 +417,7 @@ def test_collapse() -> None:
 def test_tables_json_and_files(tmp_path: Path) -> None:
     found = sm.effective_mass(case(2, 0.38, 0.5, 4.0, 0.2), MOTIONS)
     assert found.curve.columns[:5] == ["fraction", "storey", "model_drift", "real_drift", "ratio"]
-    assert found.curve.height == 101 * 3
+    assert found.curve.height == 21 * 3
     assert found.records["record"].to_list() == [record.name for record in MOTIONS]
     assert found.records["motion"].to_list() == list(range(1, 8))
     single = sm.effective_mass(case(2, 0.38, 0.5, 4.0, 0.2), MOTIONS[2])

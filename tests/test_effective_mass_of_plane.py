@@ -56,5 +56,5 @@ def test_the_direction_chosen_is_solved_with_its_own_building() -> None:
     assert [x.by_hand.period, y.by_hand.period] == pytest.approx([0.5, 0.3], rel=1e-12)
     larger = answer(held, list(pairs))
     assert larger.real >= max(x.real, y.real) * (1.0 - 1e-12)
-    with pytest.raises(sm.errors.InvalidOption, match="drift of effective mass must be larger, vector, x or y"):
+    with pytest.raises(sm.errors.InvalidOption, match="drift of effective mass must be one of larger, vector, x, y"):
         answer(held, list(pairs), drift="diagonal")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass.effective_mass.models import extended, first_bracket
+from seismass.effective_mass.share import extended, first_bracket
 
 SUITE = [record.scaled(2.0) for record in sm.builtin_suite("seven")[:3]]
 STRENGTH = {"yield_shear_over_weight": [0.34, 0.27, 0.13]}

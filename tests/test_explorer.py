@@ -17,9 +17,9 @@ import numpy as np
 import pytest
 
 import seismass as sm
+from seismass.base.statistics import bootstrap_counts
 from seismass.cli import main
 from seismass.design import response_spectrum_analysis
-from seismass.effective_mass.models import bootstrap_counts
 from seismass.effective_mass.rule import by_hand
 from seismass.media.page import page_html
 from seismass.motions.spectra import mean_spectrum
@@ -83,9 +83,11 @@ def case(storeys: int, period: float, strength: list[float], ratios: list[float]
         "storeys": storeys,
         "period": period,
         "damping": 0.05,
-        "overstrength": 2.0,
-        "secondSlope": 0.05,
-        "thirdSlope": 0.0,
+        "pDelta": 0,
+        **{name: [1.0] * storeys for name in ("floorMass", "stiffness", "height")},
+        "overstrength": [2.0] * storeys,
+        "secondSlope": [0.05] * storeys,
+        "thirdSlope": [0.0] * storeys,
         "strength": [str(value).replace("inf", "Infinity") for value in strength],
         "massRatio": ratios,
         "muS": [mu] * storeys,
@@ -101,8 +103,8 @@ def random_case(draw: np.random.Generator) -> dict[str, Any]:
     mu_s = draw.uniform(0.0, 0.6, storeys)
     return chosen | {
         "damping": draw.choice([0.0, 0.02, 0.05]),
-        "overstrength": draw.uniform(1.0, 3.0),
-        "secondSlope": draw.uniform(0.0, 0.2),
+        "overstrength": draw.uniform(1.0, 3.0, storeys).tolist(),
+        "secondSlope": draw.uniform(0.0, 0.2, storeys).tolist(),
         "massRatio": (draw.uniform(0.1, 2.0, storeys) * (draw.random(storeys) < 0.7)).tolist(),
         "muS": mu_s.tolist(),
         "muK": (mu_s * draw.choice([0.5, 0.75, 1.0], storeys)).tolist(),
@@ -274,10 +276,10 @@ def test_records_that_cannot_be_read_are_refused(in_node: Any, tmp_path: Path, t
 
 def test_addresses_are_read_as_they_are_written(in_node: Any) -> None:
     address = (
-        "v=1&by=hand&m=synthetic-3&d=full&n=2&T=0.5&z=0.02&O=1.5&r2=0.1&h=4&R=3&V=0.3,0.1&a=1.5,0&s=0.4,0.2&k=0.3,0.2"
-        "&x=1.25&c=0.6"
+        "v=1&m=synthetic-3&d=full&by=hand&n=2&T=0.5&z=0.02&O=1.5,2&r2=0.1&h=4&R=3&V=0.3,0.1&a=1.5,0&s=0.4,0.2&k=0.3,0.2"
+        "&x=1.25&c=0.6&r3=0.01&M=1.1,0.9&K=1,0.8&P=1&o=0.8&y=2&g=1.1,0.7&F=0.498,0.14,0.77,7&W=kinds"
     )
-    wrong = "#n=9&T=abc&a=1,2,3,4,5&k=0.9&s=0.3&by=magic&z=&m=%"
+    wrong = "#n=9&T=abc&a=1,2,3,4,5&k=0.9&s=0.3&by=magic&z=&m=%&g=1,0&F=2,x&P=0.5"
     found = in_node(addresses=[address, "", wrong])["addresses"]
     assert found[0]["again"] == address
     assert found[0]["remarks"] == found[1]["remarks"] == []
@@ -287,12 +289,81 @@ def test_addresses_are_read_as_they_are_written(in_node: Any) -> None:
         "first period in the address must be from 0.05 to 5; got abc",
         "damping ratio in the address must be from 0 to 0.5; got ",
         "goods over floor mass in the address must be from 0 to 10; got 1,2,3,4,5",
+        "P-Delta in the address must be from 0 to 1; got 0.5",
         "the record in the address cannot be read: %",
+        "factors of the motions in the address must be above 0 and at most 1000; got 1,0",
+        "the answer of a building file in the address must be three shares and a number of motions; got 2,x",
     ]
     # What is said wrong keeps its default; kinetic friction is at most static friction.
     assert found[2]["state"]["storeys"] == 3
     assert found[2]["state"]["muK"] == [0.3] * 4  # one number of friction stands for all floors
     assert found[2]["state"]["by"] == "design"
+
+
+def count_of(sentence: str) -> int:
+    """Under how many of the three motions a sentence has goods slide."""
+    found = re.match(r"Goods slide under (?:all (\d) motions|(\d) of the 3 motions), and ", sentence)
+    return 0 if found is None else int(found[1] or found[2])
+
+
+def percent_of(sentence: str, pattern: str) -> int:
+    """How many per cent more (positive) or less a sentence says, behind a text."""
+    found = re.search(pattern + r" (?:(\d+) % (more|less) than|as much as)", sentence)
+    assert found is not None, sentence
+    return 0 if found[1] is None else int(found[1]) * (1 if found[2] == "more" else -1)
+
+
+def test_sentences_say_what_the_result_has(in_node: Any) -> None:
+    """Every kind of sentence for 300 random cases, against the numbers of their results."""
+    draw = np.random.default_rng(7)
+    short = [record.with_duration(6.0).scaled(2.0) for record in MOTIONS[:3]]
+    asked: list[dict[str, Any]] = []
+    while len(asked) < 300:
+        chosen = random_case(draw)
+        counted = float(draw.choice([0.0, 0.25, 0.3125, 0.6, 1.0]))
+        told = {"storeys": chosen["storeys"], "counted": counted, "intensity": 1.0, "muS": chosen["muS"]}
+        if any(chosen["massRatio"]):
+            asked.append({"scene": chosen, "suite": [0, 1, 2], "resamples": [1, 1, 1], "told": told})
+    found = in_node(motions=[motion(one) for one in short], effective=asked)["effective"]
+    kinds = set()
+    for one, state in zip(found, (each["told"] for each in asked), strict=True):
+        words, share = one["told"], one["value"]
+        slid = int(sum(one["slides"]))
+        kinds.add((min(slid, 1), one["kind"]))
+        # What slides, and how much acts as mass.
+        assert ("No goods slide under any of the 3 motions" in words["slides"]) == (slid == 0)
+        assert count_of(words["slides"]) == slid
+        if slid:
+            assert int(re.search(r"and (\d+) % of them act", words["slides"])[1]) == pytest.approx(
+                100 * share, abs=0.501
+            )
+        # The model of the code, read between the shares that were solved.
+        model = np.interp(state["counted"], one["shares"], one["model"])
+        apart = percent_of(words["code"], "its model drifts")
+        assert apart == pytest.approx(100 * (model / one["realMean"] - 1), abs=0.502)
+        assert f"the code counts {100 * state['counted']:.0f} %" in words["code"] or state["counted"] == 0.3125
+        # The highest storey.
+        real, both = one["realByStorey"][-1], max(one["modelByStorey"][-1], one["bareByStorey"][-1])
+        ratios = re.search(r"Storey (\d), the highest, drifts ([\d.]+) times .*goods, ([\d.]+) times", words["roof"])
+        assert int(ratios[1]) == state["storeys"]
+        assert float(ratios[2]) == pytest.approx(real / one["modelByStorey"][-1], abs=0.00502)
+        assert float(ratios[3]) == pytest.approx(real / both, abs=0.00502)
+    assert {(0, "stuck"), (1, "root"), (1, "one")} <= kinds  # what sentences may confuse is among them
+
+
+def test_the_remark_on_a_building_file_compares_what_is_shown(in_node: Any) -> None:
+    file = {"share": 0.498, "low": 0.141, "high": 0.768, "motions": 7, "differs": ["kinds"]}
+    there = "The page of the building file says 50 % (14 % to 77 %, other suites too) under 7 motions."
+    words = {"kinds": "kinds are one"}
+    cases = [
+        (0.503, "Here it is the same"),
+        (0.47, "Here it is 47 %, 3 points less"),
+        (0.51, "Here it is 51 %, 1 point more"),
+    ]
+    asked = [[file, {"value": value}, True, words] for value, _ in cases]
+    found = in_node(files=[*asked, [file, None, True, words], [file, {"value": 0.1}, False, words]])["files"]
+    assert found[:3] == [f"{there} {said}. What is different here: kinds are one." for _, said in cases]
+    assert found[3:] == [there, f"{there} The case was changed since."]
 
 
 def test_chart_of_other_buildings_is_that_of_the_documentation() -> None:
@@ -354,7 +425,8 @@ def test_the_rule_of_the_page_is_that_of_the_package(strength: list[float], shap
     blocks = [sm.Block(floor, mass_ratio=ratio, mu_s=0.25, mu_k=0.2) for floor, ratio in ((1, 1.0), (2, 0.5))]
     expected = by_hand(sm.Scene(bare, blocks), None, target)
     scene = {"storeys": 3, "massRatio": [1.0, 0.5, 0.0], "muS": [0.25] * 3, "muK": [0.2] * 3}
-    scene |= {"overstrength": float(bare.overstrength[0]), "secondSlope": float(bare.second_slope[0])}
+    scene |= {"overstrength": bare.overstrength.tolist(), "secondSlope": bare.second_slope.tolist()}
+    scene["floorMass"] = [1.0] * 3
     given = [scene, expected.spectral_acceleration_g, compiled._page_data()["rule"]]
     views = (TEMPLATES / "views.js").read_text(encoding="utf-8")
     rule = views[views.index("function ruleBy(") : views.index("function fractionWords(")]

@@ -270,7 +270,7 @@ def test_what_no_fit_can_take_is_refused() -> None:
         fit_capacities([1.0, np.inf])
     with pytest.raises(sm.errors.InvalidOption, match="capacities of fragility fit must be positive; got 0"):
         fit_capacities([0.0])
-    with pytest.raises(sm.errors.InvalidOption, match="confidence of fragility fit must be between 0 and 1; got 1"):
+    with pytest.raises(sm.errors.InvalidOption, match="confidence of fragility fit must be above 0 and below 1; got 1"):
         fit_capacities([1.0], confidence=1.0)
     with pytest.raises(sm.errors.InvalidOption, match="demand of cloud fit must be zero or positive, and finite"):
         fit_cloud([1.0, 2.0], [0.1, -0.1], 0.1)

@@ -88,7 +88,7 @@ def test_the_command_refuses_what_it_cannot_write(tmp_path: Path, capsys: pytest
         mass_source_lines(Answer("", "no goods", ()), building, ".e2k")
     file = tmp_path / "a.toml"
     for options, message in (
-        (["--mass-source", str(tmp_path / "m.txt")], "must have the suffix .e2k or .s2k"),
+        (["--mass-source", str(tmp_path / "m.txt")], "must be a file with the suffix .e2k or .s2k"),
         (["--mass-source", str(tmp_path / "no" / "m.e2k")], "No such folder"),
         (["--live-pattern", "L"], "--live-pattern of building must be left out"),
     ):

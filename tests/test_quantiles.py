@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+import seismass
 from seismass.base.statistics import QUANTILES, interval_of, quantile, statistics_of
 
 ROWS = np.random.default_rng(7).lognormal(size=(4, 11))
@@ -47,3 +51,22 @@ def test_shares_are_those_one_standard_deviation_away() -> None:
     # Places 0.8, 2.5 and 4.2 of six values lie between two.
     fallen = statistics_of(np.array([5.0, 3.0, np.inf, 1.0, 4.0, 2.0]))
     assert fallen == {"mean": None, "p16": pytest.approx(1.8), "median": 3.5, "p84": None, "max": None}
+
+
+def test_other_quantiles_than_these_are_taken_of_finite_values_alone() -> None:
+    """Spectra over angles, ratios of fits and of factors, and drifts of a choice of statistics are never infinite."""
+    package = Path(seismass.__file__).parent
+    found = {
+        file.relative_to(package).as_posix()
+        for file in package.rglob("*.py")
+        if re.search(r"np\.(nan)?(quantile|percentile|median)\b", file.read_text(encoding="utf-8"))
+    }
+    assert found == {
+        "base/statistics.py",
+        "design/pushover_fit.py",
+        "design/scaling/pushover.py",
+        "motions/pulses/result.py",
+        "motions/records/rotd.py",
+        "studies/fragility/hunt.py",
+        "studies/study/sensitivity.py",
+    }

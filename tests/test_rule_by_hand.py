@@ -17,8 +17,8 @@ from seismass.effective_mass.rule import (
     share_by_hand,
     yield_reduction,
 )
-from seismass.effective_mass.runs import named_motions
 from seismass.motions.spectra import corner_period
+from seismass.runs.peaks import named_motions
 
 TARGET = sm.TargetSpectrum.asce7(1.0, 0.6)
 

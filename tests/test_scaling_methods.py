@@ -181,7 +181,7 @@ def test_figure_shows_every_motion_and_what_is_compared() -> None:
             sm.scaling.scale_least_squares,
             {"space": "cubic"},
             sm.errors.InvalidOption,
-            "space of scaling must be one of log, linear",
+            "space of scaling must be log or linear",
         ),
         (
             sm.scaling.scale_least_squares,

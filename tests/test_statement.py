@@ -17,7 +17,7 @@ import pytest
 import seismass as sm
 from seismass.assessment.checks import friction_words, governing_table
 from seismass.assessment.statement import PresentGoods, collapsing, other_amounts, present_goods, statement_of
-from seismass.effective_mass.models import bootstrap_counts, quantile_interval
+from seismass.base.statistics import bootstrap_counts, quantile_interval
 from seismass.media.roles import sentence_html
 from seismass.show.assessment.page import building_page
 from seismass.show.assessment.tables import assessment_tables

@@ -20,7 +20,8 @@ from seismass.show.study import write
 from seismass.show.study.answer import findings_text, suite_caption
 from seismass.show.study.figures import study_figures
 from seismass.show.study.tables import study_tables
-from seismass.studies.study import StudyParameters, StudyResult, display_names, run_study
+from seismass.studies.study import StudyParameters, StudyResult, run_study
+from seismass.studies.study.run import display_names
 from seismass.studies.study.tables import findings
 
 TARGET = sm.TargetSpectrum.asce7()
@@ -306,7 +307,7 @@ def test_growth_is_not_counted_over_a_gap(missing: float | None) -> None:
         ({"mu": ("0.4",)}, "mu of study must be a number; got '0.4'"),
         ({"mu": 0.4}, "mu of study must be a tuple of at least one value, none twice; got 0.4"),
         ({"mu": (0.4, 0.4)}, "mu of study must be a tuple of at least one value, none twice; got (0.4, 0.4)"),
-        ({"damping_base": "none"}, "damping_base of study must be bare, loaded or own; got 'none'"),
+        ({"damping_base": "none"}, "damping_base of study must be one of bare, loaded, own; got 'none'"),
         ({"height": 0.0}, "height of study must be a positive number; got 0"),
         ({"p_delta": 1}, "p_delta of study must be True or False; got 1"),
         ({"collapse_drift_ratio": -1.0}, "collapse_drift_ratio of study must be a positive number; got -1"),
@@ -358,7 +359,7 @@ def test_numbers_of_any_kind_are_the_same_parameters() -> None:
 
 
 def test_a_suite_is_asked_for() -> None:
-    with pytest.raises(sm.errors.InvalidMotion, match="suite of study must be a Suite of records; got 3"):
+    with pytest.raises(sm.errors.InvalidMotion, match="suite of study must be a Suite; got 3"):
         run_study(3, TARGET)  # type: ignore[arg-type]
 
 

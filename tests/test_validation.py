@@ -258,7 +258,7 @@ def test_claims_of_a_study_alone_are_those_on_the_study(built_in: Validation) ->
 
 
 def test_a_suite_must_be_one() -> None:
-    with pytest.raises(sm.errors.InvalidMotion, match=r"^suite of validation must be a Suite of records; got 3"):
+    with pytest.raises(sm.errors.InvalidMotion, match=r"^suite of study must be a Suite; got 3"):
         validate(3)  # type: ignore[arg-type]
 
 

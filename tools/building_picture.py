@@ -1,4 +1,5 @@
-"""Writes docs/figures/building_page.png: the top of the page that `seismass building` writes for its example.
+"""Writes docs/figures/building_page.png: the top of the page that `seismass building` writes for its example, and its
+dark twin.
 
 Usage: python tools/building_picture.py, with Playwright and a Chromium on the path
 """
@@ -24,4 +25,4 @@ if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as folder:
         assess(example_file()).write(folder)
         page = Path(folder, "report.html").read_text(encoding="utf-8")
-    SCREENS["keep"](SCREENS["screen"](page, SIZE), FIGURE)
+    SCREENS["keep_both"](page, SIZE, FIGURE)

@@ -59,7 +59,7 @@ BUILT: Final = (
     ("test", "--no-run", "-p", "seismass", "--lib"),
 )
 """The Rust tests of `make test`, which share their kernel with the extension module."""
-OF_SOURCES: Final = ("test_mutants", "test_rust_example", "test_stubs")
+OF_SOURCES: Final = ("test_mutants", "test_rust_example")
 """Tests that read the planted text itself, or compile Rust, and say nothing of a fault in the Python package."""
 SWITCH: Final = """//! The switch of planted faults.
 static FAULT: std::sync::OnceLock<u32> = std::sync::OnceLock::new();

@@ -10,14 +10,19 @@ import shutil
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from PIL import Image
 from playwright.sync_api import sync_playwright
 
+SCHEMES: Final = {"light": "", "dark": "_dark"}
+"""Colour schemes, and how the names of their pictures end."""
 
-def screen(html: str, size: tuple[int, int], prepare: Callable[[Any], None] = lambda page: None) -> Image.Image:
-    """Return what a screen shows of a page in the light scheme, without motion.
+
+def screen(
+    html: str, size: tuple[int, int], prepare: Callable[[Any], None] = lambda page: None, scheme: str = "light"
+) -> Image.Image:
+    """Return what a screen shows of a page, without motion.
 
     Parameters
     ----------
@@ -27,6 +32,8 @@ def screen(html: str, size: tuple[int, int], prepare: Callable[[Any], None] = la
         Width and height of the screen (CSS pixels).
     prepare : callable, optional
         Called with the page of Playwright before the picture is taken.
+    scheme : {"light", "dark"}
+        Colour scheme of the screen.
 
     Raises
     ------
@@ -43,13 +50,19 @@ def screen(html: str, size: tuple[int, int], prepare: Callable[[Any], None] = la
         browser = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
         width, height = size
         page = browser.new_page(
-            viewport={"width": width, "height": height}, color_scheme="light", reduced_motion="reduce"
+            viewport={"width": width, "height": height}, color_scheme=scheme, reduced_motion="reduce"
         )
         page.goto(file.as_uri())
         prepare(page)
         picture = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
         browser.close()
     return picture
+
+
+def keep_both(html: str, size: tuple[int, int], file: Path, prepare: Callable[[Any], None] = lambda page: None) -> None:
+    """Write what screens of both colour schemes show of a page: `file`, and its dark twin beside it."""
+    for scheme, end in SCHEMES.items():
+        keep(screen(html, size, prepare, scheme), file.with_stem(file.stem + end))
 
 
 def keep(picture: Image.Image, file: Path, colours: int = 64) -> None:

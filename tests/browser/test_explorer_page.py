@@ -47,9 +47,13 @@ def until(page: Any, expression: str) -> None:
         page.wait_for_timeout(10)
 
 
-def settled(page: Any) -> None:
-    """Wait for the effective fraction of the case that was chosen last, which is solved at the next frame."""
+def settled(page: Any, *, folded: bool = False) -> None:
+    """Wait for the effective fraction of the case that was chosen last, which is solved at the next frame; unfold all
+    quantities and numbers.
+    """
     until(page, READY)
+    if not folded:
+        page.evaluate("document.querySelectorAll('details').forEach(each => { each.open = true; })")
     page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())))")
     until(page, FOUND)
 
@@ -84,6 +88,22 @@ def exported(page: Any, tmp_path: Path) -> Path:
     return file
 
 
+def is_rounded(shown: list[str], exact: list[str]) -> bool:
+    """Whether numbers are other ones with fewer digits, to half of the last; other text is the same."""
+
+    def places(text: str) -> int:
+        return len(text.partition(".")[2])
+
+    assert len(shown) == len(exact)
+    for one, other in zip(shown, exact, strict=True):
+        if not re.fullmatch(r"-?[\d.]+", one):
+            assert one == other
+        else:
+            assert abs(float(one) - float(other)) <= 0.501 * (10.0 ** -places(one) + 10.0 ** -places(other))
+            assert len(one) >= 3 or one == other
+    return True
+
+
 def printed(lines: list[str], first: str) -> list[list[str]]:
     """Rows of a table that `seismass run` printed, by the first word of its head."""
     start = next(i for i, line in enumerate(lines) if line.split()[:1] == [first])
@@ -96,7 +116,7 @@ def printed(lines: list[str], first: str) -> list[list[str]]:
 
 
 def test_the_link_of_a_calculation_page_opens_the_same_building(html: str, open_page: Any, tmp_path: Path) -> None:
-    """A building that the live page can express: equal floors, elastic behind the second yield, no P-Delta."""
+    """Floors, heights and springs that differ, P-Delta, the site: the same scene, and the same share to its digits."""
     tables = {
         "site": {"sds_g": 1.0, "sd1_g": 0.6},
         "building": {
@@ -104,39 +124,52 @@ def test_the_link_of_a_calculation_page_opens_the_same_building(html: str, open_
             "height_m": 4.0,
             "area_m2": 500.0,
             "dead_load_kpa": 5.0,
-            "p_delta": False,
+            "p_delta": True,
             "yield_shear_over_weight": 0.2,
         },
         "goods": {"live_load_kpa": 6.0, "mu_s": 0.3, "mu_k": 0.2},
-        "storeys": [{}, {"live_load_kpa": 0.0}],
+        "storeys": [{"overstrength": 1.5}, {"live_load_kpa": 0.0, "dead_load_kpa": 4.0, "height_m": 3.5}],
     }
-    result = sm.assess(tables, mu_factors=(1.0, 1.0), resamples=2)
+    result = sm.assess(tables, sm.builtin_suite("seven"), mu_factors=(1.0, 1.0))
     case, reasons, differences = live_case(assessment_tables(result))
     assert case is not None
     assert reasons == ()
-    assert differences == ("motions are the seven built-in ones, scaled to their own target, not those of this page",)
+    assert differences == ()
     with open_page(html, "live") as page:
         settled(page)
         visit(page, case.address)
+        fraction, remark = page.locator(".fraction").inner_text(), page.locator(".of-file").inner_text()
+        ticks = page.locator(".ticks").inner_text()
         scene = read_scene(exported(page, tmp_path)).scene
+        set_value(page, "Damping ratio", 0.04)
+        settled(page)
+        assert page.locator(".of-file").inner_text().endswith("The case was changed since.")
     own = result.building.scene()
     assert scene.building is not None
     assert own.building is not None
-    for name in ("period", "stiffness", "yield_shear"):
+    found = result.effective["real"]
+    assert fraction.startswith(f"Effective fraction {found.value:.3f} (90 % interval")
+    assert f"says {100 * found.value:.0f} % (" in remark
+    assert remark.endswith("under 7 motions. Here it is the same.")
+    assert "this model" not in ticks
+    np.testing.assert_allclose(scene.geometric_stiffness, own.geometric_stiffness / own.building.mass.mean(), rtol=1e-9)
+    for name in ("period", "stiffness", "yield_shear", "overstrength"):
         # The live page has masses of 1 kg: forces and stiffnesses are over the mass.
         one, other = (
-            np.array(building.periods[0]) if name == "period" else getattr(building, name) / building.mass.sum()
+            np.array(building.periods[0])
+            if name == "period"
+            else getattr(building, name) / (1.0 if name == "overstrength" else building.mass.sum())
             for building in (scene.building, own.building)
         )
         np.testing.assert_allclose(one, other, rtol=1e-9)
     assert [block.floor for block in scene.blocks] == [block.floor for block in own.blocks]
     assert (scene.blocks[0].mu_s, scene.blocks[0].mu_k) == (0.3, 0.2)
-    assert scene.blocks[0].mass_ratio == pytest.approx(own.blocks[0].mass / own.building.mass[0], rel=1e-9)
+    assert scene.blocks[0].mass == pytest.approx(own.blocks[0].mass / own.building.mass.mean(), rel=1e-9)
 
 
 def test_page_is_as_every_page_must_be(html: str, look: Any) -> None:
     def prepare(page: Any) -> None:
-        settled(page)
+        settled(page, folded=True)
         page.locator(".time").evaluate("e => { e.value = 8.5; e.dispatchEvent(new Event('input')); }")
 
     look(html, "explorer", prepare)
@@ -146,7 +179,7 @@ def test_page_is_as_every_page_must_be(html: str, look: Any) -> None:
 def test_numbers_are_those_of_seismass_run(
     html: str, open_page: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str], address: str
 ) -> None:
-    """Each cell of the storeys and of the goods is what the command prints for the scene file, to the last digit."""
+    """Each cell of the storeys and of the goods is what the command prints for the scene file, rounded."""
     with open_page(html, "explorer", accept_downloads=True) as page:
         settled(page)
         if address:
@@ -157,9 +190,8 @@ def test_numbers_are_those_of_seismass_run(
     assert main(["run", str(file)]) == 0
     lines = capsys.readouterr().out.splitlines()
     # storey, peak drift, of height, at, residual, peak shear / W, floor acceleration: the columns of the command.
-    assert [row[:7] for row in storeys] == printed(lines, "storey")
-    blocks = printed(lines, "block")
-    assert goods == [row[1:] for row in blocks]
+    assert all(map(is_rounded, [row[:7] for row in storeys], printed(lines, "storey")))
+    assert all(map(is_rounded, goods, [row[1:] for row in printed(lines, "block")]))
     counts = next(line for line in lines if line.split()[:1] == ["events"]).split(maxsplit=1)[1]
     assert events == f"Events where goods slide: {counts}."
     # The models' drifts are those of the package.
@@ -167,7 +199,7 @@ def test_numbers_are_those_of_seismass_run(
     share = float(re.search(r"(?:^|&)c=([\d.]+)", address)[1]) if "c=" in address else 0.25
     for column, attached in ((7, share), (8, 1.0)):
         model = sm.simulate(sm.attached_scene(scene.scene, attached), scene.motion)
-        assert [row[column] for row in storeys] == [f"{1e3 * drift:.3f}" for drift in model.peak_drift]
+        assert is_rounded([row[column] for row in storeys], [f"{1e3 * drift:.6f}" for drift in model.peak_drift])
 
 
 def test_fraction_is_that_of_the_package(html: str, open_page: Any, tmp_path: Path) -> None:
@@ -200,8 +232,9 @@ def test_fraction_is_that_of_the_package(html: str, open_page: Any, tmp_path: Pa
     height = float(scene.building.heights[0])
     names = ("real", "model", "model_at_0", "model_at_1")
     for row, storey in zip(table, expected.storeys.iter_rows(named=True), strict=True):
-        assert row[1:5] == [f"{1e3 * height * storey[name]:.3f}" for name in names]
-        assert row[5:] == [f"{storey[name]:.3f}" for name in ("ratio", "ratio_at_0", "ratio_at_1", "envelope_ratio")]
+        assert is_rounded(row[1:5], [f"{1e3 * height * storey[name]:.6f}" for name in names])
+        ratios = ("ratio", "ratio_at_0", "ratio_at_1", "envelope_ratio")
+        assert is_rounded(row[5:], [f"{storey[name]:.6f}" for name in ratios])
 
 
 def test_link_opens_the_same_case(html: str, open_page: Any) -> None:
@@ -287,7 +320,7 @@ def test_a_number_counts_when_it_is_complete(html: str, open_page: Any) -> None:
         assert page.evaluate(SHOWN) == shown
         page.keyboard.press("Enter")
         settled(page)
-        assert [row[2] for row in rows(page, "goods")] == ["0.35/0.2625", "0.35/0.2625"]
+        assert [row[2] for row in rows(page, "goods")] == ["0.35/0.263", "0.35/0.263"]
         # Goods stay on the floors that had them, whatever is typed on the way.
         field = page.locator("#x-massRatio")
         field.fill("0")
@@ -386,32 +419,210 @@ def test_the_answer_stands_first_and_its_numbers_can_be_dragged(html: str, open_
         assert [row[2] for row in rows(page, "goods")] == ["0.31", "0.31"]
 
 
-def test_stories_are_true(html: str, open_page: Any) -> None:
-    """What each story says is what its case shows."""
-
-    def tell(page: Any, name: str) -> int:
-        page.get_by_role("button", name=name).click()
-        page.wait_for_timeout(200)
+@pytest.mark.parametrize("number", range(1, 7))
+def test_a_story_says_what_its_case_shows(html: str, open_page: Any, number: int) -> None:
+    """Its sentence against the tables and the headline, what is drawn beside, the storey counted, where it starts."""
+    with open_page(html, "explorer", reduced_motion="no-preference") as page:
         settled(page)
-        assert page.locator(".story").inner_text()
+        page.locator(".play").click()
+        page.locator(".stories button").nth(number - 1).click()
+        page.wait_for_timeout(100)
+        settled(page)
         assert page.locator(".problem").is_hidden()
-        return int(page.locator(".share").inner_text().removesuffix(" %"))
+        share = page.locator(".share").inner_text()
+        said, asks = page.locator(".story").inner_text(), page.locator(".asks").inner_text()
+        assert asks.endswith("Not yet.")
+        slid = [row[1] for row in rows(page, "motions")].count("yes")
+        storeys, suite = rows(page, "storeys"), rows(page, "suite")
+        if number <= 3:
+            assert f"{share} of them act as mass" in said if slid else "all of them act as mass" in said
+            words = {0: "under any of the 7 motions", 7: "under all 7 motions"}
+            assert words.get(slid, f"under {slid} of the 7 motions") in said
+            # Where the sentence says that goods slide, they slide under the motion that is shown.
+            shows = page.locator(".answer").inner_text()
+            assert ("Goods slide on" in shows) == (slid > 0)
+            assert ("No goods slide" in shows) == (slid == 0)
+        elif number <= 5:
+            curve = page.locator(".curve").get_attribute("aria-label")
+            at_code = float(re.search(r"([\d.]+) with the share of the code", curve)[1])
+            apart = round(100 * (1 / at_code - 1))
+            assert said.startswith(f"{share} of the goods act as mass and the code counts 25 %")
+            found = re.search(r"drifts (\d+) % (more|less) than", said)
+            assert abs(int(found[1]) * (1 if found[2] == "more" else -1) - apart) <= 1
+        else:
+            assert said.startswith(f"Storey 4, the highest, drifts {suite[3][5]} times the model with {share} of")
+            assert f"{suite[3][8]} times the larger of the two" in said
+            assert page.locator("#x-beside").input_value() == "share"
+            assert page.locator("#x-counter").input_value() == "4"
+        counted = int(page.locator("#x-counter").input_value())
+        clock = float(page.locator(".clock").inner_text().split()[0])
+        assert clock == pytest.approx(max(0.0, float(storeys[counted - 1][3]) - 3.0), abs=0.011)
 
-    with open_page(html, "explorer") as page:
+
+WIDTHS = (320, 360, 390, 430, 480, 560, 640, 680, 720, 768, 810, 834, 900, 1024, 1280, 1920)
+ROOM = """() => {
+  const found = [];
+  const wide = document.documentElement.scrollWidth - document.documentElement.clientWidth;
+  if (wide > 0) found.push(`${wide} px to scroll sideways`);
+  for (const frame of document.querySelectorAll("fieldset")) {
+    const end = frame.getBoundingClientRect().right + 0.5;
+    for (const part of frame.querySelectorAll("input, select, label, th, td")) {
+      const name = part.ariaLabel || part.textContent;
+      if (part.getBoundingClientRect().right > end) found.push(`${name} leaves its frame`);
+    }
+  }
+  const words = Array.from(document.querySelectorAll(".ticks span, .handle span"), (part) => {
+    const range = document.createRange();
+    range.selectNodeContents(part);
+    return [part.textContent, range.getBoundingClientRect()];
+  });
+  const before = (a, b) => a.right <= b.left || a.bottom <= b.top;
+  const meet = (a, b) => a.width > 0 && b.width > 0 && !before(a, b) && !before(b, a);
+  for (const [i, [one, a]] of words.entries()) {
+    for (const [other, b] of words.slice(i + 1)) {
+      if (meet(a, b)) found.push(`${one} lies on ${other}`);
+    }
+  }
+  for (const part of document.querySelectorAll("button, input, select, summary, .handle")) {
+    const box = part.getBoundingClientRect();
+    const small = box.width > 0 && Math.min(box.width, box.height) < 23.9;
+    if (small) found.push(`${part.ariaLabel || part.textContent} is ${box.width} x ${box.height}`);
+  }
+  return found;
+}"""
+
+
+@pytest.mark.parametrize("storeys", [1, 4])
+def test_no_width_cuts_or_covers_anything(html: str, open_page: Any, storeys: int) -> None:
+    """At 16 widths, unfolded, with the shares of codes and one of its own; on a phone it is at most twelve screens."""
+    with open_page(html, "explorer", reduced_motion="reduce") as page:
         settled(page)
-        assert 50 < tell(page, "Pallets on steel") < 95
-        assert tell(page, "Library that never slides") == 100
-        assert {row[1] for row in rows(page, "motions")} == {"no"}
-        assert tell(page, "Archive on carpet") == 100
-        assert "yes" in {row[1] for row in rows(page, "motions")}
-        assert 20 <= tell(page, "The code is right") <= 30
-        assert tell(page, "The code is unsafe") == 100
-        curve = page.locator(".curve").get_attribute("aria-label")
-        at_code = re.search(r"([\d.]+) with the share of the code", curve)
-        assert at_code is not None
-        assert float(at_code[1]) > 1.95
-        tell(page, "A roof that drifts more")
-        assert float(rows(page, "suite")[3][5]) > 1.5
+        visit(page, f"n={storeys}&a=1.5,0.2,2,0.7&c=0.3&s=0.15&k=0.1")
+        for width in WIDTHS:
+            page.set_viewport_size({"width": width, "height": 800})
+            page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())))")
+            assert page.evaluate(ROOM) == [], width
+            assert page.evaluate("document.documentElement.scrollHeight") <= 12 * 800, width
+
+
+def test_on_a_phone_the_building_is_in_sight_while_a_slider_is_moved(html: str, open_page: Any) -> None:
+    with open_page(html, "explorer", width=360, reduced_motion="reduce", has_touch=True) as page:
+        page.set_viewport_size({"width": 360, "height": 800})
+        settled(page)
+        slider = page.get_by_label("Damping ratio, slider")
+        slider.evaluate("e => e.scrollIntoView({ block: 'end' })")
+        picture = page.locator(".picture").bounding_box()
+        assert picture["y"] >= 0
+        assert picture["height"] >= 200
+        assert slider.bounding_box()["y"] > picture["y"] + picture["height"]
+        before = page.evaluate("document.querySelector('.buildings').toDataURL()")
+        slider.press("End")
+        settled(page)
+        assert page.evaluate("document.querySelector('.buildings').toDataURL()") != before
+
+
+def drag(page: Any, place: Any, right: float, down: float) -> None:
+    """Drag a handle by its upper edge."""
+    box = place.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + 4
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + right / 2, y + down / 2)
+    page.mouse.move(x + right, y + down)
+    page.mouse.up()
+
+
+def test_the_building_is_changed_by_its_handles(html: str, open_page: Any) -> None:
+    """By dragging and by keys: the height of a block, the grip beside it, goods on an empty floor; Ctrl+Z undoes."""
+    with open_page(html, "explorer", reduced_motion="reduce") as page:
+        settled(page)
+        mass = page.get_by_role("slider", name="Mass of the goods on floor 1, over the floor mass")
+        assert (mass.get_attribute("aria-valuenow"), mass.get_attribute("aria-valuemax")) == ("1", "2")
+        high = page.evaluate("document.querySelector('figure.animation').places.blocks[0].high")
+        page.wait_for_timeout(1100)
+        drag(page, mass, 0, -30)  # 30 of 150 points for a range of 2
+        settled(page)
+        assert mass.get_attribute("aria-valuenow") == "1.4"
+        assert page.evaluate("document.querySelector('figure.animation').places.blocks[0].high") > high
+        assert [row[1] for row in rows(page, "goods")] == ["1.4", "1"]
+        mass.press("ArrowDown")
+        settled(page)
+        assert [row[1] for row in rows(page, "goods")] == ["1.35", "1"]
+        grip = page.get_by_role("slider", name="Friction of the goods")
+        drag(page, grip, 20, 0)  # 20 of 200 points for a range of 1
+        grip.press("ArrowRight")
+        settled(page)
+        assert [row[2] for row in rows(page, "goods")] == ["0.31", "0.31"]
+        roof = page.get_by_role("slider", name="Mass of the goods on floor 3, over the floor mass")
+        assert roof.inner_text() == "+"
+        roof.press("PageUp")
+        settled(page)
+        assert [row[:2] for row in rows(page, "goods")] == [["1", "1.35"], ["2", "1"], ["3", "0.5"]]
+        while not page.get_by_role("button", name="Undo").is_disabled():
+            page.keyboard.press("Control+z")
+            settled(page)
+        assert [row[:3] for row in rows(page, "goods")] == [["1", "1", "0.2"], ["2", "1", "0.2"]]
+        # A storey that is tapped is the one whose drift is counted.
+        page.locator(".buildings").click(position={"x": 20, "y": 300})
+        settled(page)
+        assert "y=2" in page.evaluate("location.hash")
+
+
+def test_the_ground_is_pushed_by_hand(html: str, open_page: Any) -> None:
+    """What the pointer does is the record of a run that goes on while it is pushed and until it has come to rest."""
+    with open_page(html, "explorer", reduced_motion="reduce") as page:
+        settled(page)
+        share = page.locator(".share").inner_text()
+        ground = page.get_by_role("slider", name="The ground, cm to the side")
+        box = ground.bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        page.mouse.move(x, y)
+        page.mouse.down()
+        for number in range(16):
+            page.mouse.move(x + (30 if number % 4 < 2 else -30), y)
+            page.wait_for_timeout(60)
+        places = "document.querySelector('figure.animation').places"
+        moved = page.evaluate(f"{places}.middle - {places}.left - {places}.width / 2")
+        assert 1.0 < abs(moved) < 60.0
+        assert float(page.locator(".clock").inner_text().split()[0]) > 0.5
+        page.mouse.up()
+        ground.press("ArrowLeft")
+        until(page, "document.querySelector('.answer').textContent.startsWith('Under your push')")
+        settled(page)
+        assert float(rows(page, "storeys")[0][1]) > 1.0  # mm
+        assert page.locator(".share").inner_text() == share
+        assert page.get_by_label("Record", exact=True).input_value() == "your push"
+
+
+def test_the_race_names_the_nearest_and_is_saved_and_filmed(html: str, open_page: Any, tmp_path: Path) -> None:
+    with open_page(html, "explorer", accept_downloads=True) as page:
+        settled(page)
+        page.wait_for_timeout(300)
+        said = page.locator(".winner").inner_text()
+        found = re.match(
+            r"Under synthetic-1 the model with (\d+) % .*its storey 1 drifts (\d+) % (more|less) than", said
+        )
+        assert found is not None
+        file = exported(page, tmp_path)
+        scene = sm.read_scene(file)
+        real = sm.simulate(scene.scene, scene.motion).peak_drift[0]
+        shares = (0.0, 0.25, 0.6, 0.8, 1.0)
+        ratios = [
+            sm.simulate(sm.attached_scene(scene.scene, share), scene.motion).peak_drift[0] / real for share in shares
+        ]
+        nearest = min(range(5), key=lambda i: abs(ratios[i] - 1.0))
+        assert int(found[1]) == round(100 * shares[nearest])
+        assert int(found[2]) * (1 if found[3] == "more" else -1) == round(100 * (ratios[nearest] - 1.0))
+        with page.expect_download() as download:
+            page.get_by_role("button", name="Save as picture").click()
+        download.value.save_as(tmp_path / "race.png")
+        assert (tmp_path / "race.png").read_bytes().startswith(b"\x89PNG")
+        with page.expect_download() as download:
+            page.get_by_role("button", name="Film of 8 s").click()
+        download.value.save_as(tmp_path / "race.webm")
+        film = (tmp_path / "race.webm").read_bytes()
+        assert film.startswith(b"\x1aE\xdf\xa3")  # EBML, as WebM has it
+        assert 50_000 < len(film) < 5_000_000
 
 
 def test_a_drift_beyond_belief_is_remarked_and_the_enlargement_stated(html: str, open_page: Any) -> None:
@@ -428,7 +639,7 @@ def test_without_a_script_there_is_a_picture_and_a_sentence(html: str, open_page
         assert page.locator(".still svg").is_visible()
         assert "66 % of the goods act as mass" in page.locator(".still figcaption").inner_text()
         assert not page.locator(".controls").is_visible()
-        assert not page.locator(".player").is_visible()
+        assert not page.get_by_label("Player").is_visible()
 
 
 def test_goods_by_keyboard_and_friction_at_most_static(html: str, open_page: Any) -> None:
@@ -473,7 +684,7 @@ def test_answer_is_said_once_in_words(html: str, open_page: Any) -> None:
             r"Under synthetic-1 at intensity 1: largest drift [\d.]+ mm \([\d.]+ % of the height\) in storey 1\. S",
             region.inner_text(),
         )
-        assert "Over the built-in motions: effective fraction of the goods" in region.inner_text()
+        assert re.search(r"Over the built-in motions \d+ % of the goods act as mass", region.text_content())
 
 
 @pytest.mark.parametrize("kind", ["at2", "columns"])
@@ -503,7 +714,7 @@ def test_own_record_is_taken_from_a_file(html: str, open_page: Any, tmp_path: Pa
     assert scene.motion.acceleration.tolist() == read.acceleration.tolist()
     assert scene.motion.dt == read.dt
     peaks = sm.simulate(scene.scene, read).peak_drift
-    assert [row[1] for row in shown] == [f"{1e3 * peak:.3f}" for peak in peaks]
+    assert is_rounded([row[1] for row in shown], [f"{1e3 * peak:.6f}" for peak in peaks])
 
 
 def test_it_plays_when_it_is_opened_unless_less_motion_is_preferred(html: str, open_page: Any) -> None:
@@ -512,7 +723,8 @@ def test_it_plays_when_it_is_opened_unless_less_motion_is_preferred(html: str, o
     loops = "document.querySelector('.loops').toDataURL()"
     with open_page(html, "explorer") as page:
         settled(page)
-        until(page, f"{clock} > 0.5")
+        assert page.evaluate(clock) >= float(rows(page, "storeys")[0][3]) - 3.01  # s before the largest drift
+        until(page, f"{clock} > 6")
         before, drawn = page.evaluate(clock), page.evaluate(loops)
         page.get_by_label("2", exact=True).check()
         until(page, f"{SHOWN} >= 2")
@@ -521,16 +733,26 @@ def test_it_plays_when_it_is_opened_unless_less_motion_is_preferred(html: str, o
         assert page.evaluate(loops) != drawn
     with open_page(html, "explorer", reduced_motion="reduce") as page:
         settled(page)
-        assert page.evaluate(clock) == 0.0
+        still = page.evaluate(clock)
+        page.wait_for_timeout(200)
+        assert page.evaluate(clock) == still == pytest.approx(float(rows(page, "storeys")[0][3]), abs=0.006)
         drawn = page.evaluate(loops)
-        page.locator(".time").evaluate("e => { e.value = 8.5; e.dispatchEvent(new Event('input')); }")
+        page.locator(".time").evaluate("e => { e.value = 9.5; e.dispatchEvent(new Event('input')); }")
         assert page.evaluate(loops) != drawn
 
 
-def test_page_is_fast(html: str, open_page: Any) -> None:
-    """Printed and not asserted: time to the first picture, and from a move of a slider to the picture (medians)."""
-    with open_page(html, "explorer") as page:
-        settled(page)
+@pytest.mark.parametrize("width", [1280, 360])
+def test_page_is_fast(html: str, open_page: Any, width: int) -> None:
+    """Printed and not asserted: time to the first picture, from opening the page to the first changed answer, and from
+    moves of a slider to the picture (median).
+    """
+    with open_page(html, "explorer", width=width) as page:
+        until(page, f"{SHOWN} >= 1")
+        page.get_by_role("slider", name="Static friction", exact=True).press("ArrowRight")
+        until(page, f"{SHOWN} >= 2")
+        guessed = page.evaluate("performance.now()")
+        until(page, FOUND)
+        changed = page.evaluate("performance.now()")
         loaded = page.evaluate("performance.getEntriesByName('first picture')[0].startTime")
         measure = """async value => {
           const slider = document.querySelector('.row[data-key=period] input');
@@ -544,6 +766,7 @@ def test_page_is_fast(html: str, open_page: Any) -> None:
         }"""
         taken = [page.evaluate(measure, f"{0.4 + 0.01 * step:.2f}") for step in range(21)]
     print(
-        f"first picture {loaded:.0f} ms after the page was asked for; a slider moved: {statistics.median(taken):.1f} ms"
+        f"{width} px: first picture {loaded:.0f} ms after the page was asked for, a changed answer {changed:.0f} ms, "
+        f"its first estimate {guessed:.0f} ms; a slider moved: {statistics.median(taken):.1f} ms"
     )
     assert len(taken) == 21

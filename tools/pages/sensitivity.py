@@ -6,7 +6,8 @@ from pages.parts import Page
 from seismass.motions.records import Suite, builtin_suite, read_suite
 from seismass.motions.spectra import TargetSpectrum
 from seismass.show.study.write import sensitivity_markdown
-from seismass.studies.study import StudyResult, motions_text, study_sensitivity
+from seismass.studies.study import StudyResult, study_sensitivity
+from seismass.studies.study.run import motions_text
 
 
 def fill(page: Page) -> None:

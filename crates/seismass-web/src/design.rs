@@ -2,32 +2,24 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 use seismass::spectrum::response_spectra;
-use seismass::{Control, Motion, Result, STANDARD_GRAVITY, UniformBuilding};
+use seismass::{Control, Motion, Result};
 
-use crate::case::{refuse, storeys_of};
+use crate::case::{Case, refuse};
 
-/// Numbers of a design ahead of its list of mass ratios.
-const HEAD: usize = 3;
 /// Damping ratio of the design spectrum, whatever that of the building.
 const DAMPING: f64 = 0.05;
 
-/// Returns V_e of each storey over the weight of the building without goods, for the mean spectrum of a suite. Takes
-/// storeys, period of the building without goods (s), the share of the goods that the code counts, then the mass ratio of
-/// the goods of each floor. The shears of all modes are combined by SRSS.
-pub(crate) fn elastic_shear_over_weight(numbers: &[f64], suite: &[Motion]) -> Result<Vec<f64>> {
-    let storeys = storeys_of(numbers.first().copied().unwrap_or(0.0), numbers.len(), HEAD, 1)?;
-    let (head, ratios) = numbers.split_at(HEAD);
-    if let Some(number) = numbers.iter().find(|number| !(number.is_finite() && **number >= 0.0)) {
-        return Err(refuse("number", "zero or positive", number));
+/// Returns V_e of each storey over the weight of the building without goods, with a share of the goods counted, for the mean
+/// spectrum of a suite. The shears of all modes are combined by SRSS.
+pub(crate) fn elastic_shear_over_weight(case: &Case, counted: f64, suite: &[Motion]) -> Result<Vec<f64>> {
+    if !(counted.is_finite() && counted >= 0.0) {
+        return Err(refuse("counted", "zero or positive", counted));
     }
     if suite.is_empty() {
         return Err(refuse("motions", "at least one, for the spectrum of the design", "none"));
     }
-    let stiffness = UniformBuilding { storeys, period: head[1], mass: 1.0, ..Default::default() }.stiffness()?;
-    let mass: Vec<f64> = ratios.iter().map(|ratio| 1.0 + head[2] * ratio).collect();
-    let weight = STANDARD_GRAVITY * storeys as f64;
-    let shears = storey_shears(&mass, stiffness, |periods| mean_spectrum(suite, periods))?;
-    Ok(shears.iter().map(|shear| shear / weight).collect())
+    let shears = storey_shears(&case.mass_with(counted), &case.stiffness()?, |periods| mean_spectrum(suite, periods))?;
+    Ok(shears.iter().map(|shear| shear / case.weight()).collect())
 }
 
 /// Mean pseudo-acceleration (m/s2) of the suite at periods (s).
@@ -41,16 +33,19 @@ fn mean_spectrum(suite: &[Motion], periods: &[f64]) -> Result<Vec<f64>> {
     Ok(periods.iter().enumerate().map(mean).collect())
 }
 
-/// Combined storey shears (N) of a building of equal storey stiffnesses: V_in = sum over floors j >= i of Gamma_n m_j
+/// Combined storey shears (N) of a building: V_in = sum over floors j >= i of Gamma_n m_j
 /// phi_jn A_n (Chopra, Dynamics of Structures, chapter 13).
-fn storey_shears(mass: &[f64], stiffness: f64, spectrum: impl FnOnce(&[f64]) -> Result<Vec<f64>>) -> Result<Vec<f64>> {
+fn storey_shears(
+    mass: &[f64],
+    stiffness: &[f64],
+    spectrum: impl FnOnce(&[f64]) -> Result<Vec<f64>>,
+) -> Result<Vec<f64>> {
     let n = mass.len();
     // M^(-1/2) K M^(-1/2), whose vectors are M^(1/2) phi.
     let modes = SymmetricEigen::new(DMatrix::from_fn(n, n, |i, j| {
         let entry = match i.abs_diff(j) {
-            0 if i + 1 < n => 2.0 * stiffness,
-            0 => stiffness,
-            1 => -stiffness,
+            0 => stiffness[i] + stiffness.get(i + 1).unwrap_or(&0.0),
+            1 => -stiffness[i.max(j)],
             _ => 0.0,
         };
         entry / (mass[i] * mass[j]).sqrt()
@@ -79,7 +74,7 @@ mod tests {
     fn shears_of_two_equal_floors_have_a_closed_form() {
         let (k, ordinates) = (300.0, [2.0, 5.0]);
         let root = 5.0f64.sqrt();
-        let found = storey_shears(&[1.0, 1.0], k, |periods| {
+        let found = storey_shears(&[1.0, 1.0], &[k, k], |periods| {
             let long = 2.0 * std::f64::consts::PI / ((3.0 - root) / 2.0 * k).sqrt();
             Ok(periods.iter().map(|t| ordinates[usize::from((t / long - 1.0).abs() > 1e-12)]).collect())
         })
@@ -105,10 +100,12 @@ mod tests {
     #[test]
     fn what_is_no_design_is_refused() {
         let step = Motion::new(vec![1.0; 400], 0.01, None).unwrap();
-        let refused =
-            |numbers: &[f64], suite: &[Motion]| elastic_shear_over_weight(numbers, suite).unwrap_err().to_string();
-        assert_eq!(refused(&[1.0, 1.2, 0.5, -1.0], &[step]), "number of case must be zero or positive; got -1");
+        let one = [1.0, 1.2, 0.05, 0.0, 0.3, 1.0, 0.2, 0.2, 1.0, 1.0, 3.0, 2.0, 0.05, 0.0];
+        let refused = |counted: f64, suite: &[Motion]| {
+            elastic_shear_over_weight(&Case::new(&one).unwrap(), counted, suite).unwrap_err().to_string()
+        };
+        assert_eq!(refused(-1.0, &[step]), "counted of case must be zero or positive; got -1");
         let none = "motions of case must be at least one, for the spectrum of the design; got none";
-        assert_eq!(refused(&[1.0, 1.2, 0.5, 0.0], &[]), none);
+        assert_eq!(refused(0.5, &[]), none);
     }
 }

@@ -2,10 +2,10 @@
 //! mean largest drift not below that of the building with sliding goods, there and at every larger share up to 1.
 //!
 //! The definition is that of `seismass.effective_mass`, with the mean over the motions and the damping matrix of the real
-//! building; drifts are compared as they are, since all storeys of a case have one height. Models are solved share by
-//! share, so that a page can show how far it is and stop.
+//! building; drifts are compared over the storey heights. Models are solved share by share, so that a page can show how far
+//! it is and stop.
 
-use seismass::{Control, Domain, Error, Motion, Options, Response, Result, Run, Scene, simulate_each};
+use seismass::{Control, Domain, Error, Motion, Options, Response, Result, Run, Scene, Status, simulate_each};
 
 use crate::case::Case;
 use crate::curve::{Kind, interpolated, interpolated_roots, is_below, refined_root};
@@ -22,7 +22,7 @@ const ENDS: [f64; 2] = [0.05, 0.95];
 struct Peaks {
     /// Peak drift (m), motion by motion.
     drift: Vec<Vec<f64>>,
-    /// Largest drift of each motion (m).
+    /// Largest drift of each motion over the storey height.
     largest: Vec<f64>,
     /// Peak base shear of each motion (N).
     base_shear: Vec<f64>,
@@ -31,16 +31,28 @@ struct Peaks {
 }
 
 impl Peaks {
-    fn new(scene: Scene, motions: &[Motion]) -> Result<Self> {
+    /// Solves a scene of a case.
+    fn new(case: &Case, scene: Scene, motions: &[Motion]) -> Result<Self> {
         let runs: Vec<Run> = (0..motions.len()).map(|motion| Run::new(0, motion)).collect();
         let options = Options { peaks_only: true, ..Options::default() };
-        let keep = |response: Response| response.peaks;
+        let scene_slides = !scene.blocks().is_empty();
+        let keep = |response: Response| match response.status {
+            Status::Completed => Some(response.peaks),
+            Status::Collapsed { .. } => None,
+        };
         let found = simulate_each(&[scene], motions, &runs, &options, None, &Control::default(), keep)?;
-        let peaks = found.into_iter().collect::<Result<Vec<_>>>()?;
+        let found = found.into_iter().collect::<Result<Vec<_>>>()?;
+        let collapsed = found.iter().filter(|peaks| peaks.is_none()).count();
+        if collapsed > 0 {
+            let what = if scene_slides { "building with sliding goods" } else { "building with goods attached" };
+            let got = format!("a collapse under {collapsed} of {} motions", found.len());
+            return Err(Error::invalid(Domain::Scene, "drift", what, "finite", got));
+        }
+        let peaks: Vec<_> = found.into_iter().flatten().collect();
         let drift: Vec<Vec<f64>> =
             peaks.iter().map(|peaks| peaks.drift.iter().map(|peak| peak.value).collect()).collect();
         Ok(Self {
-            largest: drift.iter().map(|drift| drift.iter().copied().fold(0.0, f64::max)).collect(),
+            largest: drift.iter().map(|drift| largest_ratio(drift, case.heights())).collect(),
             drift,
             base_shear: peaks.iter().map(|peaks| peaks.storey_shear.first().map_or(0.0, |peak| peak.value)).collect(),
             slides: peaks.iter().map(|peaks| peaks.slip.iter().any(|peak| peak.value > 0.0)).collect(),
@@ -52,6 +64,10 @@ impl Peaks {
         let storeys = self.drift.first().map_or(0, Vec::len);
         (0..storeys).map(|i| mean(&self.drift.iter().map(|drift| drift[i]).collect::<Vec<f64>>())).collect()
     }
+}
+
+fn largest_ratio(drift: &[f64], heights: &[f64]) -> f64 {
+    drift.iter().zip(heights).map(|(drift, height)| drift / height).fold(0.0, f64::max)
 }
 
 fn mean(values: &[f64]) -> f64 {
@@ -82,7 +98,8 @@ impl Search {
         if case.goods().iter().all(|&mass| mass == 0.0) {
             return refuse("goods", "on at least one floor of the building, as there is no live load otherwise");
         }
-        let (real, full) = (Peaks::new(case.real()?, &motions)?, Peaks::new(case.attached(1.0)?, &motions)?);
+        let real = Peaks::new(&case, case.real()?, &motions)?;
+        let full = Peaks::new(&case, case.attached(1.0)?, &motions)?;
         Ok(Self { case, motions, real, full, models: Vec::with_capacity(INTERVALS + 1) })
     }
 
@@ -105,11 +122,12 @@ impl Search {
     }
 
     fn model(&self, share: f64) -> Result<Peaks> {
-        Peaks::new(self.case.attached(share)?, &self.motions)
+        Peaks::new(&self.case, self.case.attached(share)?, &self.motions)
     }
 
     /// What was found, once all shares are solved: kind, value, ends of the interval, mean largest drift of the real
-    /// building and of the model at the value, mean peak base shear and mu_k over it; all roots; shares; mean largest drift of the model at them; ends of
+    /// building and of the model at the value, over the height, mean peak base shear and mu_k over it; all roots; shares;
+    /// mean largest drift of the model at them; ends of
     /// the interval of real over model there; mean drifts by storey of the real building, of the model at the value, at
     /// 0 and at 1; of each motion whether goods slide, the real drift, and its first and last root (NaN: none).
     pub(crate) fn answer(&self, resamples: &Resamples) -> Result<Vec<f64>> {
@@ -219,7 +237,7 @@ mod tests {
 
     /// Below the period of the motion, 0.52 s, so that mass brings the model nearer to it.
     fn case(mu: f64) -> Case {
-        Case::new(&[1.0, 0.25, 0.05, 2.0, 0.05, 0.0, f64::INFINITY, 1.0, mu, mu]).unwrap()
+        Case::new(&[1.0, 0.25, 0.05, 0.0, f64::INFINITY, 1.0, mu, mu, 1.0, 1.0, 3.0, 2.0, 0.05, 0.0]).unwrap()
     }
 
     fn motion() -> Motion {
@@ -260,7 +278,7 @@ mod tests {
 
     #[test]
     fn a_building_without_goods_has_no_fraction() {
-        let bare = Case::new(&[1.0, 0.5, 0.05, 2.0, 0.05, 0.0, 0.3, 0.0, 0.2, 0.2]).unwrap();
+        let bare = Case::new(&[1.0, 0.5, 0.05, 0.0, 0.3, 0.0, 0.2, 0.2, 1.0, 1.0, 3.0, 2.0, 0.05, 0.0]).unwrap();
         assert!(
             Search::new(bare, vec![motion()]).unwrap_err().to_string().starts_with("goods of effective mass must be")
         );

@@ -136,11 +136,20 @@ pub extern "C" fn seismass_run(share: f64, every: usize) -> u32 {
     tried(|session| session.run(share, every))
 }
 
-/// Gives V_e/W of each storey for the design of the input and the mean spectrum of the suite.
+/// Gives V_e/W of each storey of the case of the input with a share of its goods counted, for the mean spectrum of the suite.
 #[unsafe(no_mangle)]
-pub extern "C" fn seismass_design() -> u32 {
+pub extern "C" fn seismass_design(counted: f64) -> u32 {
     tried(|session| {
-        session.output = elastic_shear_over_weight(&session.input, &session.suite)?;
+        session.output = elastic_shear_over_weight(&Case::new(&session.input)?, counted, &session.suite)?;
+        Ok(())
+    })
+}
+
+/// Gives the stiffness of each storey (N/m) of the case of the input, with floors of 1 kg in the mean.
+#[unsafe(no_mangle)]
+pub extern "C" fn seismass_stiffness() -> u32 {
+    tried(|session| {
+        session.output = Case::new(&session.input)?.stiffness()?;
         Ok(())
     })
 }

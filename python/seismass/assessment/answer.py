@@ -20,16 +20,17 @@ from seismass.assessment.floors import by_floor
 from seismass.assessment.models import ADVISED, ATTACHED, BARE, SLIDING_ALL
 from seismass.assessment.rocking import tipping_sentences
 from seismass.assessment.statement import NO_MATTER, PresentGoods, collapsing, statement_of
+from seismass.base.arguments import ProgressLike
 from seismass.base.statistics import capped, few_collapses
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.design.scaling import ScalingResult
 from seismass.effective_mass import EffectiveMass
 from seismass.effective_mass.answer import Designed, solved_designs, solved_frictions
-from seismass.effective_mass.models import SAME_DAMPING
-from seismass.effective_mass.runs import named_motions
+from seismass.effective_mass.models import DEFAULT_FRACTIONS, SAME_DAMPING
 from seismass.effective_mass.search import OWNER, checked_options
 from seismass.motions.spectra import TargetSpectrum
+from seismass.runs.peaks import named_motions
 
 ROUNDING_STEP: Final = 0.01
 """An advised share is the next multiple of it; with a coarse one the drift of analysis 1 would jump."""
@@ -441,14 +442,8 @@ def analysis_table(answer: Answer, building: OwnBuilding) -> pl.DataFrame:
     return pl.DataFrame(columns, schema=schema)
 
 
-DESIGN_SHARES: Final = np.linspace(0.0, 1.0, 21)
-"""Shares at which that of a design of strengths is looked for before its root is refined; each takes two models."""
 DESIGN_SHARES_IN_PLANE: Final = np.linspace(0.0, 1.0, 6)
-"""The same in two directions, where a building with goods that slide takes a hundred times as long."""
-SHARES: Final = 101
-"""Shares at which each effective fraction is looked for; the models of all frictions are the same."""
-
-Progress = Callable[[int, int], object]
+"""Shares of a design of strengths in two directions, where goods that slide take a hundred times as long."""
 
 
 def fractions_by_friction(
@@ -458,17 +453,14 @@ def fractions_by_friction(
     motions: list[Any],
     bootstrap: dict[str, Any],
     threads: int | None,
-    progress: Progress | None,
-    shares: FloatArray | None = None,
+    progress: ProgressLike,
 ) -> dict[str, EffectiveMass]:
-    """Return the effective fraction at each friction, a factor for each model. `shares`: at which models are solved, by
-    default in steps of 0.01.
-    """
+    """Return the effective fraction at each friction, a factor for each model; the attached models are the same."""
     if not frictions:
         return {}
     scenes = [building.scene(target, mu_factor=factor) for factor in frictions.values()]
     drawn = (bootstrap["confidence"], bootstrap["resamples"], bootstrap["seed"])
-    values = ("mean", SAME_DAMPING, shares, *drawn, threads, progress)
+    values = ("mean", SAME_DAMPING, None, *drawn, threads, progress)
     level = None if target is None else building.motion_target(target)  # of the rule by hand
     options = checked_options(*values, drift_cap=building.drift_cap, target=level)
     named = named_motions(motions, OWNER, scenes[0])
@@ -485,7 +477,7 @@ def advised_share(effective: dict[str, EffectiveMass]) -> float | None:
 
 def design_shares(building: OwnBuilding) -> FloatArray:
     """Return the shares at which that of a design of strengths is looked for."""
-    return DESIGN_SHARES if building.other is None else DESIGN_SHARES_IN_PLANE
+    return DEFAULT_FRACTIONS if building.other is None else DESIGN_SHARES_IN_PLANE
 
 
 def design_share(
@@ -494,7 +486,7 @@ def design_share(
     factor: float,
     motions: list[Any],
     threads: int | None,
-    progress: Progress | None,
+    progress: ProgressLike,
 ) -> DesignShare:
     """Return the share that goes into the design of the strengths and is attached, at one factor of friction, without a
     bootstrap.

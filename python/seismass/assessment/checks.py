@@ -12,13 +12,12 @@ from numpy.typing import NDArray
 from seismass.assessment.building import DEFAULT_THETA_LIMIT, OwnBuilding
 from seismass.assessment.models import ADVISED, BARE, SLIDING, SLIDING_ALL, SLIDING_HIGH, SLIDING_LOW, friction_factors
 from seismass.assessment.structure import design_table
-from seismass.base.statistics import CAPPED_MEAN, QUANTILES, capped, statistics_of
+from seismass.base.statistics import CAPPED_MEAN, QUANTILES, capped, or_infinite, quantile_interval, statistics_of
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.design import THETA_THRESHOLD
 from seismass.design.rules import rule_of
 from seismass.effective_mass import EffectiveMass
-from seismass.effective_mass.models import quantile_interval
 from seismass.model.codes import CODE_NAMES, FROM_MEMORY, NOT_CHECKED, VERIFIED
 from seismass.model.scene import Scene
 from seismass.motions.spectra import TargetSpectrum
@@ -283,7 +282,7 @@ def drift_statistics(peaks: FloatArray, collapsed: NDArray[np.bool_], cap: float
     """Return the statistics of a storey's peak drifts: the capped mean; quantiles, the largest, and the mean of
     ASCE/SEI 7-16, of drifts that a collapse makes infinite (null where that decides).
     """
-    known = statistics_of(np.where(collapsed, np.inf, peaks))
+    known = statistics_of(or_infinite(peaks, collapsed))
     if collapsed.any() and known["median"] is not None:
         known["mean"] = max(MEDIAN_FACTOR * known["median"], float(peaks[~collapsed].mean()))
     return known | {"mean": float(capped(peaks, cap).mean()), "mean_by_code": known["mean"]}

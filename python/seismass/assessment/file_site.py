@@ -13,7 +13,7 @@ from seismass.assessment.building import limit_at_level
 from seismass.assessment.floors import FloorCode
 from seismass.base.errors import InvalidOption
 from seismass.base.input_table import POSITIVE, SHARE, Table
-from seismass.base.statistics import QUANTILES
+from seismass.base.statistics import QUANTILES, quantile
 from seismass.base.values import FloatArray, brief
 from seismass.design import (
     DRIFT_LIMIT_CODES,
@@ -237,5 +237,5 @@ def spectra_table(
         covered = (target.shortest <= PERIODS) & (target.longest >= PERIODS)
         wanted[covered] = target(PERIODS[covered])
     columns = {"period": PERIODS, "target": wanted, "mean": spectra.mean(axis=0)}
-    columns |= {name: np.quantile(spectra, share, axis=0) for name, share in QUANTILES.items()}
+    columns |= {name: quantile(spectra.T, share) for name, share in QUANTILES.items()}
     return pl.DataFrame(columns).with_columns(pl.col("target").fill_nan(None))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Any, Final, NamedTuple
 
@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 
 from seismass.assessment.building import OwnBuilding
 from seismass.assessment.file_site import PERIOD_MASSES
+from seismass.base.arguments import ProgressLike
 from seismass.base.errors import InvalidOption, SimulationError
+from seismass.base.statistics import or_infinite
 from seismass.base.values import FloatArray, as_number
 from seismass.design.scaling import ScalingResult, scale_by_code
 from seismass.design.scaling.asce7 import period_of_mass
 from seismass.effective_mass.models import base_of_model, frame_mass
 from seismass.effective_mass.rule import by_hand
-from seismass.effective_mass.runs import named_motions, solve
 from seismass.effective_mass.search import OWNER
 from seismass.media.roles import MODELS
 from seismass.model.codes import NOT_CHECKED, VERIFIED
@@ -26,6 +27,7 @@ from seismass.model.scene import Scene
 from seismass.motions.motion import MotionLike
 from seismass.motions.spectra import TargetSpectrum
 from seismass.runs.batch import solve_many
+from seismass.runs.peaks import named_motions, solve
 from seismass.runs.plane import MotionPair
 
 SLIDING: Final = "real"
@@ -98,7 +100,7 @@ def solve_models(
     names: Sequence[str],
     *,
     threads: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
 ) -> tuple[pl.DataFrame, pl.DataFrame]:
     """Solve all models under all motions. Return one row per model, motion and storey, and one per model with goods
     that slide, motion and kind of loose goods. In two directions drift and shear are the larger of both.
@@ -257,7 +259,7 @@ def motion_of_runs(runs: pl.DataFrame) -> int:
     by_motion = rows.group_by("motion", maintain_order=True).agg(
         pl.col("collapsed").any(), pl.col("peak_drift").max(), slides=(pl.col("peak_slip") > 0.0).any()
     )
-    drift = np.where(by_motion["collapsed"].to_numpy(), np.inf, by_motion["peak_drift"].to_numpy())
+    drift = or_infinite(by_motion["peak_drift"].to_numpy(), by_motion["collapsed"].to_numpy())
     slides = by_motion["slides"].fill_null(value=False).to_numpy() & np.isfinite(drift)
     return _median(drift, np.flatnonzero(slides) if slides.any() else np.arange(len(drift)))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
@@ -14,7 +14,6 @@ from seismass import _kernel
 from seismass.assessment.advice import advice_of, assumptions_of, remarks_of
 from seismass.assessment.answer import (
     ANALYSIS,
-    SHARES,
     advised_share,
     analysis_table,
     answer_of,
@@ -43,27 +42,24 @@ from seismass.assessment.models import (
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.assessment.rocking import other_models, tipping_table
 from seismass.assessment.statement import PresentGoods, governing_drifts, other_amounts, present_goods
+from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.files import without_formulas
-from seismass.base.statistics import few_collapses
+from seismass.base.statistics import bootstrap_counts, few_collapses
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.design.scaling import ScalingResult
-from seismass.effective_mass.models import SHARES_BEYOND, bootstrap_counts, check_cap, goes_beyond
-from seismass.effective_mass.runs import Stages, named_motions
+from seismass.effective_mass.models import DEFAULT_FRACTIONS, SHARES_BEYOND, check_cap, goes_beyond
 from seismass.model.codes import CodeFraction
 from seismass.model.friction import bound_factors
 from seismass.motions.motion import motion_names, scaled_motions
 from seismass.motions.records import Pair, Pairs, Record, Suite, builtin_pairs, builtin_suite
 from seismass.motions.spectra import TargetSpectrum
+from seismass.runs.peaks import named_motions
 from seismass.runs.simulate import instruction_set
 
-SHARES_OF_AMOUNTS: Final = np.linspace(0.0, 1.0, 21)
-"""Shares at which models are solved for another amount of goods."""
 FIXED_MODELS: Final = 4
 """Models that every assessment with goods solves beside those with goods that slide."""
-
-Progress = Callable[[int, int], object]
 
 
 def assess(
@@ -80,7 +76,7 @@ def assess(
     resamples: int = 2000,
     seed: int = 0,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> Assessment:
     """Assess a building with its goods: the share of the live load to count as mass, drifts and slips.
 
@@ -152,34 +148,32 @@ def assess(
     loaded = bool((stated.goods_mass > 0.0).any())
     frictions = friction_factors(stated) if loaded else {}
     models = len(frictions) + FIXED_MODELS if loaded else 1
-    fractions = len(frictions) + SHARES if loaded else 0
+    fractions = len(frictions) + len(DEFAULT_FRACTIONS) if loaded else 0
     designs = 2 * len(design_shares(stated)) if loaded and stated.design is not None else 0
     larger = len(SHARES_BEYOND) if loaded and goes_beyond(stated.scene(spectrum)) else 0
     floors, others = other_amounts(stated)
     models_of_tipping = other_models(stated)
-    of_amount = len(frictions) + len(SHARES_OF_AMOUNTS) + larger
-    stages = Stages(
-        progress,
-        (models + fractions + larger + designs + (len(others) + len(models_of_tipping)) * of_amount) * len(suite),
-    )
+    of_amount = len(frictions) + len(DEFAULT_FRACTIONS) + larger
+    runs_of_motion = models + fractions + larger + designs + (len(others) + len(models_of_tipping)) * of_amount
+    stages = Progress(progress, runs_of_motion * len(suite), "assessment")
     bootstrap = {"confidence": confidence, "resamples": resamples, "seed": seed}
     effective = fractions_by_friction(
-        stated, spectrum, frictions, scaled, bootstrap, threads, stages.next((fractions + larger) * len(suite))
+        stated, spectrum, frictions, scaled, bootstrap, threads, stages.part((fractions + larger) * len(suite))
     )
     advised = advised_share(effective)
     design = None
     if designs and advised is not None:
         factor = frictions[deciding(effective)]
-        design = design_share(stated, spectrum, factor, scaled, threads, stages.next(designs * len(suite)))
+        design = design_share(stated, spectrum, factor, scaled, threads, stages.part(designs * len(suite)))
     scenes = compared_models(stated, spectrum, advised)
 
     def amount(floors: str, case: OwnBuilding) -> PresentGoods:
         """The answer for another amount of goods, with motions scaled for it."""
-        tell = stages.next(of_amount * len(suite))
+        tell = stages.part(of_amount * len(suite))
         try:
             own_scaling = scaled_to_site(case, suite, spectrum, scaling_period, threads=threads) if scale else None
             motions = scaled_motions(suite, _factors(suite, own_scaling))
-            how = (motions, {**bootstrap, "resamples": 1}, threads, tell, SHARES_OF_AMOUNTS)
+            how = (motions, {**bootstrap, "resamples": 1}, threads, tell)
             effective = fractions_by_friction(case, spectrum, frictions, *how)
         except (InvalidScene, InvalidOption) as error:  # P-Delta or the site spectrum may not allow so much
             return PresentGoods(floors, case.present_share, reason=f"{error}")
@@ -196,7 +190,7 @@ def assess(
     components = [record for motion in scaled for record in (tuple(motion) if in_plane else (motion,))]
     horizontal = [record for motion in scaled for record in (tuple(motion)[:2] if in_plane else (motion,))]
     runs, slips = solve_models(
-        stated, scenes, scaled, names, threads=threads, progress=stages.next(models * len(suite))
+        stated, scenes, scaled, names, threads=threads, progress=stages.part(models * len(suite))
     )
     sliding_scene = stated.scene(spectrum)
     drawn = named_motions(scaled, "assessment", sliding_scene)

@@ -14,15 +14,7 @@ from typing import Final, Literal, NoReturn
 
 import numpy as np
 
-from seismass.assessment.table_file import (
-    Quantity,
-    Sheet,
-    few_names,
-    one_case,
-    read_sheets,
-    readings,
-    system_of,
-)
+from seismass.assessment.table_file import Quantity, Sheet, few_names, one_case, read_sheets, readings, system_of
 from seismass.assessment.table_words import (
     COLUMNS,
     NO_STOREY,

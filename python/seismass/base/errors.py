@@ -5,6 +5,9 @@ Messages have one form: *parameter* of *what* must be *what*; got *value*.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
+from typing import Any
+
 __all__ = [
     "DoubtfulInput",
     "InvalidBuildingFile",
@@ -67,3 +70,14 @@ class SimulationError(SeismassError, RuntimeError):
 
 class DoubtfulInput(UserWarning):
     """A warning: an input that is valid, but so unlikely that a wrong unit is the usual cause."""
+
+
+def did_you_mean(
+    value: Any, known: Iterable[str], hints: int = 1, *, cutoff: float = 0.6, shown: Callable[[str], str] = str
+) -> str:
+    """Return a hint at the words that a value is like, in brackets; empty where there is none."""
+    import difflib
+
+    like = value[:100] if isinstance(value, str) else ""
+    close = difflib.get_close_matches(like, list(known), n=hints, cutoff=cutoff)
+    return f" (did you mean {' or '.join(map(shown, close))}?)" if close else ""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import hashlib
 import json
 import math
@@ -12,7 +11,7 @@ from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
 from typing import Any, Final, NamedTuple, NoReturn
 
-from seismass.base.errors import InvalidScene, SeismassError
+from seismass.base.errors import InvalidScene, SeismassError, did_you_mean
 from seismass.base.files import read_file
 from seismass.base.limits import MOST_BYTES, MOST_KEY_PARTS, MOST_LETTERS, MOST_TOML
 from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, refusal, short
@@ -110,8 +109,7 @@ class Table:
         """Refuse every other key; those that are `also` taken are not proposed."""
         for key in self._all_keys:
             if key not in keys and key not in also:
-                close = difflib.get_close_matches(key, keys, n=1)
-                hint = f" (did you mean {self.key(close[0])}?)" if close else ""
+                hint = did_you_mean(key, keys, shown=self.key)
                 self.refuse(key, f"one of the keys {', '.join(keys)}{hint}", "an unknown key")
 
     def subset(self, *keys: str) -> dict[str, Any]:

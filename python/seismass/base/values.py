@@ -5,10 +5,9 @@ Arguments are only converted here (their kind and shape); their ranges are judge
 
 from __future__ import annotations
 
-import difflib
 import numbers
 import os
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import fields, is_dataclass
 from itertools import islice
 from pathlib import Path
@@ -17,8 +16,7 @@ from typing import Any, Final, Self, TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from seismass import _kernel
-from seismass.base.errors import InvalidOption, SeismassError
+from seismass.base.errors import SeismassError
 
 FloatArray: TypeAlias = NDArray[np.float64]
 """Array of doubles; every array that a value class holds is a read-only copy."""
@@ -248,32 +246,11 @@ def as_one_of(
     return value
 
 
-def is_one_of(value: Any, words: Iterable[str]) -> bool:
-    """Return whether a value is one of these words; False for values that are not text, such as an array."""
-    return isinstance(value, str) and value in words
-
-
 def as_flag(value: Any, parameter: str, owner: str, kind: type[SeismassError]) -> bool:
     """Return true or false."""
     if not isinstance(value, bool | np.bool_):
         raise refusal(kind, parameter, owner, "True or False", brief(value))
     return bool(value)
-
-
-def as_progress(value: Any, owner: str) -> Callable[[int, int], object] | None:
-    """Return what is called with (done, in all), or None."""
-    if value is not None and not callable(value):
-        raise refusal(InvalidOption, "progress", owner, "a callable of two numbers", brief(value))
-    checked: Callable[[int, int], object] | None = value
-    return checked
-
-
-def as_threads(value: Any, owner: str) -> int | None:
-    """Return a number of threads; None: all cores."""
-    count = None if value is None else as_count(value, "threads", owner, InvalidOption, least=1)
-    if count is not None and count > _kernel.MAX_THREADS:
-        raise refusal(InvalidOption, "threads", owner, f"between 1 and {_kernel.MAX_THREADS}", str(count))
-    return count
 
 
 def as_positive(
@@ -327,16 +304,6 @@ def read_only(array: NDArray[_S]) -> NDArray[_S]:
         empty.setflags(write=False)
         return empty
     return np.frombuffer(array.tobytes(), dtype=array.dtype).reshape(array.shape)
-
-
-def known_id(value: Any, known: Sequence[str], owner: str, *, hints: int = 1) -> str:
-    """Return the id of a row of a table, in any case; an unknown one is refused, with the closest ids as hints."""
-    wanted = str(value).strip().lower()
-    if wanted not in known:
-        close = difflib.get_close_matches(wanted, known, n=hints, cutoff=0.5)
-        hint = f" (did you mean {' or '.join(close)}?)" if close else ""
-        raise refusal(InvalidOption, "id", owner, f"one of {', '.join(known)}{hint}", brief(value))
-    return wanted
 
 
 def counted(number: int, one: str, several: str | None = None) -> str:

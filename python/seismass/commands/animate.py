@@ -8,23 +8,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from seismass.base.errors import InvalidOption
-from seismass.base.files import check_files
 from seismass.commands.frame import Command, show
 from seismass.commands.options import (
     add_code_options,
     add_code_share_option,
-    add_out_option,
+    add_output_option,
     add_records_options,
+    arguments,
     positive_option,
     read_site,
     refuse_options,
 )
-from seismass.commands.scene_or_building import (
-    add_scaling_options,
-    add_site_options,
-    is_building_file,
-    motions_of_file,
-)
+from seismass.commands.scene_or_building import add_scaling_options, add_site_options, is_building_file, motions_of_file
 
 if TYPE_CHECKING:
     from seismass.model.scene import Scene
@@ -36,7 +31,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     what.add_argument("scene", type=Path, nargs="?", metavar="FILE", help="scene or building file, .toml or .json")
     what.add_argument("--example", action="store_true", help="the built-in example: three storeys of storage")
     where = "file to write, .html, .gif or .mp4 (the name of the scene file with .html, in this folder)"
-    add_out_option(parser, "FILE", where)
+    add_output_option(parser, "FILE", where)
     add_code_options(parser)
     add_code_share_option(parser, "share of the goods attached in place of a code's, from 0 to 1")
     parser.add_argument(
@@ -51,7 +46,9 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the animation; return the exit code."""
+    from seismass.runs.peak_digits import digits_remarks
     from seismass.runs.scene_file import example_scene
+    from seismass.runs.simulate import simulate
     from seismass.show.animation import Animation, PlaneAnimation, animate, animate_plane
 
     if args.code_share is not None and (args.code is not None or args.use is not None):
@@ -59,19 +56,19 @@ def run(args: argparse.Namespace) -> int:
     scene: Path = example_scene() if args.example else args.scene
     shown_of = _of_building if is_building_file(scene) else _of_scene
     target = args.out or Path(scene.name).with_suffix(".html")
-    check_files(target)
     shown = shown_of(args, scene)
-    for remark in shown.remarks:
+    chaotic = digits_remarks(simulate(shown.scene, shown.motion, events=False))
+    for remark in (*shown.remarks, *chaotic):
         print(f"seismass: {remark}", file=sys.stderr)
-    model = {"code": args.code, "use": args.use, "fraction": args.code_share}
-    options = shown.options | {name: value for name, value in model.items() if value is not None}
+    note = "; ".join(part for part in (shown.note, *chaotic) if part)
+    options = shown.options | arguments(args, "code", "use", fraction="code_share")
     animation: Animation | PlaneAnimation
     if shown.scene.engine == "plane":
         refuse_options(args, ("code", "use", "code_share"), "animate", "in two directions, where no model is shown")
         target = args.out or target.with_suffix(".gif")  # there is no page of it
-        animation = animate_plane(shown.scene, shown.motion, title=shown.title, note=shown.note)
+        animation = animate_plane(shown.scene, shown.motion, title=shown.title, note=note)
     else:
-        animation = animate(shown.scene, shown.motion, title=shown.title, note=shown.note, **options)
+        animation = animate(shown.scene, shown.motion, title=shown.title, note=note, **options)
     animation.write(target, frames_per_second=args.fps, speed=args.speed)
     show("\n".join([*shown.about_motion, *animation.sentences]))
     show(f"{target}: {target.stat().st_size / 1e3:.0f} kB")

@@ -14,9 +14,11 @@ from seismass.commands.options import (
     add_code_options,
     add_drift_cap_option,
     add_opensees_option,
+    add_output_option,
     add_period_option,
     add_records_options,
     add_target_options,
+    arguments,
     numbers_option,
     read_code,
     read_motions,
@@ -53,20 +55,15 @@ def options(parser: argparse.ArgumentParser) -> None:
         help="bounds of friction as factors (0.67,1.5); 1,1 leaves them out",
     )
     add_drift_cap_option(choices)
-    add_answer_options(parser, "the name of FILE")
+    # A folder of its own for each building, so that a second never replaces the first.
+    add_answer_options(parser, "the name of FILE", lambda args: None if args.file is None else Path(args.file.stem))
     show_help = "units of page, figures, text and analysis.csv (those of FILE)"
     parser.add_argument("--show", choices=("si", "us"), help=show_help)
     add_opensees_option(parser, "the building, with goods that slide and of both analyses")
     back = parser.add_argument_group("into another program")
-    back.add_argument(
-        "--mass-source",
-        type=Path,
-        metavar="FILE",
-        help="write the mass sources of both analyses as lines of ETABS (.e2k) or SAP2000 (.s2k)",
-    )
+    lines = "write the mass sources of both analyses as lines of ETABS (.e2k) or SAP2000 (.s2k)"
+    add_output_option(back, "FILE", lines, flag="--mass-source", suffixes=(".e2k", ".s2k"))
     back.add_argument("--live-pattern", metavar="NAME", help="load pattern of the design live load there (Live)")
-    # A folder of its own for each building, so that a second never replaces the first.
-    parser.set_defaults(out=None)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -82,17 +79,11 @@ def run(args: argparse.Namespace) -> int:
     from seismass.assessment.mass_source import mass_source_lines
     from seismass.assessment.run import write_models
     from seismass.base.errors import InvalidOption
-    from seismass.base.files import check_files, write_file
-    from seismass.base.folders import check_out
+    from seismass.base.files import write_file
     from seismass.show.assessment.text import write_with
 
-    args.out = args.out or Path(args.file.stem)
     if args.mass_source is None:
         refuse_options(args, ("live_pattern",), "building", "where --mass-source is not given")
-    elif args.mass_source.suffix.lower() not in (".e2k", ".s2k"):
-        raise InvalidOption(f"--mass-source of building must have the suffix .e2k or .s2k; got {args.mass_source}")
-    check_files(args.mass_source)
-    check_out(args.out, "assessment")
     building = read_building(args.file)
     building = replace(building, units=args.show or building.units)
     code, target = read_code(args, "building"), read_site(args, "building")
@@ -106,11 +97,8 @@ def run(args: argparse.Namespace) -> int:
             suite,
             target,
             code=code,
-            mu_factors=args.mu_factors,
-            drift_cap=args.drift_cap,
-            scaling_period=args.period,
-            threads=args.jobs,
             progress=tell,
+            **arguments(args, "mu_factors", "drift_cap", scaling_period="period", threads="jobs"),
         )
     if args.opensees is not None:
         write_models(args.opensees, result, suite)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from seismass.commands.frame import Command, progress, seconds, show
-from seismass.commands.options import add_jobs_option, add_json_option, add_out_option, threads_option
+from seismass.commands.options import add_jobs_option, add_json_option, threads_option
 
 if TYPE_CHECKING:
     from seismass.studies.campaign import Campaign, CampaignFolder
@@ -24,7 +24,8 @@ def options(parser: argparse.ArgumentParser) -> None:
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("source", type=Path, nargs="?", metavar="FILE", help="campaign file, or folder of a campaign")
     what.add_argument("--example", action="store_true", help="print a campaign file to start from, and stop")
-    add_out_option(parser, "DIR", "folder to write to, where FILE is a campaign file")
+    where = "folder to write to, where FILE is a campaign file"
+    parser.add_argument("--out", type=Path, metavar="DIR", help=where)
     engine = parser.add_argument_group("where runs are solved").add_mutually_exclusive_group()
     engine.add_argument("--workers", type=threads_option, metavar="N", help="N worker processes here, by dask")
     engine.add_argument("--scheduler", metavar="ADDRESS", help="running dask scheduler, as tcp://host:8786")

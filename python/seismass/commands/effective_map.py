@@ -10,6 +10,7 @@ from seismass.commands.options import (
     add_answer_options,
     add_motion_options,
     add_spring_options,
+    arguments,
     numbers_option,
     read_motions,
     read_target,
@@ -29,26 +30,16 @@ def options(parser: argparse.ArgumentParser) -> None:
     grid.add_argument("--factor", type=numbers_option(), metavar="LIST", help="factors of the scaled motions (1)")
     grid.add_argument("--design-share", type=float, metavar="L", help="share of the live load in the design (0.25)")
     add_spring_options(grid, ("overstrength", "second_slope"))
-    add_answer_options(parser, "map")
+    add_answer_options(parser, "map", "map")
 
 
 def run(args: argparse.Namespace) -> int:
     """Make the map, write its files and print how rules do; return the exit code."""
-    from seismass.base.folders import check_out
     from seismass.effective_mass import EffectiveMassParameters, effective_mass_map
 
-    check_out(args.out, "map")
-    options = {
-        "mus": args.mu,
-        "response_modification": args.R,
-        "mass_ratios": args.alpha,
-        "intensities": args.factor,
-        "design_fraction": args.design_share,
-        "overstrength": args.overstrength,
-        "second_slope": args.second_slope,
-        "scaling_period": args.period,
-    }
-    parameters = EffectiveMassParameters(**{name: value for name, value in options.items() if value is not None})
+    grid = arguments(args, mus="mu", response_modification="R", mass_ratios="alpha", intensities="factor")
+    buildings = arguments(args, "overstrength", "second_slope", design_fraction="design_share", scaling_period="period")
+    parameters = EffectiveMassParameters(**grid, **buildings)
     target = read_target(args)
     suite = read_motions(args, "seven")
     with progress() as tell:

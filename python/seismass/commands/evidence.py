@@ -13,6 +13,7 @@ from seismass.commands.frame import Command, progress
 from seismass.commands.options import (
     add_answer_options,
     add_records_options,
+    arguments,
     numbers_option,
     positive_option,
     read_motions,
@@ -42,15 +43,13 @@ def options(parser: argparse.ArgumentParser) -> None:
     asked.add_argument("--samples", type=_samples, metavar="BxG", help="buildings a motion, loads a building (8x4)")
     asked.add_argument("--quick", action="store_true", help="ten archetypes, five levels, 2x2 samples, one suite")
     asked.add_argument("--vary", action="store_true", help="change one input at a time, too: half an hour")
-    output = add_answer_options(parser, "evidence")
+    output = add_answer_options(parser, "evidence", lambda args: None if args.example else Path("evidence"))
     output.add_argument("--seed", type=int, metavar="N", help="seed of the samples (1)")
-    parser.set_defaults(out=Path("evidence"))
 
 
 def run(args: argparse.Namespace) -> int:
     """Make the table, write its files and print what it says; return the exit code."""
     from seismass.base.errors import InvalidOption
-    from seismass.base.folders import check_out
     from seismass.base.stored_results import result_store
     from seismass.motions.records import builtin_suite
     from seismass.runs.simulate import instruction_set
@@ -60,7 +59,6 @@ def run(args: argparse.Namespace) -> int:
     if args.example:
         print(example_file().read_text(encoding="utf-8"), end="")
         return 0
-    check_out(args.out, "evidence")
     archetypes, setting = read_archetypes(args.archetypes)
     if args.occupancies is not None:
         known = dict.fromkeys(each.occupancy.name for each in archetypes)
@@ -69,14 +67,14 @@ def run(args: argparse.Namespace) -> int:
             if name not in known:
                 raise InvalidOption(f"occupancy of evidence must be one of {', '.join(known)}; got {name}")
         archetypes = tuple(each for each in archetypes if each.occupancy.name in wanted)
-    changes: dict[str, Any] = {"limit": args.limit, "samples": args.samples, "seed": args.seed}
+    changes = arguments(args, "limit", "samples", "seed")
     if args.site is not None:
         changes |= {"sds": args.site[0], "sd1": args.site[1]}
     if args.first_yield is not None:
         changes |= {"first_yield": args.first_yield[0], "first_yield_sigma": args.first_yield[1]}
     if args.presence is not None:
         changes["full"] = args.presence == "full"
-    setting = replace(setting, **{name: value for name, value in changes.items() if value is not None})
+    setting = replace(setting, **changes)
     hazard = _hazard(args, setting)
     suite = read_motions(args)
     # Round numbers of recordings are judged on the synthetic motions, which had no part in them.
@@ -91,11 +89,9 @@ def run(args: argparse.Namespace) -> int:
                 hazard=hazard,
                 codes=CODES if args.codes is None else [code.strip() for code in args.codes.split(",")],
                 other=other,
-                quick=args.quick,
-                vary=args.vary,
-                threads=args.jobs,
                 progress=tell,
                 store=store,
+                **arguments(args, "quick", "vary", threads="jobs"),
             )
         give_answer(args, result, suite)
     return 0

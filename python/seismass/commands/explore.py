@@ -5,14 +5,14 @@ from __future__ import annotations
 import argparse
 import webbrowser
 
-from seismass.base.files import check_files, write_file
+from seismass.base.files import write_file
 from seismass.commands.frame import Command, show
-from seismass.commands.options import add_out_option
+from seismass.commands.options import add_output_option
 
 
 def options(parser: argparse.ArgumentParser) -> None:
     """Add the options."""
-    add_out_option(parser, "FILE", "file to write (explorer.html)", "explorer.html")
+    add_output_option(parser, "FILE", "file to write (explorer.html)", "explorer.html")
     parser.add_argument("--open", action="store_true", help="open it in the browser")
 
 
@@ -20,7 +20,6 @@ def run(args: argparse.Namespace) -> int:
     """Write the page; return the exit code. Bad input, and a kernel that is missing, are raised."""
     from seismass.show.explore import explorer_html
 
-    check_files(args.out)
     write_file(args.out, explorer_html())
     show(f"{args.out}: {args.out.stat().st_size / 1e3:.0f} kB")
     if args.open:

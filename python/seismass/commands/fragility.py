@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from seismass.commands.answer_output import give_answer
 from seismass.commands.frame import Command, progress
@@ -12,6 +12,7 @@ from seismass.commands.options import (
     add_code_share_option,
     add_measure_options,
     add_records_options,
+    arguments,
     numbers_option,
     positive_option,
     read_motions,
@@ -69,11 +70,8 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the analysis, print its answer and write its files; return the exit code."""
-    from seismass.base.folders import check_out
     from seismass.studies.fragility import HuntAndFill, cloud_analysis, incremental_dynamic_analysis, parse_limit
 
-    if args.out is not None:
-        check_out(args.out, "fragility")
     if args.method != "hunt_fill":
         refuse_options(args, ("highest", "tolerance"), "fragility", f"where --method is {args.method}")
     if args.method == "cloud":
@@ -84,21 +82,18 @@ def run(args: argparse.Namespace) -> int:
     limits = [parse_limit(text) for text in args.limit or [drift_limit]]
     doubts = doubts_of_input(*read, target, ((limit.quantity, limit.value) for limit in limits))
     motions = _motions(args, *read, target)
-    common: dict[str, Any] = {"measure": args.measure, "period": args.measure_period, "at": args.at or ()}
-    common |= {"seed": args.seed, "threads": args.jobs}
+    common = arguments(args, "measure", "at", "seed", period="measure_period", threads="jobs")
     with progress() as tell:
         if args.method == "cloud":
             result = cloud_analysis(models, motions.scaled, limits, **common, progress=tell)
         else:
-            options = {"highest": args.highest, "tolerance": args.tolerance}
-            hunt = {name: value for name, value in options.items() if value is not None}
             result = incremental_dynamic_analysis(
                 models,
                 motions.scaled,
                 limits,
                 method=args.method,
                 intensities=args.intensity,
-                hunt=HuntAndFill(**hunt) if args.method == "hunt_fill" else None,
+                hunt=HuntAndFill(**arguments(args, "highest", "tolerance")) if args.method == "hunt_fill" else None,
                 **common,
                 progress=tell,
             )

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from seismass.commands.options import check_outputs
 from seismass.commands.parser import ANY_COMMAND, HelpText
 from seismass.media.text_table import fitted_blocks, is_row
 
@@ -49,12 +50,14 @@ class Command:
         )
         parser.register("type", Path, _path)
         self.options(parser)
-        parser.set_defaults(run=self.timed)
 
-    def timed(self, args: argparse.Namespace) -> int:
-        """Run with the clock started, which `seconds` reads."""
-        args.started = time.perf_counter()
-        return self.run(args)
+        def timed(args: argparse.Namespace) -> int:
+            """Run with outputs checked and the clock started, which `seconds` reads."""
+            check_outputs(args, parser._actions, name)
+            args.started = time.perf_counter()
+            return self.run(args)
+
+        parser.set_defaults(run=timed)
 
 
 def _path(text: str) -> Path:

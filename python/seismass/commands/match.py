@@ -14,11 +14,9 @@ from seismass.commands.answer_output import write_figure
 from seismass.commands.frame import Command, progress, show
 from seismass.commands.options import (
     add_json_option,
-    add_out_option,
     add_plot_option,
     add_reading_options,
     add_target_options,
-    check_plot,
     numbers_option,
     positive_option,
     read_target,
@@ -70,7 +68,8 @@ def options(parser: argparse.ArgumentParser) -> None:
         metavar="HEAD,TAIL",
         help="zeros added before and behind each record, s (0,0)",
     )
-    add_out_option(parser, "PATH", "file or folder for the matched records")
+    where = "file or folder for the matched records"  # which of them, the records say
+    parser.add_argument("--out", type=Path, metavar="PATH", help=where)
     add_plot_option(parser, "; numbered for several records")
     add_json_option(parser)
 
@@ -80,7 +79,6 @@ def run(args: argparse.Namespace) -> int:
     from seismass.motions.matching import match_suite
     from seismass.motions.records.builtin import records_named
 
-    check_plot(args, "match")
     target = read_target(args)
     suite = records_named(args.records, reading(args))
     _check_out(args.out, args.records, suite)

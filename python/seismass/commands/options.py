@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 import math
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal, cast, get_args
 
@@ -181,9 +182,8 @@ def left_out(suite: Suite | Pairs) -> list[str]:
 
 def add_opensees_option(parser: argparse.ArgumentParser, what: str) -> None:
     """Add --opensees, a folder for models of OpenSeesPy."""
-    parser.add_argument(
-        "--opensees", type=Path, metavar="DIR", help=f"write OpenSeesPy models of {what}, with the exact peaks, to DIR"
-    )
+    text = f"write OpenSeesPy models of {what}, with the exact peaks, to DIR"
+    add_output_option(parser, "DIR", text, flag="--opensees")
 
 
 def read_target(args: argparse.Namespace) -> TargetSpectrum:
@@ -253,13 +253,17 @@ def read_code(args: argparse.Namespace, command: str) -> CodeFraction | None:
 
 
 def add_answer_options(
-    parser: argparse.ArgumentParser, folder: str | None = None, *, seed: bool = False
+    parser: argparse.ArgumentParser,
+    folder: str = "none",
+    default: str | Callable[[argparse.Namespace], Path | None] | None = None,
+    *,
+    seed: bool = False,
 ) -> argparse._ArgumentGroup:
     """Add --out, --jobs, --json and --no-figures, which `give_answer` reads, and --seed where something is drawn;
-    return their group. Without `folder` files are written only where --out says so.
+    return their group. `folder` says what `default` is; without one files are written only where --out says so.
     """
     output = parser.add_argument_group("running and output")
-    add_out_option(output, "DIR", f"folder to write tables and figures to ({folder or 'none'})", folder)
+    add_output_option(output, "DIR", f"folder to write tables and figures to ({folder})", default)
     if seed:
         output.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the bootstrap (0)")
     add_jobs_option(output)
@@ -268,12 +272,64 @@ def add_answer_options(
     return output
 
 
-def add_out_option(
-    group: argparse._ActionsContainer, metavar: Literal["DIR", "FILE", "PATH"], help: str, default: str | None = None
+@dataclass(frozen=True)
+class Output:
+    """What the frame checks of a path that is written, before the command runs: a file of some suffixes, or a folder;
+    `default` is the path where none is given.
+    """
+
+    is_folder: bool
+    suffixes: Sequence[str] = ()
+    default: Callable[[argparse.Namespace], Path | None] = lambda _: None
+
+    def checked(self, stated: Path | None, flag: str, command: str, args: argparse.Namespace) -> Path | None:
+        """Return the path; one that cannot be written is refused."""
+        path = self.default(args) if stated is None else stated
+        if stated is not None and self.suffixes and stated.suffix.lower() not in self.suffixes:
+            from seismass.base.errors import InvalidOption
+
+            suffixes = " or ".join(self.suffixes)
+            raise InvalidOption(f"{flag} of {command} must be a file with the suffix {suffixes}; got {stated}")
+        if path is not None and self.is_folder:
+            from seismass.base.folders import check_out
+
+            check_out(path, command)
+        elif path is not None:
+            check_files(path)
+        return path
+
+
+def check_outputs(args: argparse.Namespace, actions: Iterable[argparse.Action], command: str) -> None:
+    """Refuse what the options of `add_output_option` name and cannot be written."""
+    for action in actions:
+        output = getattr(action, "output", None)
+        if output is not None:
+            flag = action.option_strings[0]
+            path = output.checked(getattr(args, action.dest), flag, command, args)
+            setattr(args, action.dest, path)
+
+
+def add_output_option(
+    group: argparse._ActionsContainer,
+    metavar: Literal["DIR", "FILE"],
+    help: str,
+    default: str | Callable[[argparse.Namespace], Path | None] | None = None,
+    *,
+    flag: str = "--out",
+    suffixes: Sequence[str] = (),
 ) -> None:
-    """Add --out, the place of what is written."""
-    path = None if default is None else Path(default)
-    group.add_argument("--out", type=Path, default=path, metavar=metavar, help=help)
+    """Add a path of what is written, which the frame checks: a folder, or a file of some suffixes."""
+    action: Any = group.add_argument(flag, type=Path, metavar=metavar, help=help)
+    how = {"default": default} if callable(default) else {"default": lambda _: Path(default)} if default else {}
+    action.output = Output(metavar == "DIR", suffixes, **how)
+
+
+def arguments(args: argparse.Namespace, *names: str, **renamed: str) -> dict[str, Any]:
+    """Return values of options by the names that a function has for them (`renamed`: its name, that of the option);
+    what is left out keeps its default there.
+    """
+    options = {name: name for name in names} | renamed
+    return {name: value for name, option in options.items() if (value := getattr(args, option)) is not None}
 
 
 def add_measure_options(
@@ -297,17 +353,8 @@ def add_json_option(group: argparse._ActionsContainer) -> None:
 
 def add_plot_option(group: argparse._ActionsContainer, of_several: str = "") -> None:
     """Add --plot, the file of one figure; `of_several` says how figures of several things are named."""
-    group.add_argument("--plot", type=Path, metavar="FILE", help=f"write a figure, .png or .svg{of_several}")
-
-
-def check_plot(args: argparse.Namespace, command: str) -> None:
-    """Refuse a figure of another suffix or in no folder, before anything is computed."""
-    from seismass.base.errors import InvalidOption
-
-    if args.plot is not None and args.plot.suffix.lower() not in FIGURE_SUFFIXES:
-        suffixes = " or ".join(FIGURE_SUFFIXES)
-        raise InvalidOption(f"--plot of {command} must be a file with the suffix {suffixes}; got {args.plot}")
-    check_files(args.plot)
+    text = f"write a figure, .png or .svg{of_several}"
+    add_output_option(group, "FILE", text, flag="--plot", suffixes=FIGURE_SUFFIXES)
 
 
 def refuse_options(args: argparse.Namespace, names: Iterable[str], command: str, when: str) -> None:

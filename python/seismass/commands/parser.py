@@ -5,7 +5,6 @@ numbers are typed.
 from __future__ import annotations
 
 import argparse
-import difflib
 import importlib
 import re
 import textwrap
@@ -13,6 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
 from seismass._kernel import VERSION
+from seismass.base.errors import did_you_mean
 
 DONE: Final = 0
 FAILED: Final = 1
@@ -158,6 +158,9 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     """
     command = next((word for word in words if not word.startswith("-")), "")
     parser = build_parser(command)
+    if command and command not in COMMANDS:
+        known = ", ".join(COMMANDS)
+        parser.error(f"invalid choice: {command!r}{did_you_mean(command, COMMANDS)}; commands are {known}")
     actions = (action for action in parser._actions if isinstance(action, argparse._SubParsersAction))
     command_parser = next(actions).choices.get(command, parser)
     if list(words) == [command] and command in NEVER_BARE:
@@ -166,14 +169,8 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     args, unknown = parser.parse_known_args(list(joined_numbers(words)))
     if unknown:
         option = unknown[0].partition("=")[0]
-        close = (
-            difflib.get_close_matches(option, command_parser._option_string_actions, n=1)
-            if option.startswith("--")
-            else []
-        )
-        command_parser.error(
-            f"unrecognized arguments: {' '.join(unknown)}{f' (did you mean {close[0]}?)' if close else ''}"
-        )
+        hint = did_you_mean(option, command_parser._option_string_actions) if option.startswith("--") else ""
+        command_parser.error(f"unrecognized arguments: {' '.join(unknown)}{hint}")
     return args
 
 

@@ -14,7 +14,6 @@ from seismass.commands.options import (
     add_json_option,
     add_plot_option,
     add_reading_options,
-    check_plot,
     positive_count,
     reading,
     warn_left_out,
@@ -54,7 +53,6 @@ def run(args: argparse.Namespace) -> int:
     """Print the classes; return the exit code."""
     from seismass.base.errors import InvalidOption
 
-    check_plot(args, "pulse")
     if args.orientations is not None and args.method == "shahi_baker2014":
         raise InvalidOption("--method of pulse must be baker2007 with --orientations; got shahi_baker2014")
     groups = _groups(args)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import Any
 
 from seismass.commands.answer_output import give_answer
 from seismass.commands.frame import Command, progress
@@ -13,6 +12,7 @@ from seismass.commands.options import (
     add_code_share_option,
     add_measure_options,
     add_records_options,
+    arguments,
     numbers_option,
     positive_option,
     read_motions,
@@ -69,42 +69,30 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Find the share, print the answer and write its files; return the exit code."""
-    from seismass.base.folders import check_out
     from seismass.studies.fragility import parse_limit
     from seismass.studies.risk.hazard import HazardCurve
     from seismass.studies.risk.targeted_share import risk_targeted_share
 
-    if args.out is not None:
-        check_out(args.out, "risk")
     hazard = HazardCurve.from_csv(args.hazard, period=args.hazard_period)
-    drift_limit, code_share = DEFAULT_LIMIT, args.code_share
+    drift_limit = DEFAULT_LIMIT
     target = read_site(args, "risk")
     scene, building = read_scene_or_building(args.file, target, only_site="risk")
     if building is not None:
         drift_limit = f"drift_ratio={building.drift_limit:g}"
-        if code_share is None and building.present_share > 0.0:
-            code_share = min(1.0, building.code_share / building.present_share)
+        if args.code_share is None and building.present_share > 0.0:
+            args.code_share = min(1.0, building.code_share / building.present_share)
     suite = read_motions(args)
     limit = parse_limit(args.limit or drift_limit)
     doubts = doubts_of_input(scene, building, target, [(limit.quantity, limit.value)])
-    options = {"code_share": code_share, "design_rate": args.design_rate}
-    stated: dict[str, Any] = {name: value for name, value in options.items() if value is not None}
     with progress() as tell:
         result = risk_targeted_share(
             scene,
             suite,
             hazard,
             limit,
-            measure=args.measure,
-            period=args.measure_period,
-            shares=args.share,
-            estimator=args.estimator,
-            extrapolate=args.extrapolate,
-            other_limits=args.other_limit,
-            seed=args.seed,
-            threads=args.jobs,
             progress=tell,
-            **stated,
+            **arguments(args, "measure", "estimator", "extrapolate", "seed", "code_share", "design_rate"),
+            **arguments(args, period="measure_period", shares="share", other_limits="other_limit", threads="jobs"),
         )
     result, doubtful = with_doubts(result, doubts)
     head = f"{doubtful}suite                {suite.name}\nscaling              each motion to each intensity\n"

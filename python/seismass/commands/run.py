@@ -7,17 +7,15 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seismass.base.errors import InvalidOption
-from seismass.base.files import check_files, table_content, write_file
+from seismass.base.files import table_content, write_file
 from seismass.commands.frame import Command, show
-from seismass.commands.options import add_json_option, add_opensees_option, add_out_option
+from seismass.commands.options import add_json_option, add_opensees_option, add_output_option
 from seismass.runs.scene_file import KEYS, SceneFile, example_scene, read_scene
 
 if TYPE_CHECKING:
     from seismass.runs.plane import PlaneResponse
     from seismass.runs.response import Response
 
-_HISTORY_SUFFIXES = (".parquet", ".csv")
 _KEYS = "\n".join(f"  {table or 'file'}:  {', '.join(keys)}" for table, keys in KEYS.items())
 
 
@@ -27,20 +25,17 @@ def options(parser: argparse.ArgumentParser) -> None:
     what.add_argument("scene", type=Path, nargs="?", metavar="SCENE", help="scene file, .toml or .json")
     what.add_argument("--example", action="store_true", help="print a scene file to start from, and stop")
     histories = "write time, drift of storeys and rack levels, slip of blocks at every sample (.parquet or .csv)"
-    add_out_option(parser, "FILE", histories)
+    add_output_option(parser, "FILE", histories, suffixes=(".parquet", ".csv"))
     add_json_option(parser)
     add_opensees_option(parser, "the scene")
 
 
 def run(args: argparse.Namespace) -> int:
     """Solve the scene and print it; return the exit code."""
-    if args.out is not None and args.out.suffix.lower() not in _HISTORY_SUFFIXES:
-        suffixes = " or ".join(_HISTORY_SUFFIXES)
-        raise InvalidOption(f"--out of run must be a file with the suffix {suffixes}; got {args.out}")
-    check_files(args.out)
     if args.example:
         print(example_scene().read_text(encoding="utf-8"), end="")
         return 0
+    from seismass.runs.peak_digits import digits_remarks
     from seismass.runs.simulate import simulate
     from seismass.show.response_text import run_text
 
@@ -58,12 +53,21 @@ def run(args: argparse.Namespace) -> int:
         print(json.dumps(as_json(file, response), indent=2, allow_nan=False))
         return 0
     title, source = file.name or file.path.stem, "".join(record.name for record in file.records[:1])
-    show(run_text(response, title=title, note=file.note, source=source, remarks=file.remarks))
+    show(
+        run_text(
+            response,
+            title=title,
+            note=file.note,
+            source=source,
+            remarks=(*(file.remarks or response.remarks), *digits_remarks(response)),
+        )
+    )
     return 0
 
 
 def _run_plane(args: argparse.Namespace, file: SceneFile) -> int:
     """Solve a scene in two directions and print it."""
+    from seismass.runs.peak_digits import digits_remarks
     from seismass.runs.simulate import simulate
     from seismass.show.response_text import plane_run_text
 
@@ -74,7 +78,7 @@ def _run_plane(args: argparse.Namespace, file: SceneFile) -> int:
     if args.json:
         print(json.dumps(as_json(file, response), indent=2, allow_nan=False))
     else:
-        show(plane_run_text(response, title=file.name or file.path.stem))
+        show("\n".join([plane_run_text(response, title=file.name or file.path.stem), *digits_remarks(response)]))
     return 0
 
 
@@ -98,7 +102,9 @@ def _write_histories(response: Response | PlaneResponse, path: Path) -> None:
 
 def as_json(file: SceneFile, response: Response | PlaneResponse) -> dict[str, Any]:
     """Return what `--json` prints: the response, under the name and with the remarks of the file."""
-    return response.to_dict() | {"name": file.name, "remarks": list(file.remarks)}
+    from seismass.runs.peak_digits import digits
+
+    return response.to_dict() | {"name": file.name, "remarks": list(file.remarks), "digits": digits(response)}
 
 
 COMMAND = Command(

@@ -7,17 +7,16 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass.base.files import check_files
 from seismass.commands.answer_output import write_figure
 from seismass.commands.frame import Command, show
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_json_option,
     add_motion_options,
-    add_out_option,
+    add_output_option,
     add_plot_option,
     add_spring_options,
-    check_plot,
+    arguments,
     left_out,
     positive_count,
     positive_option,
@@ -87,7 +86,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     selection.add_argument("--max-per-event", type=positive_count, metavar="K", help="most of one event (2)")
     selection.add_argument("--max-per-station", type=positive_count, metavar="K", help="most of one recording (1)")
     output = parser.add_argument_group("output")
-    add_out_option(output, "FILE", "write the table of factors and misfits, .csv")
+    add_output_option(output, "FILE", "write the table of factors and misfits, .csv")
     add_plot_option(output)
     add_json_option(output)
 
@@ -110,7 +109,7 @@ def run(args: argparse.Namespace) -> int:
     building = None if assessed is None else with_mass(assessed.scene(target), assessed.goods_mass).building
     period = args.period if building is None else float(building.periods[0])
     if args.select is not None:
-        limits = {name: getattr(args, name) for name in ("max_per_event", "max_per_station") if getattr(args, name)}
+        limits = arguments(args, "max_per_event", "max_per_station")
         longest = 2.0 if args.method in (*MAXIMUM_DIRECTION, "ec8") else 1.5
         selection = select_records(suite, target, args.select, period=period, period_range=(0.2, longest), **limits)
         suite = scaled = selection.suite
@@ -174,8 +173,6 @@ def _check_options(args: argparse.Namespace) -> None:
             got = method if args.records is not None else f"{method} without --records"
             raise InvalidOption(f"--pairs of scale must be given with a rule of a code and --records; got {got}")
         refuse_options(args, ("select",), "scale", "with --pairs")
-    check_plot(args, "scale")
-    check_files(args.out)
 
 
 def _building_of_file(args: argparse.Namespace) -> OwnBuilding | None:
@@ -204,9 +201,8 @@ def _scaled(args: argparse.Namespace, suite: Any, target: TargetSpectrum, buildi
     if args.method == "sa-t1":
         return scaling.scale_sa_t1(suite, target, args.period)
     if args.method == "mps":
-        options = {name: getattr(args, name) for name in _PUSHOVER if getattr(args, name) is not None}
         period = args.period if building is None else None
-        return scaling.scale_modal_pushover(suite, target, building, period=period, **options)
+        return scaling.scale_modal_pushover(suite, target, building, period=period, **arguments(args, *_PUSHOVER))
     space: Any = "linear" if args.method.endswith("linear") else "log"
     return scaling.scale_least_squares(suite, target, args.period, space=space)
 

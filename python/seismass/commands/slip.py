@@ -8,12 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from seismass.commands.answer_output import give_answer
 from seismass.commands.frame import Command, progress
-from seismass.commands.options import (
-    add_answer_options,
-    add_records_options,
-    add_target_options,
-    read_site,
-)
+from seismass.commands.options import add_answer_options, add_records_options, add_target_options, arguments, read_site
 from seismass.commands.scene_or_building import (
     add_file_argument,
     add_scaling_options,
@@ -50,11 +45,8 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Solve the runs, print the slip demand and write its files; return the exit code."""
-    from seismass.base.folders import check_out
     from seismass.studies.slip import parse_size, slip_demand
 
-    if args.out is not None:
-        check_out(args.out, "slip demand")
     target = read_site(args, "slip")
     scene, building = read_scene_or_building(args.file, target)
     stated = None
@@ -73,11 +65,9 @@ def run(args: argparse.Namespace) -> int:
             motions,
             sizes=sizes,
             clearance=clearances,
-            fragility=args.fragility,
             measure=args.measure or ("pga" if scene.building is None else "sa_t1"),
-            seed=args.seed,
-            threads=args.jobs,
             progress=tell,
+            **arguments(args, "fragility", "seed", threads="jobs"),
         )
     sides = [side for each in clearances or [] if each is not None for side in each.distances]
     limits = [("clearance", side) for side in sides if side is not None]

@@ -12,6 +12,7 @@ from seismass.commands.options import (
     SPRING_OPTIONS,
     add_reading_options,
     add_spring_options,
+    arguments,
     numbers_option,
     reading,
     refuse_options,
@@ -104,11 +105,10 @@ def _inelastic(suite: Suite, periods: Any, args: argparse.Namespace) -> pl.DataF
 
     from seismass.motions.spectra import inelastic_spectrum
 
-    springs = {name: getattr(args, name) for name in SPRING_OPTIONS if getattr(args, name) is not None}
-    levels = {"strength": args.strength, "ductility": args.ductility}
+    how = arguments(args, "strength", "ductility", *SPRING_OPTIONS)
     tables = []
     for ratio in args.damping:
-        spectrum = inelastic_spectrum(suite, periods, **levels, damping=ratio, **springs)
+        spectrum = inelastic_spectrum(suite, periods, damping=ratio, **how)
         tables.append(spectrum.table().insert_column(2, pl.Series("damping", [ratio] * spectrum.strength.size)))
     return pl.concat(tables)
 

@@ -22,6 +22,7 @@ from seismass.commands.options import (
     add_drift_cap_option,
     add_motion_options,
     add_spring_options,
+    arguments,
     numbers_option,
     positive_option,
     read_motions,
@@ -75,7 +76,7 @@ def options(parser: argparse.ArgumentParser) -> None:
         "--collapse-drift-ratio", type=positive_option, metavar="RATIO", help="drift over height that is a collapse"
     )
     add_drift_cap_option(building)
-    output = add_answer_options(parser, "study")
+    output = add_answer_options(parser, "study", "study")
     output.add_argument(
         "--effective", action="store_true", help="compute the effective fraction of each building too: some seconds"
     )
@@ -87,27 +88,16 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the study, write its files and print what it says; return the exit code."""
-    from seismass.base.folders import check_out
-    from seismass.base.statistics import DRIFT_CAP
     from seismass.base.stored_results import result_store
     from seismass.runs.simulate import instruction_set
     from seismass.studies.study import StudyParameters
     from seismass.studies.study.run import study_digest
 
-    check_out(args.out, "study")
+    choices = ("code", "mu", "damping_base", "combination", "height", "p_delta", "collapse_drift_ratio", "drift_cap")
+    renamed = {"scaling_period": "period", "yield_at_r1": "yield_at_R1"}
     parameters = StudyParameters(
-        code=args.code,
+        **arguments(args, *choices, *SPRING_OPTIONS, **renamed),
         occupancies=None if args.occupancy is None else tuple(args.occupancy),
-        mu=args.mu,
-        **{name: getattr(args, name) for name in SPRING_OPTIONS if getattr(args, name) is not None},
-        damping_base=args.damping_base,
-        scaling_period=args.period,
-        combination=args.combination,
-        yield_at_r1=args.yield_at_R1,
-        height=args.height,
-        p_delta=args.p_delta,
-        collapse_drift_ratio=args.collapse_drift_ratio,
-        drift_cap=args.drift_cap or DRIFT_CAP,
     )
     target = read_target(args)
     suite = read_motions(args, "seven")

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from seismass.commands.frame import Command, show
-from seismass.commands.options import add_out_option, numbers_option
+from seismass.commands.options import add_output_option, numbers_option
 from seismass.commands.parser import RUNS
 from seismass.motions.scaling import TARGET_HELP
 
@@ -23,17 +23,16 @@ def options(parser: argparse.ArgumentParser) -> None:
         metavar="LIST",
         help="periods, s (default: 200 from 0.01 to 10 s, and the corners)",
     )
-    add_out_option(parser, "FILE", "CSV to write (printed otherwise)")
+    add_output_option(parser, "FILE", "CSV to write (printed otherwise)")
 
 
 def run(args: argparse.Namespace) -> int:
     """Print or write the table; return the exit code."""
     from seismass.assessment.building_file import read_building
-    from seismass.base.files import check_files, table_content, write_file
+    from seismass.base.files import table_content, write_file
     from seismass.motions.scaling.suite import target_of
     from seismass.motions.spectra.target import target_remarks
 
-    check_files(args.out)
     target = target_of(args.spectrum) if args.building is None else read_building(args.building).site_spectrum()
     for remark in target_remarks(target):
         print(f"seismass: {remark}", file=sys.stderr)

@@ -29,12 +29,9 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the validations, write their files and print what they say; return the exit code."""
-    from seismass.base.folders import check_out
     from seismass.studies.study import study_sensitivity
     from seismass.studies.validation import validate
 
-    if args.out is not None:
-        check_out(args.out, "validation")
     target = read_target(args)
     suite = read_motions(args, "seven")
     sensitivity = None

@@ -10,16 +10,15 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import (
     FloatArray,
     as_one_of,
     as_positive,
-    brief,
     content_hash,
     frozen,
-    is_one_of,
     refusal,
     same_content,
     short_repr,
@@ -210,9 +209,7 @@ def design_by_code(
     >>> round(float(found.yield_shear[0] / found.base_shear), 12), found.coefficient
     (1.0, 0.25)
     """
-    if not is_one_of(procedure, get_args(Procedure)):
-        requirement = f"one of {', '.join(get_args(Procedure))}"
-        raise refusal(InvalidOption, "procedure", "design", requirement, brief(procedure))
+    as_word(procedure, get_args(Procedure), "procedure", "design")
     made = _Design(as_one_of(code_id, str, "code_id", "design", InvalidOption))
     risk_category = known_category(risk_category)
     as_one_of(system, str, "system", "design", InvalidOption)

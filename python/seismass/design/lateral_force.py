@@ -9,9 +9,10 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
+from seismass.base.arguments import known_id
 from seismass.base.errors import InvalidOption
 from seismass.base.files import stored_rows
-from seismass.base.values import FloatArray, as_flag, as_positive, frozen, known_id
+from seismass.base.values import FloatArray, as_flag, as_positive, frozen
 from seismass.base.views import Card
 from seismass.design.modes import moments, positive, positive_of_length
 from seismass.model.codes import CODE_NAMES

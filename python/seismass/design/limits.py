@@ -9,9 +9,10 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
+from seismass.base.arguments import known_id
 from seismass.base.errors import InvalidOption
 from seismass.base.files import stored_rows
-from seismass.base.values import FloatArray, as_array, as_positive, brief, frozen, known_id, refusal
+from seismass.base.values import FloatArray, as_array, as_positive, brief, frozen, refusal
 from seismass.design.modes import positive, positive_of_length
 from seismass.design.rules import CATEGORIES, RULES, known_category, rule_of
 from seismass.model.codes import VERIFIED

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.values import (
     FloatArray,
@@ -18,7 +19,6 @@ from seismass.base.values import (
     brief,
     content_hash,
     frozen,
-    is_one_of,
     refusal,
     same_content,
     short_repr,
@@ -240,8 +240,7 @@ def combine(modal: FloatArray, periods: FloatArray, combination: Combination, da
 
 def checked_combination(combination: str, damping: float, owner: str) -> float:
     """Return the damping ratio; an unknown combination and a ratio out of range are refused."""
-    if not is_one_of(combination, get_args(Combination)):
-        raise refusal(InvalidOption, "combination", owner, "srss or cqc", brief(combination))
+    as_word(combination, get_args(Combination), "combination", owner)
     ratio = as_number(damping, "damping", owner, InvalidOption)
     if not 0.0 < ratio < 1.0:
         raise refusal(InvalidOption, "damping", owner, "above 0 and below 1", f"{ratio:g}")

@@ -8,9 +8,10 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 import polars as pl
 
+from seismass.base.arguments import known_id
 from seismass.base.errors import InvalidOption
 from seismass.base.files import stored_rows
-from seismass.base.values import as_count, as_number, brief, known_id, refusal
+from seismass.base.values import as_count, as_number, brief, refusal
 from seismass.base.views import Card
 from seismass.model.codes import CODE_NAMES, FROM_MEMORY, SECOND_HAND, VERIFIED
 

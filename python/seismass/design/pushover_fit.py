@@ -10,6 +10,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
 from seismass.base.values import (
     FloatArray,
@@ -19,7 +20,6 @@ from seismass.base.values import (
     content_hash,
     frozen,
     is_list,
-    is_one_of,
     refusal,
     same_content,
     short_repr,
@@ -411,8 +411,7 @@ def fit_pushover(
     (array([1.e+08]), array([1000000.]), array([0.05]))
     >>> building = sm.Building(mass=1e5, **fit.springs)
     """
-    if not is_one_of(shape, SPRING_SHAPES):
-        raise refusal(InvalidOption, "shape", _OWNER, f"one of {', '.join(SPRING_SHAPES)}", brief(shape))
+    as_word(shape, SPRING_SHAPES, "shape", _OWNER)
     curves, left_out = _curves(drift, shear, shape)
     if forces is None:
         for name, value in (("relative_stiffness", relative_stiffness), ("relative_strength", relative_strength)):

@@ -7,9 +7,8 @@ from typing import Final
 
 import polars as pl
 
-from seismass.base.errors import InvalidOption
+from seismass.base.arguments import as_word
 from seismass.base.files import stored_rows
-from seismass.base.values import is_one_of, refusal
 from seismass.model.codes import CODE_NAMES, SECOND_HAND, VERIFIED
 
 CATEGORIES: Final = ("I", "II", "III", "IV")
@@ -85,9 +84,7 @@ def rule_of(code_id: str, rule: str, case: str | None = None) -> CodeRule | None
 
 def known_category(risk_category: str) -> str:
     """Return a risk category in capitals; an unknown one is refused."""
-    wanted = str(risk_category).strip().upper()
-    if not is_one_of(wanted, CATEGORIES):
-        raise refusal(InvalidOption, "risk_category", "building", "one of I, II, III, IV", repr(risk_category))
+    wanted: str = as_word(str(risk_category).strip().upper(), CATEGORIES, "risk_category", "building")
     return wanted
 
 

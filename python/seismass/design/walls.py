@@ -8,16 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import (
-    FloatArray,
-    as_number,
-    as_positive,
-    brief,
-    content_hash,
-    frozen,
-    refusal,
-    same_content,
-)
+from seismass.base.values import FloatArray, as_number, as_positive, brief, content_hash, frozen, refusal, same_content
 from seismass.base.views import Card
 from seismass.design.modes import checked_heights, positive, positive_of_length, vibration_modes
 from seismass.model.building import Building

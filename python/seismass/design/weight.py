@@ -10,6 +10,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
+from seismass.base.arguments import as_word, is_one_of, known_id
 from seismass.base.errors import InvalidOption
 from seismass.base.files import stored_rows
 from seismass.base.units import STANDARD_GRAVITY
@@ -20,8 +21,6 @@ from seismass.base.values import (
     brief,
     content_hash,
     frozen,
-    is_one_of,
-    known_id,
     refusal,
     same_content,
     short_repr,
@@ -249,8 +248,7 @@ def _uses(
         requirement = f"one use or a list of {len(live)}, one per floor"
         raise refusal(InvalidOption, "use", "seismic weight", requirement, f"{len(uses)} of them")
     for one in uses:
-        if not is_one_of(one, get_args(FloorUse)):
-            raise refusal(InvalidOption, "use", "seismic weight", f"one of {', '.join(get_args(FloorUse))}", brief(one))
+        as_word(one, get_args(FloorUse), "use", "seismic weight")
     return uses
 
 

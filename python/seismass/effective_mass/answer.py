@@ -14,29 +14,19 @@ from typing import Any, TypeAlias
 
 from numpy.typing import ArrayLike
 
+from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.statistics import DRIFT_CAP
+from seismass.base.statistics import DRIFT_CAP, Statistic
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.effective_mass.models import (
     SAME_DAMPING,
     SHARES_BEYOND,
     ModelDamping,
-    Statistic,
     attached,
     check_any_load,
     goes_beyond,
 )
 from seismass.effective_mass.result import EffectiveMass
-from seismass.effective_mass.runs import (
-    LARGER,
-    DriftMeasure,
-    NamedMotions,
-    Peaks,
-    Progress,
-    Stages,
-    named_motions,
-    solve,
-)
 from seismass.effective_mass.search import OWNER, Options, Search, checked_options
 from seismass.model.block import Block, SlidingBase
 from seismass.model.building import Building
@@ -45,6 +35,7 @@ from seismass.model.scene import Scene
 from seismass.motions.motion import MotionLike
 from seismass.motions.spectra import TargetSpectrum
 from seismass.runs.batch import MotionsLike
+from seismass.runs.peaks import LARGER, DriftMeasure, NamedMotions, Peaks, named_motions, solve
 
 Designed: TypeAlias = Building | tuple[Building, Building]
 """What a design gives: a building, or the same one in x and in y."""
@@ -76,14 +67,14 @@ def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Op
             requirement = "the building and goods of scene 1, with another friction"
             raise refusal(InvalidScene, f"scene {number}", OWNER, requirement, "others")
     larger = SHARES_BEYOND if any(goes_beyond(scene) for scene in checked) else SHARES_BEYOND[:0]
-    stages = Stages(options.progress, (len(checked) + len(shares) + len(larger)) * len(motions))
-    sliding_models = solve(checked, motions, **how, progress=stages.next(len(checked) * len(motions)))
+    stages = Progress(options.progress, (len(checked) + len(shares) + len(larger)) * len(motions), OWNER)
+    sliding_models = solve(checked, motions, **how, progress=stages.part(len(checked) * len(motions)))
     models = [attached(first, share, options.damping) for share in shares]
-    model = solve(models, motions, **how, progress=stages.next(len(models) * len(motions)))
+    model = solve(models, motions, **how, progress=stages.part(len(models) * len(motions)))
     above_one = None
     if len(larger):
         models = [attached(first, share, options.damping) for share in larger]
-        above_one = solve(models, motions, **how, progress=stages.next(len(models) * len(motions)))
+        above_one = solve(models, motions, **how, progress=stages.part(len(models) * len(motions)))
     peaks_by_share: dict[float, Peaks] = {}
 
     def model_at(share: float) -> Peaks:
@@ -129,15 +120,15 @@ def solved_designs(
         return check_any_load(Scene(building, goods, racks=standing, other_direction=other, **what))
 
     shares = [float(share) for share in options.fractions]
-    stages = Stages(options.progress, 2 * len(shares) * len(motions))
+    stages = Progress(options.progress, 2 * len(shares) * len(motions), OWNER)
     scenes = [designed(share) for share in shares]
     if len({scene.storeys for scene in scenes}) > 1:
         requirement = "a Building of the same number of storeys for every share"
         raise refusal(InvalidScene, "design", OWNER, requirement, "different ones")
     runs = len(scenes) * len(motions)
-    sliding = solve(scenes, motions, **how, progress=stages.next(runs))
+    sliding = solve(scenes, motions, **how, progress=stages.part(runs))
     models = [attached(scene, share, options.damping) for scene, share in zip(scenes, shares, strict=True)]
-    model = solve(models, motions, **how, progress=stages.next(runs))
+    model = solve(models, motions, **how, progress=stages.part(runs))
 
     def at(share: float) -> tuple[Peaks, Peaks]:
         scene = designed(share)
@@ -164,7 +155,7 @@ def effective_mass(
     resamples: int = 2000,
     seed: int = 0,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> EffectiveMass:
     """Return the share of a building's live load that acts as mass under a suite of motions.
 
@@ -189,8 +180,7 @@ def effective_mass(
     damping : {"same", "ratio"}, default "same"
         Damping of the models, see `attached_scene`.
     fractions : array_like, optional
-        Shares at which models are solved before roots are refined, from 0 to 1; by default 0, 0.01, ..., 1, of
-        vectors 0, 0.05, ..., 1.
+        Shares at which models are solved before roots are refined, from 0 to 1; by default 0, 0.05, ..., 1.
     target : TargetSpectrum, optional
         Spectrum from which the rule by hand takes S_a; by default the mean spectrum of the motions.
     confidence : float, default 0.90
@@ -262,7 +252,7 @@ def effective_mass_of_design(
     resamples: int = 2000,
     seed: int = 0,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> EffectiveMass:
     """Return the share that a code would have to prescribe, where it sets the strength of the building too.
 

@@ -13,27 +13,15 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass import _kernel
+from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.statistics import QUANTILES, over_records, quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import view
 from seismass.design import Combination, response_spectrum_analysis, vibration_modes
 from seismass.design.scaling import ScalingResult, scale_asce7_10
-from seismass.effective_mass.models import (
-    DEFAULT_FRACTIONS,
-    SAME_DAMPING,
-    Kind,
-    ModelDamping,
-    attached,
-    building_of,
-    check_damping,
-    full_weight,
-    interpolated,
-    is_below,
-    kind_of,
-    over_records,
-    resampled,
-)
+from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, building_of, check_damping, full_weight
 from seismass.effective_mass.rule import (
     OFFSET,
     RULES,
@@ -45,7 +33,7 @@ from seismass.effective_mass.rule import (
     floor_coefficient,
     share_by_hand,
 )
-from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
+from seismass.effective_mass.share import Kind, equal_share, interpolated, is_below, kind_of
 from seismass.media.result import Result
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import DEFAULT_DAMPING, Building
@@ -56,6 +44,7 @@ from seismass.motions.motion import motion_names, scaled_motions
 from seismass.motions.records import Suite
 from seismass.motions.spectra import TargetSpectrum, mean_spectrum
 from seismass.motions.spectra.target import target_remarks
+from seismass.runs.peaks import NamedMotions, Peaks, named_motions, solve
 from seismass.runs.simulate import instruction_set
 
 if TYPE_CHECKING:
@@ -143,7 +132,7 @@ class EffectiveMassParameters:
     confidence: float = 0.90
     resamples: int = 500
     seed: int = 0
-    shares: int = len(DEFAULT_FRACTIONS)
+    shares: int = 101
 
     def __post_init__(self) -> None:
         """Judge the axes and keep numbers as Python's own; building, design and scaling judge the rest."""
@@ -353,11 +342,9 @@ class EffectiveMassMap(Result):
         for low, high in pairwise(ETA_EDGES):
             inside = value[(low <= eta) & (eta < high)]
             if len(inside):
-                p16, median, p84 = np.percentile(inside, [16.0, 50.0, 84.0]).tolist()
+                quantiles = {name: float(quantile(inside, share)) for name, share in QUANTILES.items()}
                 upper = None if np.isinf(high) else high
-                rows.append(
-                    {"eta_from": low, "eta_to": upper, "cases": len(inside), "p16": p16, "median": median, "p84": p84}
-                )
+                rows.append({"eta_from": low, "eta_to": upper, "cases": len(inside), **quantiles})
         return pl.DataFrame(rows, schema_overrides={"eta_to": pl.Float64})
 
 
@@ -379,7 +366,7 @@ def effective_mass_map(
     parameters: EffectiveMassParameters | None = None,
     *,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> EffectiveMassMap:
     """Return the effective fraction of live load over a grid of buildings, loads, strengths, friction and intensity.
 
@@ -418,16 +405,16 @@ def effective_mass_map(
     ]
     fractions = np.linspace(0.0, 1.0, options.shares)
     total = len(options.intensities) * sum(map(len, designs)) * (len(fractions) + len(options.mus)) * len(suite)
-    stages, rows = Stages(progress, total), list[dict[str, Any]]()
+    stages, rows = Progress(progress, total, "effective mass map"), list[dict[str, Any]]()
     curves: list[FloatArray] = []
     curve_of: list[int] = []
     for intensity in options.intensities:
         for loads in designs:
             motions = named_motions(scaled_motions(suite, intensity * loads[0].scaling.factors), "effective mass map")
             models = [attached(load.scenes[0], share, options.model_damping) for load in loads for share in fractions]
-            model = solve(models, motions, threads=threads, progress=stages.next(len(models) * len(motions)))
+            model = solve(models, motions, threads=threads, progress=stages.part(len(models) * len(motions)))
             scenes = [scene for load in loads for scene in load.scenes]
-            all_sliding = solve(scenes, motions, threads=threads, progress=stages.next(len(scenes) * len(motions)))
+            all_sliding = solve(scenes, motions, threads=threads, progress=stages.part(len(scenes) * len(motions)))
             for number, load in enumerate(loads):
                 model_part = model.part(number * len(fractions), len(fractions))
                 sliding = all_sliding.part(number * len(options.mus), len(options.mus))
@@ -564,14 +551,10 @@ def _intervals(
     """Bootstrap interval of each friction coefficient; the resampled models are shared."""
     if motions.clusters < 2:
         return None, None
-    both = np.concatenate([model.largest, sliding.largest])
     how: dict[str, Any] = {"cluster_of": motions.cluster_of, "resamples": options.resamples, "seed": options.seed}
-    drawn, _ = resampled(both, both[:1], statistic="mean", **how)
-    shares, fractions = model.scenes, np.linspace(0.0, 1.0, options.shares)
-    tail = 50.0 * (1.0 - options.confidence)
-    ends = np.ones((2, sliding.scenes))
+    how |= {"confidence": options.confidence}
+    fractions, ends = np.linspace(0.0, 1.0, options.shares), np.ones((2, sliding.scenes))
     for case in np.flatnonzero(slides):
-        against = np.broadcast_to(drawn[:, shares + case, None], (len(drawn), shares))
-        ends[:, case] = np.percentile(interpolated(fractions, drawn[:, :shares], against), [tail, 100.0 - tail])
+        ends[:, case] = equal_share(fractions, model.largest, sliding.largest[case], **how).interval
     ends[:, np.array(options.mus) == 0.0] = 0.0
     return ends[0], ends[1]

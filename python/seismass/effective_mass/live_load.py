@@ -17,9 +17,10 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
+from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.distributions import Distribution
 from seismass.base.errors import InvalidOption
-from seismass.base.statistics import DRIFT_CAP, few_collapses
+from seismass.base.statistics import DRIFT_CAP, few_collapses, over_records, quantile
 from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import view
 from seismass.effective_mass.models import (
@@ -30,15 +31,13 @@ from seismass.effective_mass.models import (
     check_damping,
     check_fractions,
     check_loaded,
-    interpolated,
-    over_records,
 )
-from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
-from seismass.effective_mass.share import equal_share
+from seismass.effective_mass.share import equal_share, interpolated
 from seismass.media.result import Result, finite_values
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.motions.motion import MotionLike
+from seismass.runs.peaks import NamedMotions, Peaks, named_motions, solve
 from seismass.runs.simulate import instruction_set
 
 if TYPE_CHECKING:
@@ -169,7 +168,7 @@ def live_load_uncertainty(
     damping: ModelDamping = SAME_DAMPING,
     fractions: ArrayLike | None = None,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> LiveLoadUncertainty:
     """Return the share of the design live load to attach where occupancy and friction are random.
 
@@ -224,12 +223,12 @@ def live_load_uncertainty(
     both = np.concatenate([levels, one_at_a_time])
     frictions = _sampled(mu, both[:, 0], "mu", np.inf)
     present = _sampled(occupancy, both[:, 1], "occupancy", 1.0)
-    stages = Stages(progress, (len(shares) + len(both)) * len(named))
+    stages = Progress(progress, (len(shares) + len(both)) * len(named), owner)
     models = [attached(checked, share, convention) for share in shares]
     how: dict[str, Any] = {"drift_cap": check_cap(drift_cap, owner), "threads": threads}
-    model = solve(models, named, **how, progress=stages.next(len(models) * len(named)))
+    model = solve(models, named, **how, progress=stages.part(len(models) * len(named)))
     scenes = [_with_goods(checked, friction, share) for friction, share in zip(frictions, present, strict=True)]
-    sliding = solve(scenes, named, **how, progress=stages.next(len(scenes) * len(named)))
+    sliding = solve(scenes, named, **how, progress=stages.part(len(scenes) * len(named)))
     model_drift, sliding_drift = over_records(model.largest, "mean"), over_records(sliding.largest, "mean")
     shares_of_runs = interpolated(
         shares,
@@ -243,8 +242,8 @@ def live_load_uncertainty(
     return LiveLoadUncertainty(
         share=share,
         interval=interval,
-        share_84=float(np.quantile(values, 0.84)),
-        quantiles=pl.DataFrame({"probability": LEVELS, "share": np.quantile(values, LEVELS)}),
+        share_84=float(quantile(values, 0.84)),
+        quantiles=pl.DataFrame({"probability": LEVELS, "share": [float(quantile(values, level)) for level in LEVELS]}),
         tornado=_tornado(frictions[count:], present[count:], shares_of_runs[count:]),
         samples=pl.DataFrame(
             {

@@ -7,32 +7,31 @@ from functools import partial
 from itertools import groupby
 from typing import Any, Final
 
-import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
+from seismass.base.arguments import Progress, ProgressLike, as_bootstrap, as_threads
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import DRIFT_CAP, few_collapses
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
-from seismass.base.values import FloatArray, brief, refusal
+from seismass.base.values import FloatArray, as_one_of, brief, is_list, refusal
 from seismass.effective_mass.models import (
     SAME_DAMPING,
     ModelDamping,
     attached,
+    check_cap,
     check_damping,
     check_fractions,
     check_loaded,
 )
-from seismass.effective_mass.runs import NamedMotions, Peaks, Progress, Stages, named_motions, solve
 from seismass.effective_mass.search import without_friction
 from seismass.effective_mass.share import equal_share
 from seismass.model.scene import Scene
 from seismass.motions.motion import MotionLike
 from seismass.runs.grid.grid import Grid
+from seismass.runs.peaks import NamedMotions, Peaks, named_motions, solve
 
 OWNER: Final = "effective mass table"
-SHARES: Final = np.linspace(0.0, 1.0, 21)
-"""Shares at which models are solved; crossings are linear between them."""
 _AT_ONCE: Final = 64
 
 
@@ -46,7 +45,7 @@ def effective_mass_table(
     resamples: int = 200,
     seed: int = 0,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
     store: StoredResults = NOTHING_STORED,
 ) -> pl.DataFrame:
     """Return the effective fraction of many buildings with goods, as `effective_mass` defines it.
@@ -87,16 +86,17 @@ def effective_mass_table(
     >>> sm.evidence.effective_mass_table(grid, sm.builtin_suite("seven"))["kind"].to_list()
     ['root', 'stuck', 'root', 'stuck']
     """
-    named, shares, convention = (
-        named_motions(motions, OWNER),
-        check_fractions(fractions, OWNER, SHARES),
-        check_damping(damping, OWNER),
-    )
+    named, shares = named_motions(motions, OWNER), check_fractions(fractions, OWNER)
+    convention, cap = check_damping(damping, OWNER), check_cap(drift_cap, OWNER)
+    as_one_of(store, StoredResults, "store", OWNER, InvalidOption)
+    if not (isinstance(scenes, Grid) or is_list(scenes)) or not len(scenes):
+        raise refusal(InvalidOption, "scenes", OWNER, "a Grid or a list of Scenes", brief(scenes))
     if isinstance(scenes, Grid) and {"scale", "motion"} & set(scenes.table(1, 1).columns):
         raise refusal(InvalidOption, "scenes", OWNER, "a grid without scale and motion", brief(scenes))
-    stages = Stages(progress, len(scenes) * (1 + len(shares)) * len(named))
-    how: dict[str, Any] = {"drift_cap": drift_cap, "threads": threads}
-    bootstrap: dict[str, Any] = {"cluster_of": named.cluster_of, "resamples": resamples, "seed": seed}
+    stages = Progress(progress, len(scenes) * (1 + len(shares)) * len(named), OWNER)
+    how: dict[str, Any] = {"drift_cap": cap, "threads": as_threads(threads, OWNER)}
+    _, count, start = as_bootstrap(0.9, resamples, seed, OWNER)
+    bootstrap: dict[str, Any] = {"cluster_of": named.cluster_of, "resamples": count, "seed": start}
 
     def part(first: int) -> pl.DataFrame:
         numbers = range(first, min(first + _AT_ONCE, len(scenes)))
@@ -104,9 +104,9 @@ def effective_mass_table(
         rows: list[dict[str, Any]] = []
         for _, group in groupby(listed, key=lambda scene: scene.storeys):
             alike = list(group)
-            sliding = solve(alike, named, **how, progress=stages.next(len(alike) * len(named)))
+            sliding = solve(alike, named, **how, progress=stages.part(len(alike) * len(named)))
             attached_scenes = [attached(scene, float(share), convention) for scene in alike for share in shares]
-            model = solve(attached_scenes, named, **how, progress=stages.next(len(attached_scenes) * len(named)))
+            model = solve(attached_scenes, named, **how, progress=stages.part(len(attached_scenes) * len(named)))
             rows += _rows(alike, shares, sliding, model, named, bootstrap)
         return pl.DataFrame(rows, infer_schema_length=None).insert_column(
             0, pl.Series("scene", [i + 1 for i in numbers])

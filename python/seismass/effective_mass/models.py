@@ -2,43 +2,21 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
 from typing import Any, Final, Literal, TypeAlias, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
-from seismass.base.errors import InvalidOption, InvalidScene, SimulationError
-from seismass.base.statistics import interval_of
+from seismass.base.arguments import as_word
+from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_array, as_number, brief, is_one_of, refusal
-from seismass.effective_mass.runs import Peaks
+from seismass.base.values import FloatArray, as_array, as_number, brief, refusal
 from seismass.model.block import SlidingBase
 from seismass.model.building import Building
 from seismass.model.scene import Scene
+from seismass.runs.peaks import Peaks
 
-Statistic: TypeAlias = Literal["mean", "median"]
-"""What is taken of the largest drifts over the records."""
-Kind: TypeAlias = Literal["stuck", "root", "multiple", "zero", "one", "beyond", "collapsed"]
-"""How an effective fraction came about; see `EffectiveMass`."""
-
-ROUNDING: Final = 1e-12
-"""Drifts that differ by less, relative to themselves, are the same."""
-TOLERANCE: Final = 1e-12
-"""To which roots are located."""
-DEFAULT_FRACTIONS: Final = np.linspace(0.0, 1.0, 101)
-"""Shares at which models are solved before roots are refined."""
-FRACTIONS_OF_VECTORS: Final = np.linspace(0.0, 1.0, 21)
-"""The same where drifts are lengths of vectors, for which a model takes a run in two directions."""
-
-
-def check_statistic(statistic: Any, owner: str) -> Statistic:
-    """Return the name of a statistic."""
-    if not is_one_of(statistic, get_args(Statistic)):
-        raise refusal(InvalidOption, "statistic", owner, "mean or median", brief(statistic))
-    checked: Statistic = statistic
-    return checked
+DEFAULT_FRACTIONS: Final = np.linspace(0.0, 1.0, 21)
+"""Shares at which models are solved before roots are refined; intervals are linear between them."""
 
 
 def check_cap(drift_cap: Any, owner: str) -> float:
@@ -49,165 +27,15 @@ def check_cap(drift_cap: Any, owner: str) -> float:
     return cap
 
 
-def check_fractions(fractions: Any, owner: str, default: FloatArray = DEFAULT_FRACTIONS) -> FloatArray:
-    """Return shares in increasing order from 0 to 1, those of a default where none are given."""
+def check_fractions(fractions: Any, owner: str) -> FloatArray:
+    """Return shares in increasing order from 0 to 1, by default in steps of 0.05."""
     if fractions is None:
-        return default
+        return DEFAULT_FRACTIONS
     shares = as_array(fractions, "fractions", owner, InvalidOption)
     requirement = "a list in increasing order that begins with 0 and ends with 1"
     if len(shares) < 2 or shares[0] != 0.0 or shares[-1] != 1.0 or not (np.diff(shares) > 0.0).all():
         raise refusal(InvalidOption, "fractions", owner, requirement, brief(shares.tolist()))
     return shares
-
-
-def over_records(values: FloatArray, statistic: Statistic) -> FloatArray:
-    """Return the mean or the median over the last axis, of capped drifts."""
-    taken: FloatArray = np.asarray(values.mean(axis=-1) if statistic == "mean" else np.median(values, axis=-1))
-    return taken
-
-
-def is_below(model: FloatArray, sliding: FloatArray) -> NDArray[np.bool_]:
-    """Whether the model drifts less than the real building, by more than rounding."""
-    below: NDArray[np.bool_] = np.asarray(model < sliding * (1.0 - ROUNDING))
-    return below
-
-
-def kind_of(below: NDArray[np.bool_]) -> Kind:
-    """Return how often the curve crosses the real drift, and on which side of it the curve ends."""
-    if below[-1]:
-        return "one"
-    if not below.any():
-        return "zero"
-    return "root" if np.count_nonzero(below[1:] != below[:-1]) == 1 else "multiple"
-
-
-def crossings(fractions: FloatArray, model: FloatArray, sliding: FloatArray) -> list[tuple[float, float]]:
-    """Return the brackets of all sign changes of model - real on the grid, in increasing order."""
-    below = is_below(model, np.broadcast_to(sliding, model.shape))
-    return [(float(fractions[k]), float(fractions[k + 1])) for k in np.flatnonzero(below[1:] != below[:-1])]
-
-
-def interpolated_roots(fractions: FloatArray, model: FloatArray, sliding: FloatArray) -> list[float]:
-    """Return all crossings of one curve by linear interpolation."""
-    roots = []
-    for low, high in crossings(fractions, model, sliding):
-        k = int(np.searchsorted(fractions, low))
-        ends = model[k : k + 2] - sliding[k : k + 2]
-        roots.append(low - float(ends[0] / (ends[1] - ends[0])) * (high - low))
-    return roots
-
-
-def refined_root(difference: Callable[[float], float], bracket: tuple[float, float]) -> float:
-    """Return the root of a difference of drifts, relative to the real one, within a bracket."""
-    for share in bracket:
-        if abs(difference(share)) <= ROUNDING:
-            return share
-
-    def checked(share: float) -> float:
-        value = difference(share)
-        if math.isnan(value):
-            raise refusal(SimulationError, "drift", f"building at share {share:g}", "finite", "a collapse")
-        return value
-
-    return _brent_root(checked, *bracket)
-
-
-def _brent_root(function: Callable[[float], float], low: float, high: float) -> float:
-    """Return the root in a bracket by Brent's method, with the bits of `scipy.optimize.brentq`: the import of SciPy
-    takes a tenth of the time of an assessment.
-    """
-    before, now, f_before, f_now = low, high, function(low), function(high)
-    other, f_other, step_before, step = before, f_before, 0.0, 0.0
-    while True:
-        if f_before != 0.0 != f_now and (f_before < 0.0) != (f_now < 0.0):
-            other, f_other = before, f_before
-            step_before = step = now - before
-        if abs(f_other) < abs(f_now):
-            before, now, other = now, other, now
-            f_before, f_now, f_other = f_now, f_other, f_now
-        least, half = (TOLERANCE + 1e-14 * abs(now)) / 2.0, (other - now) / 2.0
-        if f_now == 0.0 or abs(half) < least:
-            return now
-        trial = math.inf
-        if abs(step_before) > least and abs(f_now) < abs(f_before):
-            if before == other:
-                trial = -f_now * (now - before) / (f_now - f_before)
-            else:
-                slope_before = (f_before - f_now) / (before - now)
-                slope_other = (f_other - f_now) / (other - now)
-                rise = f_other * slope_other - f_before * slope_before
-                trial = -f_now * rise / (slope_other * slope_before * (f_other - f_before))
-        # A step of the interpolation is taken where it is shorter than half the one before, and inside the bracket.
-        if 2.0 * abs(trial) < min(abs(step_before), 3.0 * abs(half) - least):
-            step_before, step = step, trial
-        else:
-            step_before = step = half
-        before, f_before = now, f_now
-        now += step if abs(step) > least else least if half > 0.0 else -least
-        f_now = function(now)
-
-
-def interpolated(fractions: FloatArray, model: FloatArray, sliding: FloatArray) -> FloatArray:
-    """Return the smallest share from which on the model never drifts less than the real building, by linear
-    interpolation, for `model` and `real` of shape (curves, shares); 1 where it does at 1.
-    """
-    below = is_below(model, sliding)
-    last = below.shape[1] - 1 - np.argmax(below[:, ::-1], axis=1)
-    value = np.where(below.any(axis=1), 1.0, 0.0)
-    inside = np.flatnonzero(below.any(axis=1) & (last < below.shape[1] - 1))
-    k = last[inside]
-    low = model[inside, k] - sliding[inside, k]
-    high = model[inside, k + 1] - sliding[inside, k + 1]
-    value[inside] = fractions[k] - low / (high - low) * (fractions[k + 1] - fractions[k])
-    return value
-
-
-def resampled(
-    model: FloatArray,
-    sliding: FloatArray,
-    *,
-    statistic: Statistic,
-    cluster_of: NDArray[np.int64],
-    resamples: int,
-    seed: int,
-) -> tuple[FloatArray, FloatArray]:
-    """Return the statistic of model and real drifts, each of shape (resamples, shares), in bootstrap resamples of the
-    records, both drawn together and the records of one cluster together.
-    """
-    weights = bootstrap_counts(cluster_of, resamples, seed)
-    model_drift, sliding_drift = (weighted(values, weights, statistic) for values in (model, sliding))
-    return model_drift, np.broadcast_to(sliding_drift, model_drift.shape)
-
-
-def bootstrap_counts(cluster_of: NDArray[np.int64], resamples: int, seed: int) -> FloatArray:
-    """Return how often each resample has each record, shape (resamples, records); see `resampled`."""
-    count = int(cluster_of.max()) + 1
-    draws = np.random.default_rng(seed).multinomial(count, np.full(count, 1.0 / count), size=resamples)
-    counts: FloatArray = draws[:, cluster_of].astype(np.float64)
-    return counts
-
-
-def quantile_interval(values: FloatArray, share: float, counts: FloatArray, confidence: float) -> list[float]:
-    """Return the percentile interval of a quantile of finite values in resamples that have each value so often."""
-    order = np.argsort(values, kind="stable")
-    reached = np.cumsum(counts[:, order], axis=1)
-    place = share * (reached[:, -1] - 1.0)
-    low, high = (values[order][(reached > end[:, None]).argmax(axis=1)] for end in (np.floor(place), np.ceil(place)))
-    return [float(end) for end in interval_of(low + (place - np.floor(place)) * (high - low), confidence)]
-
-
-def weighted(values: FloatArray, weights: FloatArray, statistic: Statistic) -> FloatArray:
-    """Return mean or median of rows of `values` (rows, records) under each row of whole `weights` (draws, records)."""
-    total = weights.sum(axis=1)
-    if statistic == "mean":
-        return np.asarray((weights @ values.T) / total[:, None])
-    medians = np.empty((len(weights), len(values)))
-    for row, column in enumerate(values):
-        order = np.argsort(column, kind="stable")
-        reached = np.cumsum(weights[:, order], axis=1)
-        low, high = ((reached > (total[:, None] - shift) // 2).argmax(axis=1) for shift in (1, 0))
-        medians[:, row] = 0.5 * (column[order[low]] + column[order[high]])
-    return medians
 
 
 LARGEST_SHARE: Final = 2.0
@@ -234,32 +62,6 @@ def joined(first: Peaks, second: Peaks) -> Peaks:
         np.concatenate([first.collapsed, second.collapsed]),
         first.cap,
     )
-
-
-def first_bracket(shares: FloatArray, model: FloatArray, sliding: float) -> tuple[float, float] | None:
-    """Return the shares, from 1 on, between which the model first reaches the real drift; None where it does not."""
-    below = is_below(model, np.full(model.shape, sliding))
-    reached = np.flatnonzero(~below)
-    if not len(reached):
-        return None
-    index = int(reached[0])
-    return float(shares[max(index - 1, 0)]), float(shares[index])
-
-
-def extended(values: FloatArray, shares: FloatArray, model: FloatArray, sliding: FloatArray) -> FloatArray:
-    """Return the smallest share above 1 at which the model has the real drift, by linear interpolation, for curves
-    whose model drifts less at 1; the largest share where there is none. `model` has shape (curves, beyond).
-    """
-    below = is_below(model, np.broadcast_to(sliding[:, None], model.shape))
-    crossing = values.copy()
-    short = np.flatnonzero(below[:, 0])
-    never = below[short].all(axis=1)
-    crossing[short[never]] = shares[-1]
-    for curve in short[~never]:
-        k = int(np.argmin(below[curve])) - 1
-        low, high = model[curve, k] - sliding[curve], model[curve, k + 1] - sliding[curve]
-        crossing[curve] = shares[k] - low / (high - low) * (shares[k + 1] - shares[k])
-    return crossing
 
 
 ModelDamping: TypeAlias = Literal["same", "ratio"]
@@ -425,9 +227,7 @@ def check_loaded(scene: Any, owner: str = "effective mass") -> Scene:
 
 def check_damping(damping: Any, owner: str) -> ModelDamping:
     """Return a convention of damping."""
-    if not is_one_of(damping, get_args(ModelDamping)):
-        raise refusal(InvalidOption, "damping", owner, "same or ratio", brief(damping))
-    checked: ModelDamping = damping
+    checked: ModelDamping = as_word(damping, get_args(ModelDamping), "damping", owner)
     return checked
 
 

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 import numpy as np
 import polars as pl
 
-from seismass.base.statistics import CAPPED_MEAN
+from seismass.base.statistics import CAPPED_MEAN, Statistic, over_records
 from seismass.base.values import FloatArray, content_hash, same_content
 from seismass.base.views import view
-from seismass.effective_mass.models import Kind, Statistic, interpolated_roots, is_below, kind_of, over_records
 from seismass.effective_mass.rule import ByHand
-from seismass.effective_mass.runs import NamedMotions, Peaks
+from seismass.effective_mass.share import Kind, interpolated_roots, is_below, kind_of
 from seismass.media.result import Result, finite_values
+from seismass.runs.peaks import NamedMotions, Peaks
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

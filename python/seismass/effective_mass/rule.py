@@ -24,13 +24,14 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
+from seismass.base.statistics import quantile
 from seismass.base.units import STANDARD_GRAVITY, UNITS, Units
 from seismass.base.values import FloatArray
 from seismass.effective_mass.models import building_of, frame_mass, friction, full_weight, goods_mass
-from seismass.effective_mass.runs import LARGER, DriftMeasure, NamedMotions
 from seismass.model.building import Building
 from seismass.model.scene import Scene
 from seismass.motions.spectra import TargetSpectrum, mean_spectrum
+from seismass.runs.peaks import LARGER, DriftMeasure, NamedMotions
 
 SLOPE: Final = 1.35
 """Factor of mu/C1."""
@@ -261,8 +262,8 @@ def compared(ratio: FloatArray) -> dict[str, Any]:
         "bias": float(np.exp(logarithm.mean())),
         "log_scatter": float(logarithm.std()),
         "unsafe": float(np.mean(1.0 / ratio > UNSAFE)),
-        "low": float(np.percentile(ratio, 5.0)),
-        "high": float(np.percentile(ratio, 95.0)),
+        "low": float(quantile(ratio, 0.05)),
+        "high": float(quantile(ratio, 0.95)),
         "worst": float(ratio.min()),
     }
 

@@ -9,39 +9,34 @@ from typing import Any, Final
 import numpy as np
 
 from seismass import _kernel
+from seismass.base.arguments import ProgressLike, as_bootstrap, as_progress, as_threads
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidOption
-from seismass.base.statistics import DRIFT_CAP, few_collapses
-from seismass.base.values import FloatArray, as_count, as_number, brief, refusal
+from seismass.base.statistics import (
+    DRIFT_CAP,
+    Statistic,
+    bootstrap_counts,
+    check_statistic,
+    few_collapses,
+    interval_of,
+    over_records,
+    weighted,
+)
+from seismass.base.values import FloatArray, brief, refusal
 from seismass.effective_mass.models import (
-    DEFAULT_FRACTIONS,
-    FRACTIONS_OF_VECTORS,
     FROM_ONE,
     LARGEST_SHARE,
     SHARES_BEYOND,
-    Kind,
     ModelDamping,
-    Statistic,
     attached,
-    bootstrap_counts,
     building_of,
     check_cap,
     check_damping,
     check_fractions,
-    check_statistic,
-    crossings,
-    extended,
-    first_bracket,
     friction,
     full_weight,
     goes_beyond,
-    interpolated,
-    is_below,
     joined,
-    kind_of,
-    over_records,
-    refined_root,
-    weighted,
 )
 from seismass.effective_mass.result import (
     SCHEMA_VERSION,
@@ -52,11 +47,21 @@ from seismass.effective_mass.result import (
     storey_drifts,
 )
 from seismass.effective_mass.rule import by_hand, remarks_of_structure
-from seismass.effective_mass.runs import LARGER, DriftMeasure, NamedMotions, Peaks, Progress, check_drift, solve
+from seismass.effective_mass.share import (
+    Kind,
+    crossings,
+    extended,
+    first_bracket,
+    interpolated,
+    is_below,
+    kind_of,
+    refined_root,
+)
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.model.springs import SHAPE_FIELDS
 from seismass.motions.spectra import TargetSpectrum
+from seismass.runs.peaks import LARGER, DriftMeasure, NamedMotions, Peaks, check_drift, solve
 from seismass.runs.simulate import instruction_set
 
 OWNER: Final = "effective mass"
@@ -76,7 +81,7 @@ class Options:
     resamples: int
     seed: int
     threads: int | None
-    progress: Progress | None
+    progress: ProgressLike
     target: TargetSpectrum | None = None
 
 
@@ -94,11 +99,7 @@ def checked_options(
     target: Any = None,
 ) -> Options:
     """Return the arguments of `effective_mass`; one that is not what it must be is refused."""
-    probability = as_number(confidence, "confidence", OWNER, InvalidOption)
-    if not 0.0 < probability < 1.0:
-        raise refusal(InvalidOption, "confidence", OWNER, "above 0 and below 1", f"{probability:g}")
-    if progress is not None and not callable(progress):
-        raise refusal(InvalidOption, "progress", OWNER, "a callable of two numbers", brief(progress))
+    probability, draws, start = as_bootstrap(confidence, resamples, seed, OWNER)
     if target is not None and not isinstance(target, TargetSpectrum):
         raise refusal(InvalidOption, "target", OWNER, "a TargetSpectrum", brief(target))
     return Options(
@@ -106,12 +107,12 @@ def checked_options(
         drift=check_drift(drift, OWNER),
         drift_cap=check_cap(drift_cap, OWNER),
         damping=check_damping(damping, OWNER),
-        fractions=check_fractions(fractions, OWNER, FRACTIONS_OF_VECTORS if drift == "vector" else DEFAULT_FRACTIONS),
+        fractions=check_fractions(fractions, OWNER),
         confidence=probability,
-        resamples=as_count(resamples, "resamples", OWNER, InvalidOption, least=1),
-        seed=as_count(seed, "seed", OWNER, InvalidOption),
-        threads=None if threads is None else as_count(threads, "threads", OWNER, InvalidOption, least=1),
-        progress=progress,
+        resamples=draws,
+        seed=start,
+        threads=as_threads(threads, OWNER),
+        progress=as_progress(progress, OWNER),
         target=target,
     )
 
@@ -248,10 +249,8 @@ class Search:
             return None, None
         counts = bootstrap_counts(self.motions.cluster_of, options.resamples, options.seed)
         model_drift, sliding_drift = self._weighted(sliding, model, counts)
-        tail = 50.0 * (1.0 - options.confidence)
-        low, high = np.percentile(self._shares(kind, model_drift, sliding_drift), [tail, 100.0 - tail])
-        band = np.percentile(sliding_drift / model_drift, [tail, 100.0 - tail], axis=0)
-        return (float(low), float(high)), band
+        low, high = interval_of(self._shares(kind, model_drift, sliding_drift), options.confidence)
+        return (float(low), float(high)), np.array(interval_of(sliding_drift / model_drift, options.confidence))
 
     def _shares(self, kind: Kind, model: FloatArray, sliding: FloatArray) -> FloatArray:
         """Effective fraction of each row of drifts of model and real building, by interpolation on the grid."""

@@ -285,34 +285,62 @@ LIMITS: Final = {
     "s": (0.0, 5.0),
     "k": (0.0, 5.0),
     "c": (0.0, 1.0),
+    "r3": (-0.5, 1.0),
+    "M": (0.01, 4.0),
+    "K": (0.001, 1000.0),
+    "o": (0.01, 100.0),
 }
 """Range of each number, by its letters in the address: `LIMITS` of case.js."""
 
 
+DIFFERENCES: Final = {
+    "motions": "motions are the seven built-in ones, scaled to the site of the file",
+    "scale": "motions are the seven built-in ones, scaled to their own target",
+    "kinds": "kinds of goods on a floor are one, with their mean friction",
+    "bolted": "bolted goods are part of their floors, in damping too",
+    "height": "storeys are 3.5 m high, since heights are not known here",
+    "gravity": "P-Delta has the loads of the floor masses",
+    "capped": "large drifts are not capped",
+    "median": "drifts are means over the motions, not medians",
+    "collapse": "no storey counts as collapsed at a drift of its own",
+    "counted": "the model of the code has all goods present attached, no more",
+}
+"""What is different in the live page of a building of a file, by the word that its address has."""
+
+
 @dataclass(frozen=True)
 class LiveCase:
-    """A building as the live page has it: equal floor masses, stiffnesses, heights (m) and springs; strengths V_y over
-    the weight without goods (empty: elastic), goods over floor mass with friction by floor.
+    """A building as the live page has it: forces over its weight, masses over the mean floor, stiffnesses over the
+    first; `answer` has share, interval and number of motions of the file, `differs` keys of `DIFFERENCES`.
     """
 
     period: float
     damping: float
-    overstrength: float
-    second_slope: float
-    height: float
+    p_delta: bool
+    overstrength: Sequence[float]
+    second_slope: Sequence[float]
+    third_slope: Sequence[float]
+    height: Sequence[float]
     strength: Sequence[float]
     mass_ratio: Sequence[float]
     mu_s: Sequence[float]
     mu_k: Sequence[float]
+    mass: Sequence[float]
+    stiffness: Sequence[float]
     counted: float
+    present: float
+    factors: Sequence[float] = ()
+    answer: Sequence[float] = ()
+    differs: Sequence[str] = ()
 
     @property
     def numbers(self) -> dict[str, Sequence[float]]:
         """What the address says, by its letters."""
-        alone = {"T": self.period, "z": self.damping, "O": self.overstrength, "r2": self.second_slope, "h": self.height}
-        lists = {"a": self.mass_ratio, "s": self.mu_s, "k": self.mu_k}
+        alone = {"T": self.period, "z": self.damping, "c": self.counted, "o": self.present}
+        lists = {"h": self.height, "O": self.overstrength, "r2": self.second_slope, "r3": self.third_slope}
+        lists |= {"M": self.mass, "K": self.stiffness, "a": self.mass_ratio, "s": self.mu_s, "k": self.mu_k}
         lists |= {"V": self.strength} if self.strength else {}
-        return {**{key: [value] for key, value in alone.items()}, "c": [self.counted], **lists}
+        return {**{key: [value] for key, value in alone.items()}, **lists}
 
     @property
     def out_of_range(self) -> tuple[str, ...]:
@@ -325,5 +353,6 @@ class LiveCase:
         """What follows the # of the address."""
         design = "hand" if self.strength else "elastic"
         parts = ["v=1", f"by={design}", f"m={RECORD}", "d=code", f"n={len(self.mass_ratio)}", "x=1"]
-        parts += [f"{key}={','.join(f'{value:.10g}' for value in values)}" for key, values in self.numbers.items()]
-        return "&".join(parts)
+        lists = {**self.numbers, "P": [self.p_delta], "g": self.factors, "F": self.answer}
+        parts += [f"{key}={','.join(f'{value:.12g}' for value in values)}" for key, values in lists.items() if values]
+        return "&".join(parts + ([f"W={','.join(self.differs)}"] if self.differs else []))

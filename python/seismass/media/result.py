@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
 
 import numpy as np
 
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
 from seismass.base.files import Content, table_content
 from seismass.base.folders import write_folder
-from seismass.base.values import FloatArray, as_path, brief, is_one_of, refusal
+from seismass.base.values import FloatArray, as_path
 from seismass.base.views import view
 from seismass.media.roles import CODE, SLIDE
 
@@ -127,8 +128,7 @@ def named_figure(result: Result, name: str | None) -> str:
     known = result.figure_names
     if name is None:
         return known[0]
-    if not is_one_of(name, known):
-        raise refusal(InvalidOption, "name", f"figure of {result.document}", f"one of {', '.join(known)}", brief(name))
+    as_word(name, known, "name", f"figure of {result.document}")
     return name
 
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import hashlib
 import io
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, BinaryIO, Final, Literal
 from xml.etree import ElementTree as ET
 
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
+from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.errors import InvalidOption
 from seismass.base.files import Content
 from seismass.base.values import as_one_of, brief, refusal
@@ -80,17 +81,16 @@ def figure_svg(figure: Figure) -> str:
     return written.getvalue()
 
 
-def figure_svgs(figures: Mapping[str, Figure], progress: Callable[[int, int], object] | None = None) -> dict[str, str]:
+def figure_svgs(figures: Mapping[str, Figure], progress: ProgressLike = None) -> dict[str, str]:
     """Return the text of `figure_svg` of each figure, by its name; `progress` is called with (figures drawn, figures in
     all) before the first and after each.
     """
+    whole = Progress(progress, len(figures), "figures")
+    whole.tell(0)
     drawn: dict[str, str] = {}
-    for number, (name, figure) in enumerate(figures.items()):
-        if progress is not None:
-            progress(number, len(figures))
+    for name, figure in figures.items():
         drawn[name] = figure_svg(figure)
-    if progress is not None:
-        progress(len(figures), len(figures))
+        whole.tell()
     return drawn
 
 

@@ -10,9 +10,10 @@ from collections import Counter
 from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias, get_args
 
+from seismass.base.arguments import as_word, known_id
 from seismass.base.errors import InvalidOption
 from seismass.base.files import stored_rows
-from seismass.base.values import brief, is_one_of, known_id, refusal
+from seismass.base.values import refusal
 
 if TYPE_CHECKING:
     import polars as pl
@@ -158,8 +159,7 @@ def code_fraction(code_id: str, use: Use = "storage") -> CodeFraction:
     'second-hand'
     """
     wanted = known_id(code_id, CODE_IDS, "code")
-    if not is_one_of(use, get_args(Use)):
-        raise refusal(InvalidOption, "use", "code", f"one of {', '.join(get_args(Use))}", brief(use))
+    as_word(use, get_args(Use), "use", "code")
     rows = {row.use: row for row in _ROWS if row.code_id == wanted}
     unknown = all(math.isnan(row.fraction) for row in rows.values())
     if not unknown and use not in rows and _CLASS_OF.get(use) not in rows:

@@ -10,9 +10,10 @@ from typing import Any, Final
 
 import polars as pl
 
+from seismass.base.arguments import known_id
 from seismass.base.errors import InvalidOption
 from seismass.base.files import stored_rows
-from seismass.base.values import as_number, brief, known_id, refusal
+from seismass.base.values import as_number, brief, refusal
 
 __all__ = [
     "BOUNDS_SOURCE",

@@ -11,10 +11,11 @@ from typing import Final
 
 import polars as pl
 
+from seismass.base.arguments import as_word, known_id
 from seismass.base.distributions import Distribution, gamma
 from seismass.base.errors import InvalidOption
 from seismass.base.files import stored_rows
-from seismass.base.values import as_number, brief, is_one_of, known_id, refusal
+from seismass.base.values import as_number, brief, refusal
 from seismass.model.codes import Use
 
 __all__ = [
@@ -186,8 +187,7 @@ def on_surveyed_goods(fraction: float, use: Use = "storage") -> float:
     counted = as_number(fraction, "fraction", "code", InvalidOption)
     if not 0.0 <= counted <= 1.0:
         raise refusal(InvalidOption, "fraction", "code", "from 0 to 1", f"{counted:g}")
-    if not is_one_of(use, SURVEYED):
-        raise refusal(InvalidOption, "use", "code", f"one of {', '.join(SURVEYED)}", brief(use))
+    as_word(use, SURVEYED, "use", "code")
     return counted / surveyed_load(SURVEYED[use]).share
 
 

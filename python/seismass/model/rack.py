@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
+from seismass.base.arguments import known_id
 from seismass.base.errors import InvalidScene
 from seismass.base.limits import MOST_LEVELS
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, known_id, refusal
+from seismass.base.values import FloatArray, Value, as_array, as_count, as_number, brief, frozen, refusal
 from seismass.base.views import Card
 from seismass.model.block import Block, Stops
 from seismass.model.building import Building, kernel_springs

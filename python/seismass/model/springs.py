@@ -17,8 +17,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seismass import _kernel
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidScene
-from seismass.base.values import FloatArray, as_array, brief, frozen, is_list, is_one_of, refusal
+from seismass.base.values import FloatArray, as_array, brief, frozen, is_list, refusal
 
 DEFAULT_OVERSTRENGTH: Final = _kernel.DEFAULT_OVERSTRENGTH
 """Overstrength Omega, of the paper's section 4."""
@@ -336,11 +337,7 @@ def read_hysteresis(value: Any, storeys: int) -> tuple[Hysteresis, ...]:
     if len(listed) != storeys:
         requirement = f"one name or a list of {storeys}, one per storey"
         raise refusal(InvalidScene, "hysteresis", "building", requirement, f"{len(listed)} of them")
-    for item in listed:
-        if not is_one_of(item, HYSTERESES):
-            raise refusal(InvalidScene, "hysteresis", "building", " or ".join(HYSTERESES), brief(item))
-    checked: tuple[Hysteresis, ...] = tuple(listed)
-    return checked
+    return tuple(as_word(item, HYSTERESES, "hysteresis", "building", InvalidScene) for item in listed)
 
 
 def of_first_segment(array: FloatArray, name: str, backbones: tuple[Backbone | None, ...]) -> FloatArray:

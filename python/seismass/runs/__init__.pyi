@@ -6,6 +6,7 @@ from .grid.grid import Grid
 from .grid.sample import StrengthDesign
 from .long_table import long_table
 from .opensees_export import SpringPath, spring_forces, write_opensees
+from .peak_digits import digits, digits_of_batch
 from .plane import PlaneResponse
 from .response import Response
 from .scene_file import SceneFile, read_scene
@@ -21,6 +22,8 @@ __all__ = [
     "SceneProduct",
     "SpringPath",
     "StrengthDesign",
+    "digits",
+    "digits_of_batch",
     "instruction_set",
     "long_table",
     "read_scene",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, BinaryIO, Final, Protocol, TypeAlias, TypedDict
@@ -13,26 +13,26 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
+from seismass.base.arguments import Progress, ProgressLike, as_progress, as_threads
 from seismass.base.digest import inputs_digest
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.files import check_files, polars_writing, write_file
 from seismass.base.fork_check import require_polars
 from seismass.base.stored_results import result_store
-from seismass.base.values import (
-    as_count,
-    as_flag,
-    as_list,
-    as_path,
-    as_progress,
-    as_threads,
-    brief,
-    printable,
-    refusal,
-)
+from seismass.base.values import as_count, as_flag, as_list, as_path, brief, printable, refusal
 from seismass.model.scene import Scene
 from seismass.motions.motion import HasMotion, Motion, MotionLike, as_motion, motion_names
 from seismass.motions.records.pair import Pair
-from seismass.runs.batch_tables import SceneRuns, batch_table, heights_of_runs
+from seismass.runs.batch_tables import (
+    OF_BASES,
+    OF_RACKS,
+    batch_table,
+    heights_of,
+    heights_of_runs,
+    rack_columns,
+    with_directions,
+    without_directions,
+)
 from seismass.runs.grid.columns import IndexArray
 from seismass.runs.grid.grid import Grid
 from seismass.runs.plane import MotionPair, PlaneMotion, is_motion_pair, motions_in_plane
@@ -49,8 +49,6 @@ MAX_THREADS: Final = _kernel.MAX_THREADS
 
 MotionsLike: TypeAlias = "MotionLike | Pair | Iterable[MotionLike | MotionPair]"
 """Motions of a batch: one or many; pairs, or tuples of two motions, are those of scenes in two directions."""
-Progress: TypeAlias = Callable[[int, int], object]
-"""Called with (runs done, runs in all)."""
 
 
 def simulate_many(
@@ -61,7 +59,7 @@ def simulate_many(
     runs: range | None = None,
     peaks_only: bool = False,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> pl.DataFrame:
     """Solve many scenes under many motions, in parallel; the result does not depend on the number of threads.
 
@@ -146,7 +144,7 @@ def solve_many(
     runs: range | None = None,
     peaks_only: bool = False,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> pl.DataFrame:
     """Return what `simulate_many` does without its warnings, for studies that say what is unlikely themselves."""
     batch, options = _batch(scenes, motions, pairs), _options(peaks_only, threads)
@@ -165,7 +163,7 @@ def stream_many(
     chunk: int = DEFAULT_CHUNK,
     peaks_only: bool = False,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> Iterator[pl.DataFrame]:
     """Solve many scenes under many motions and give the rows of `simulate_many` in frames of bounded size, in order.
 
@@ -220,7 +218,7 @@ def write_many(
     chunk: int = DEFAULT_CHUNK,
     peaks_only: bool = False,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> None:
     """Solve many scenes under many motions and write the rows of `simulate_many` to a Parquet file as they come.
 
@@ -252,14 +250,15 @@ def write_many(
     size = as_count(chunk, "chunk", "batch", InvalidOption, least=1)
     warn_of_doubts(scenes, motions)
     batch, options = _batch(scenes, motions, pairs), _options(peaks_only, threads)
-    report = as_progress(progress, "batch")
     stretch = _one_table(_stretch(runs, batch.total))
+    whole = Progress(progress, len(stretch), "batch")
     solved_by = (_kernel.VERSION, instruction_set(), size, options["peaks_only"], stretch)
     check_files(target)
     with result_store(target.parent, target.name, inputs_digest(batch, solved_by)) as store:
         parts = []
         for done in range(0, max(len(stretch), 1), size):
-            solve = partial(batch.solve, stretch[done : done + size], options, _since(done, len(stretch), report))
+            part = stretch[done : done + size]
+            solve = partial(batch.solve, part, options, whole.part(len(part)))
             parts.append(store.file(str(done // size), solve))
 
         def write(file: BinaryIO) -> None:
@@ -291,19 +290,16 @@ class _Batch(Protocol):
     @property
     def total(self) -> int: ...
 
-    def solve(self, runs: range, options: _Options, progress: Progress | None) -> pl.DataFrame: ...
+    def solve(self, runs: range, options: _Options, progress: ProgressLike) -> pl.DataFrame: ...
 
 
 def _frames(
-    batch: _Batch, stretch: range, chunk: int, options: _Options, progress: Progress | None
+    batch: _Batch, stretch: range, chunk: int, options: _Options, progress: ProgressLike
 ) -> Iterator[pl.DataFrame]:
+    whole = Progress(progress, len(stretch), "batch")
     for done in range(0, max(len(stretch), 1), chunk):
-        yield batch.solve(stretch[done : done + chunk], options, _since(done, len(stretch), progress))
-
-
-def _since(first: int, total: int, progress: Progress | None) -> Progress | None:
-    """Progress of a chunk as progress of the whole."""
-    return None if progress is None else lambda done, _: progress(first + done, total)
+        runs = stretch[done : done + chunk]
+        yield batch.solve(runs, options, whole.part(len(runs)))
 
 
 def _stretch(runs: Any, total: int) -> range:
@@ -368,6 +364,111 @@ def _batch(scenes: Any, motions: Any, pairs: ArrayLike | None) -> _Batch:
     return batch
 
 
+Solved: TypeAlias = list[tuple[_kernel.Batch, _kernel.RackColumns | None]]
+
+
+def solve_engine(
+    scenes: Sequence[Scene],
+    motions: Sequence[Motion | PlaneMotion],
+    rows: IndexArray,
+    *,
+    peaks_only: bool,
+    threads: int | None,
+    progress: ProgressLike,
+) -> Solved:
+    """What the kernel gives back of runs, rows of scene and motion, of scenes of one engine: one batch, or in two
+    directions those of the vectors, of x and of y; each with columns of racks and bases, but that of the chain.
+    """
+    listed, shaken, runs = _used(scenes, motions, rows)
+    engine = listed[0].engine if listed else "chain"
+    how: dict[str, Any] = {"threads": threads, "progress": progress}
+    if engine == "plane":
+        x, y = zip(*shaken, strict=True)
+        kernels, others = [each._kernel for each in x], [each.acceleration for each in y]
+        in_plane = [each._plane_scene for each in listed]
+        return [*_kernel.simulate_many_plane(in_plane, kernels, others, runs, **how)]
+    kernels = [each._kernel for each in shaken]
+    if engine == "general":
+        return [_kernel.simulate_many_general([each._general_scene for each in listed], kernels, runs, **how)]
+    return [
+        (_kernel.simulate_many([each._kernel for each in listed], kernels, runs, peaks_only=peaks_only, **how), None)
+    ]
+
+
+def _used(
+    scenes: Sequence[Scene], motions: Sequence[Motion | PlaneMotion], rows: IndexArray
+) -> tuple[list[Any], list[Any], IndexArray]:
+    """Scenes and motions that runs use, and the rows of their numbers among them."""
+    used = [np.unique(column, return_inverse=True) for column in rows.T]
+    listed, shaken = (
+        [items[number] for number in numbers] for items, (numbers, _) in zip((scenes, motions), used, strict=True)
+    )
+    return listed, shaken, np.stack([places for _, places in used], axis=1)
+
+
+@dataclass(frozen=True, slots=True)
+class SceneRuns:
+    """Scenes, motions (two each for a scene in two directions) with their names, and whether tables have the columns of
+    racks, stops and bases (`racks`) and those of directions (`plane`): any scene has them.
+    """
+
+    scenes: tuple[Scene, ...]
+    motions: tuple[Motion | PlaneMotion, ...]
+    names: tuple[str, ...]
+    racks: bool
+    plane: bool
+
+    @classmethod
+    def of(cls, scenes: Sequence[Scene], motions: Sequence[Motion | PlaneMotion], names: Sequence[str]) -> SceneRuns:
+        """Return the runs of these scenes under these motions."""
+        racks = any("general" in scene._engine_names for scene in scenes)
+        plane = any(scene.engine == "plane" for scene in scenes)
+        return cls(tuple(scenes), tuple(motions), tuple(names), racks, plane)
+
+    def check(self, rows: IndexArray) -> None:
+        """Refuse runs of scenes in two directions under one motion, and of others under two."""
+        is_plane = np.array([scene.engine == "plane" for scene in self.scenes], dtype=np.bool_)[rows[:, 0]]
+        are_two = np.array([isinstance(motion, tuple) for motion in self.motions], dtype=np.bool_)[rows[:, 1]]
+        wrong = np.flatnonzero(is_plane != are_two)
+        if len(wrong):
+            scene, motion = (int(number) for number in rows[wrong[0]])
+            requirement = (
+                f"a Pair, or two motions, as scene {scene + 1} has two directions"
+                if is_plane[wrong[0]]
+                else f"a Motion or a Record, as scene {scene + 1} has one direction"
+            )
+            raise refusal(InvalidMotion, f"motion {motion + 1}", "batch", requirement, brief(self.motions[motion]))
+
+    def table(self, rows: IndexArray, *, peaks_only: bool, threads: int | None, progress: ProgressLike) -> pl.DataFrame:
+        """Return the table of runs, rows of scene and motion (runs, 2); other arguments as in `simulate_many`."""
+        engine = np.array([scene.engine for scene in self.scenes], dtype=object)[rows[:, 0]]
+        parts, numbers, whole = [], [], Progress(progress, len(rows), "batch")
+        for name in ("chain", "general", "plane"):
+            of_engine = np.flatnonzero(engine == name)
+            if len(of_engine) or (name == "chain" and not len(rows)):
+                how: dict[str, Any] = {"peaks_only": peaks_only, "threads": threads}
+                how["progress"] = whole.part(len(of_engine))
+                solved = solve_engine(self.scenes, self.motions, rows[of_engine], **how)
+                parts.append(self._engine_table(name, rows[of_engine], solved))
+                numbers.append(of_engine)
+        return parts[0] if len(parts) == 1 else pl.concat(parts)[np.argsort(np.concatenate(numbers))]
+
+    def _engine_table(self, engine: str, rows: IndexArray, solved: Solved) -> pl.DataFrame:
+        """The table of the runs of one engine, with the columns that those of others have; the base shear has the
+        share of matrices.
+        """
+        names, known = list(self.names), [heights_of(scene) for scene in self.scenes]
+        tables = []
+        for batch, racks in solved:
+            table = batch_table(batch, rows[:, 0], rows[:, 1], names, heights_of_runs(known, rows[:, 0], batch.storeys))
+            if self.racks or racks is not None:
+                table = rack_columns(table, batch, racks)
+            tables.append(table if self.racks or engine != "plane" else table.drop(*OF_RACKS, *OF_BASES))
+        if engine == "plane":
+            return with_directions(tables[0], tables[1:])
+        return without_directions(tables[0]) if self.plane else tables[0]
+
+
 @dataclass(frozen=True, slots=True)
 class _SceneBatch:
     """Runs of scenes that exist as objects: those of `pairs`, or every scene under every motion."""
@@ -390,7 +491,7 @@ class _SceneBatch:
             return self.pairs[runs.start : runs.stop]
         return np.stack(np.divmod(np.arange(runs.start, runs.stop), max(len(self.scene_runs.motions), 1)), axis=1)
 
-    def solve(self, runs: range, options: _Options, progress: Progress | None) -> pl.DataFrame:
+    def solve(self, runs: range, options: _Options, progress: ProgressLike) -> pl.DataFrame:
         return self.scene_runs.table(self._rows(runs), **options, progress=progress)
 
 
@@ -406,7 +507,7 @@ class _GridBatch:
     def total(self) -> int:
         return self.grid._runs_under(len(self.motions))
 
-    def solve(self, runs: range, options: _Options, progress: Progress | None) -> pl.DataFrame:
+    def solve(self, runs: range, options: _Options, progress: ProgressLike) -> pl.DataFrame:
         scene, motion = self.grid._scene_and_motion(np.arange(runs.start, runs.stop), len(self.motions))
         first, last = (int(scene[0]), int(scene[-1]) + 1) if len(scene) else (0, 0)
         batch = _kernel.simulate_columns(

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any, Final, TypeAlias
+from typing import Any, Final
 
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
 from seismass import _kernel
-from seismass.base.errors import InvalidMotion
-from seismass.base.values import FloatArray, brief, refusal
+from seismass.base.values import FloatArray
 from seismass.model.scene import Scene
-from seismass.motions.motion import Motion
 from seismass.runs.grid.columns import IndexArray
-from seismass.runs.plane import PlaneMotion
 
 _COLUMNS: Final = (
     "scene",
@@ -198,121 +193,3 @@ def without_directions(table: pl.DataFrame) -> pl.DataFrame:
 def _names(table: pl.DataFrame) -> tuple[str, ...]:
     """What has columns of directions: with racks those of levels and contacts too."""
     return (*_OF_DIRECTIONS, *OF_RACKS) if OF_RACKS[0] in table.columns else _OF_DIRECTIONS
-
-
-Progress: TypeAlias = Callable[[int, int], object]
-"""Called with (runs done, runs in all)."""
-
-
-@dataclass(frozen=True, slots=True)
-class SceneRuns:
-    """Scenes, motions (two each for a scene in two directions) with their names, and whether tables have the columns of
-    racks, stops and bases (`racks`) and those of directions (`plane`): any scene has them.
-    """
-
-    scenes: tuple[Scene, ...]
-    motions: tuple[Motion | PlaneMotion, ...]
-    names: tuple[str, ...]
-    racks: bool
-    plane: bool
-
-    @classmethod
-    def of(cls, scenes: Sequence[Scene], motions: Sequence[Motion | PlaneMotion], names: Sequence[str]) -> SceneRuns:
-        """Return the runs of these scenes under these motions."""
-        racks = any("general" in scene._engine_names for scene in scenes)
-        plane = any(scene.engine == "plane" for scene in scenes)
-        return cls(tuple(scenes), tuple(motions), tuple(names), racks, plane)
-
-    def check(self, rows: IndexArray) -> None:
-        """Refuse runs of scenes in two directions under one motion, and of others under two."""
-        is_plane = np.array([scene.engine == "plane" for scene in self.scenes], dtype=np.bool_)[rows[:, 0]]
-        are_two = np.array([isinstance(motion, tuple) for motion in self.motions], dtype=np.bool_)[rows[:, 1]]
-        wrong = np.flatnonzero(is_plane != are_two)
-        if len(wrong):
-            scene, motion = (int(number) for number in rows[wrong[0]])
-            requirement = (
-                f"a Pair, or two motions, as scene {scene + 1} has two directions"
-                if is_plane[wrong[0]]
-                else f"a Motion or a Record, as scene {scene + 1} has one direction"
-            )
-            raise refusal(InvalidMotion, f"motion {motion + 1}", "batch", requirement, brief(self.motions[motion]))
-
-    def table(
-        self, rows: IndexArray, *, peaks_only: bool, threads: int | None, progress: Progress | None
-    ) -> pl.DataFrame:
-        """Return the table of runs, rows of scene and motion (runs, 2); other arguments as in `simulate_many`."""
-        engine = np.array([scene.engine for scene in self.scenes], dtype=object)[rows[:, 0]]
-        solve: dict[str, Callable[..., pl.DataFrame]] = {
-            "chain": self._solve_chain,
-            "general": self._solve_general,
-            "plane": self._solve_plane,
-        }
-        parts, numbers, done = [], [], 0
-        for name, solver in solve.items():
-            of_engine = np.flatnonzero(engine == name)
-            if len(of_engine) or (name == "chain" and not len(rows)):
-                options: dict[str, Any] = {"threads": threads, "progress": _part(progress, done, len(rows))}
-                if name == "chain":
-                    options["peaks_only"] = peaks_only
-                parts.append(solver(rows[of_engine], options))
-                numbers.append(of_engine)
-                done += len(of_engine)
-        return parts[0] if len(parts) == 1 else pl.concat(parts)[np.argsort(np.concatenate(numbers))]
-
-    def _solve_chain(self, rows: IndexArray, options: dict[str, Any]) -> pl.DataFrame:
-        scenes, runs = self._scenes_of(rows)
-        batch = _kernel.simulate_many([each._kernel for each in scenes], self._motions(), runs, **options)
-        table = self._named(batch, rows, scenes, runs[:, 0])
-        table = rack_columns(table, batch, None) if self.racks else table
-        return without_directions(table) if self.plane else table
-
-    def _solve_general(self, rows: IndexArray, options: dict[str, Any]) -> pl.DataFrame:
-        scenes, runs = self._scenes_of(rows)
-        general = [each._general_scene for each in scenes if each._general_scene is not None]
-        batch, racks = _kernel.simulate_many_general(general, self._motions(), runs, **options)
-        table = rack_columns(self._named(batch, rows, scenes, runs[:, 0]), batch, racks)
-        return without_directions(table) if self.plane else table
-
-    def _solve_plane(self, rows: IndexArray, options: dict[str, Any]) -> pl.DataFrame:
-        scenes, runs = self._scenes_of(rows)
-        used, motion = np.unique(rows[:, 1], return_inverse=True)
-        pairs: list[Any] = [self.motions[number] for number in used]
-        batches = _kernel.simulate_many_plane(
-            [each._plane_scene for each in scenes if each._plane_scene is not None],
-            [x._kernel for x, _ in pairs],
-            [y.acceleration for _, y in pairs],
-            np.stack([runs[:, 0], motion], axis=1),
-            **options,
-        )
-        vector, *directions = (self._of_vector(batch, rows, scenes, runs[:, 0]) for batch in batches)
-        return with_directions(vector, directions)
-
-    def _of_vector(
-        self,
-        solved: tuple[_kernel.Batch, _kernel.RackColumns],
-        rows: IndexArray,
-        scenes: list[Scene],
-        scene: IndexArray,
-    ) -> pl.DataFrame:
-        """The table of the vectors, or of one direction; the base shear has the share of matrices."""
-        batch, racks = solved
-        table = rack_columns(self._named(batch, rows, scenes, scene), batch, racks)
-        return table if self.racks else table.drop(*OF_RACKS, *OF_BASES)
-
-    def _named(self, batch: _kernel.Batch, rows: IndexArray, scenes: list[Scene], scene: IndexArray) -> pl.DataFrame:
-        heights = heights_of_runs([heights_of(each) for each in scenes], scene, batch.storeys)
-        return batch_table(batch, rows[:, 0], rows[:, 1], list(self.names), heights)
-
-    def _motions(self) -> list[_kernel.Motion]:
-        """The motions in one direction; of two the first, which no run has."""
-        return [(each[0] if isinstance(each, tuple) else each)._kernel for each in self.motions]
-
-    def _scenes_of(self, rows: IndexArray) -> tuple[list[Scene], IndexArray]:
-        """Scenes that runs use, and rows of the index among them and of the motion."""
-        used, scene = np.unique(rows[:, 0], return_inverse=True)
-        return [self.scenes[number] for number in used], np.stack([scene, rows[:, 1]], axis=1)
-
-
-def _part(progress: Progress | None, first: int, total: int) -> Progress | None:
-    """Progress of one engine's runs as that of all."""
-    return None if progress is None else lambda done, _: progress(first + done, total)

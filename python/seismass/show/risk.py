@@ -14,8 +14,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from seismass.base.values import FloatArray, counted
-from seismass.effective_mass.models import Kind
 from seismass.effective_mass.result import KIND_TEXTS as EFFECTIVE_KINDS
+from seismass.effective_mass.share import Kind
 from seismass.media.result import named_figure
 from seismass.media.roles import (
     ADVISED,

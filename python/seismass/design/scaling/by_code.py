@@ -7,17 +7,12 @@ from typing import Any, Final
 
 import numpy as np
 
+from seismass.base.arguments import known_id
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import FloatArray, as_flag, as_positive, counted, known_id, refusal
+from seismass.base.values import FloatArray, as_flag, as_positive, counted, refusal
 from seismass.design.code_design import structural_performance
 from seismass.design.rules import RULES, CodeRule, rule_of
-from seismass.design.scaling.asce7 import (
-    first_components,
-    given_motions,
-    is_pair,
-    notes_7_16,
-    scaled_suite,
-)
+from seismass.design.scaling.asce7 import first_components, given_motions, is_pair, notes_7_16, scaled_suite
 from seismass.motions.records.pair import Pair
 from seismass.motions.scaling.result import ScalingResult
 from seismass.motions.scaling.suite import SuiteSpectra, checked_target, positive_period, suite_spectra

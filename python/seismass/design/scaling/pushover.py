@@ -9,9 +9,10 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 import numpy as np
 import polars as pl
 
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption, SimulationError
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_number, brief, frozen, is_one_of, refusal, short_repr
+from seismass.base.values import FloatArray, as_number, brief, frozen, refusal, short_repr
 from seismass.design.scaling.oscillator import FirstModeOscillator, deformation_ratio, first_mode_oscillator
 from seismass.model.building import Building
 from seismass.model.scene import Scene
@@ -152,9 +153,7 @@ def scale_modal_pushover(
     """
     suite = as_motions(records, "scaling")
     checked_target(target)
-    if not is_one_of(deformation, get_args(Deformation)):
-        choices = "one of " + ", ".join(get_args(Deformation))
-        raise refusal(InvalidOption, "deformation", "scaling", choices, brief(deformation))
+    as_word(deformation, get_args(Deformation), "deformation", "scaling")
     springs = {"overstrength": overstrength, "second_slope": second_slope, "third_slope": third_slope}
     oscillator = (
         _oscillator_of_options(target, period, yield_coefficient, reduction, damping, springs)

@@ -133,7 +133,8 @@
     const top = 72 + (aloft || (data.blocks.some(onRoof) ? Math.min(46, (0.5 * (height - 150)) / storeys) : 0));
     const total = data.heights.reduce((sum, one) => sum + one, 0) || 1.2; // m of ground
     const scale = (height - top - bottom) / total;
-    const middle = left + width / 2;
+    const moved = data.ground.moved ? between(data.ground.moved, 1, 0, data.rows, at) : 0; // px, where it is pushed by hand
+    const middle = left + width / 2 + moved;
     const floor = height - bottom;
     const half = Math.min(width * 0.27, Math.max((storeys ? 0.42 : 1.5) * total * scale, 40));
     const row = Math.min(at, run.rows - 1);
@@ -204,6 +205,7 @@
       context.fillStyle = colours.slab;
       context.fillRect(xs[s] - half, ys[s], 2 * half, slab);
     }
+    if (run === runs[0]) root.places = { left, width, middle, xs, ys, half, blocks: [] };
     drawGoods(context, run, { xs, ys, half, scale, row, enlarged, flash, colour, total, aloft, thin });
     context.restore();
 
@@ -312,6 +314,7 @@
     const slip = between(run.slip, run.blocks, j, run.rows, row);
     const x = home + enlarged * scale * slip;
     const y = base - (state === 2 ? 4 : 0);
+    root.places.blocks[j] = { x, y, wide, high };
     const glow = state ? flash(age) : 0;
     if (glow > 0) {
       context.globalAlpha = 0.45 * glow;
@@ -592,7 +595,7 @@
   plots.addEventListener("pointermove", drag);
 
   const alone = "autoplay" in root.dataset;
-  (alone ? document : root).addEventListener("keydown", (event) => {
+  const keys = (event) => {
     if (event.target instanceof HTMLSelectElement || event.ctrlKey || event.metaKey || event.altKey) return;
     const by = event.shiftKey ? 1 : 0.1;
     const does = {
@@ -606,24 +609,29 @@
     if (does === undefined || onPage || (event.key === " " && event.target === play)) return;
     event.preventDefault();
     does();
-  });
+  };
+  (alone ? document : root).addEventListener("keydown", keys);
 
   dark.addEventListener("change", redraw);
   window.addEventListener("beforeprint", () => requestAnimationFrame(redraw));
   window.addEventListener("afterprint", redraw);
-  new ResizeObserver(() => {
+  const resized = new ResizeObserver(() => {
     backdrop = null;
     draw();
-  }).observe(root);
+  });
+  resized.observe(root);
+  resized.observe(buildings);
   const stored = JSON.parse(root.querySelector('script[type="application/json"]').textContent);
   if (stored !== null) open(stored);
-  // For a page that solves while it is shown: other runs at the time that is shown.
-  root.show = (given) => {
+  // For a page that solves while it is shown: other runs, at the time that is shown or another one; where things stand in
+  // the picture of the first run (`places`); keys, where its parts stand outside the element.
+  root.show = (given, at = time) => {
     open(given);
-    time = Math.min(time, END);
+    time = Math.min(Math.max(at, 0), END);
     redraw();
   };
-  root.play = () => setPlaying(true);
+  root.play = (on = true) => setPlaying(on);
+  root.keys = keys;
   redraw();
   if (alone && !still.matches) setPlaying(true);
 })();

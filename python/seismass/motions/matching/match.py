@@ -10,8 +10,9 @@ from typing import Any, Final, Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
+from seismass.base.arguments import ProgressLike, as_threads, is_one_of
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, counted, frozen, is_one_of, refusal
+from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, counted, frozen, refusal
 from seismass.motions.elementary import exp, geomspace, log, rounded
 from seismass.motions.matching.linear import CANCELLED
 from seismass.motions.matching.result import MatchedRecord, MatchedSuite
@@ -172,7 +173,7 @@ def match_spectrum(
     _check_record(record)
     ratio, largest = _share(damping, "damping"), _share(tolerance, "tolerance")
     passes = as_count(max_iterations, "max_iterations", "matching", InvalidOption)
-    workers = None if threads is None else as_count(threads, "threads", "matching", InvalidOption, least=1)
+    workers = as_threads(threads, "matching")
     matched = _periods(periods, points, ratio, record)
     before, after = _padding(padding)
     fitted, judged = _refined(matched, 2), _refined(matched, 3)
@@ -242,7 +243,7 @@ def match_suite(
     records: Iterable[Record],
     target: Target,
     *,
-    progress: Callable[[int, int], None] | None = None,
+    progress: ProgressLike = None,
     **options: Any,
 ) -> MatchedSuite:
     """Return a suite in which every record is matched to the target by `match_spectrum`, which takes the options.

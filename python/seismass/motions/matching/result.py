@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import polars as pl
 
+from seismass.base.arguments import is_one_of
 from seismass.base.errors import InvalidOption
 from seismass.base.files import write_file
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_path, brief, content_hash, counted, is_one_of, refusal, same_content
+from seismass.base.values import FloatArray, as_path, brief, content_hash, counted, refusal, same_content
 from seismass.base.views import Card, view
 from seismass.motions.records.intensity import build_up
 from seismass.motions.records.record import Record

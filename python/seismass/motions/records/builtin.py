@@ -9,10 +9,11 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal
 
+from seismass.base.arguments import is_one_of
 from seismass.base.errors import InvalidOption
 from seismass.base.files import data_directory
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import brief, is_one_of, refusal
+from seismass.base.values import brief, refusal
 from seismass.motions.records.read import FormatName, is_archive, read_record, read_text
 from seismass.motions.records.record import Record
 

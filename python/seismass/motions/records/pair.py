@@ -14,19 +14,13 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 
 import numpy as np
 
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidMotion, InvalidOption, RecordFormatError
-from seismass.base.values import FloatArray, Value, as_array, as_number, as_path, brief, is_one_of, printable, refusal
+from seismass.base.values import FloatArray, Value, as_array, as_number, as_path, brief, printable, refusal
 from seismass.base.views import Card
 from seismass.motions.records.formats.labels import azimuth_of, is_vertical
 from seismass.motions.records.known import with_tables
-from seismass.motions.records.read import (
-    files_below,
-    is_archive,
-    off_ground,
-    read_record,
-    unpacked,
-    vertical_reason,
-)
+from seismass.motions.records.read import files_below, is_archive, off_ground, read_record, unpacked, vertical_reason
 from seismass.motions.records.record import Record
 from seismass.motions.records.suite import Excluded, excluded_record, read_file, recorded_once
 
@@ -141,8 +135,7 @@ class Pair(Value):
         InvalidOption
             Another value of `lengths`.
         """
-        if not is_one_of(lengths, ("shorter", "padded")):
-            raise refusal(InvalidOption, "lengths", "pair", "shorter or padded", brief(lengths))
+        as_word(lengths, ("shorter", "padded"), "lengths", "pair")
         for name, record in (("first", first), ("second", second)):
             if not isinstance(record, Record):
                 raise refusal(InvalidMotion, f"{name} component", "pair", "a Record", brief(record))

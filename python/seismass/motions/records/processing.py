@@ -12,8 +12,9 @@ from typing import Any, Final, Literal, Protocol, Self, TypeVar
 
 import numpy as np
 
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_count, as_flag, as_number, brief, is_one_of, refusal
+from seismass.base.values import FloatArray, as_count, as_flag, as_number, brief, refusal
 from seismass.motions.records.intensity import integrals
 
 HIGHEST_ORDER: Final = 10
@@ -77,8 +78,7 @@ def baseline_corrected(record: R, order: int = 1, fit: Literal["velocity", "acce
     degree = as_count(order, "order", "baseline correction", InvalidOption)
     if degree > HIGHEST_ORDER:
         raise refusal(InvalidOption, "order", "baseline correction", f"at most {HIGHEST_ORDER}", brief(order))
-    if not is_one_of(fit, ("velocity", "acceleration")):
-        raise refusal(InvalidOption, "fit", "baseline correction", "velocity or acceleration", brief(fit))
+    as_word(fit, ("velocity", "acceleration"), "fit", "baseline correction")
     if record.samples < degree + 2:
         requirement = f"at least {degree + 2} for a polynomial of degree {degree}"
         raise refusal(InvalidOption, "samples", "baseline correction", requirement, str(record.samples))

@@ -10,8 +10,9 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 import numpy as np
 import polars as pl
 
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import FloatArray, as_count, brief, content_hash, is_one_of, refusal, same_content, short_repr
+from seismass.base.values import FloatArray, as_count, brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import Card
 from seismass.motions.records import Record, Suite, read_suite
 from seismass.motions.scaling.suite import SuiteSpectra, checked_range, suite_spectra
@@ -99,9 +100,7 @@ def select_records(
     """
     candidates = suite if isinstance(suite, Suite) else read_suite(suite)
     wanted = as_count(count, "count", "selection", InvalidOption, least=1)
-    if not is_one_of(method, get_args(Choice)):
-        choices = "one of " + ", ".join(get_args(Choice))
-        raise refusal(InvalidOption, "method", "selection", choices, brief(method))
+    as_word(method, get_args(Choice), "method", "selection")
     limits = {
         name: None if value is None else as_count(value, name, "selection", InvalidOption, least=1)
         for name, value in (("max_per_event", max_per_event), ("max_per_station", max_per_station))

@@ -9,18 +9,9 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 
 import numpy as np
 
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import (
-    FloatArray,
-    as_count,
-    as_number,
-    as_positive,
-    brief,
-    counted,
-    frozen,
-    is_one_of,
-    refusal,
-)
+from seismass.base.values import FloatArray, as_count, as_number, as_positive, brief, counted, frozen, refusal
 from seismass.motions.motion import motion_names
 from seismass.motions.records.known import band_remarks
 from seismass.motions.scaling import FORMS
@@ -242,8 +233,7 @@ def scale_least_squares(
     suite may be below the target.
     """
     choice: Any = space
-    if not is_one_of(choice, get_args(Space)):
-        raise refusal(InvalidOption, "space", "scaling", "one of " + ", ".join(get_args(Space)), brief(space))
+    as_word(choice, get_args(Space), "space", "scaling")
     suite = suite_spectra(
         records, target, period, damping=damping, period_range=period_range, count=count, threads=threads
     )

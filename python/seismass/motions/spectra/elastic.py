@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
+from seismass.base.arguments import as_threads, as_word
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import FloatArray, as_array, as_count, as_number, as_positive, brief, is_one_of, refusal
+from seismass.base.values import FloatArray, as_array, as_number, as_positive, brief, refusal
 
 
 class GroundMotion(Protocol):
@@ -116,15 +117,14 @@ def response_spectrum(
     >>> sm.response_spectrum(step, [0.5, 1.0], damping=0.0)
     array([[2., 2.]])
     """
-    if not is_one_of(kind, get_args(Kind)):
-        raise refusal(InvalidOption, "kind", "spectrum", "one of " + ", ".join(get_args(Kind)), brief(kind))
+    as_word(kind, get_args(Kind), "kind", "spectrum")
     values = as_array(periods, "periods", "spectrum", InvalidOption)
     if len(values) == 0:
         raise refusal(InvalidOption, "periods", "spectrum", "a list of at least one period", "none")
     ratios = as_array(damping, "damping", "spectrum", InvalidOption, or_number=True)
     if ratios.size == 0:
         raise refusal(InvalidOption, "damping", "spectrum", "a number or a list of at least one ratio", "none")
-    workers = None if threads is None else as_count(threads, "threads", "spectrum", InvalidOption, least=1)
+    workers = as_threads(threads, "spectrum")
     listed = [held(motion, number) for number, motion in enumerate(as_motions(motions, "spectrum"), start=1)]
     if kind == "acceleration":
         ordinates = np.asarray(_kernel.oscillator_peaks(listed, values, np.atleast_1d(ratios), workers)[2])

@@ -11,9 +11,10 @@ import polars as pl
 from numpy.typing import ArrayLike, NDArray
 
 from seismass import _kernel
+from seismass.base.arguments import as_threads
 from seismass.base.errors import InvalidOption, InvalidScene, SimulationError
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_array, as_count, as_number, content_hash, frozen, refusal, same_content
+from seismass.base.values import FloatArray, as_array, as_number, content_hash, frozen, refusal, same_content
 from seismass.base.views import Card
 from seismass.motions.motion import motion_names
 from seismass.motions.spectra.elastic import GroundMotion, as_motions, check_not_zero, held, response_spectrum
@@ -238,7 +239,7 @@ def inelastic_spectrum(
     suite = as_motions(motions, owner)
     period_values = as_array(periods, "periods", owner, InvalidOption)
     damping_ratio = as_number(damping, "damping", owner, InvalidOption)
-    workers = None if threads is None else as_count(threads, "threads", owner, InvalidOption, least=1)
+    workers = as_threads(threads, owner)
     elastic = response_spectrum(suite, period_values, damping_ratio, "displacement", threads=workers)
     oscillators = [
         Oscillator(period, STANDARD_GRAVITY, damping_ratio, overstrength, second_slope, third_slope)

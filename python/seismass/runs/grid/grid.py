@@ -11,9 +11,10 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
+from seismass.base.arguments import as_word, is_one_of
 from seismass.base.errors import DoubtfulInput, InvalidOption, InvalidScene
 from seismass.base.fork_check import require_polars
-from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, is_one_of, refusal, same_content
+from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content
 from seismass.base.views import Card
 from seismass.model.block import Block
 from seismass.model.building import Building, chain_kernel
@@ -483,8 +484,7 @@ class Grid(Card):
         collapse_drift = settings["collapse_drift"]
         self.buildings, index, periods = listed_buildings(building, settings["storeys"], settings["period"])
         self._everywhere = floors is None
-        if not is_one_of(roof, get_args(Roof)):
-            raise refusal(InvalidScene, "roof", "grid", "loaded or bare", brief(roof))
+        as_word(roof, get_args(Roof), "roof", "grid", InvalidScene)
         self._roof_is_bare = roof == "bare"
         if self._roof_is_bare and floors is not None:
             raise refusal(InvalidScene, "roof", "grid", "left out where floors is given", brief(roof))
@@ -517,8 +517,7 @@ class Grid(Card):
         """Keep what forms the buildings of scenes, of columns that are known by now."""
         if not is_one_of(damping, ATTACHED_DAMPING):
             raise refusal(InvalidScene, "damping", "grid", "same or ratio, of attached live load", brief(damping))
-        if not is_one_of(attached_of, ATTACHED_OF):
-            raise refusal(InvalidScene, "attached_of", "grid", "present or design", brief(attached_of))
+        as_word(attached_of, ATTACHED_OF, "attached_of", "grid", InvalidScene)
         if design is not None and not isinstance(design, StrengthDesign):
             raise refusal(InvalidScene, "design", "grid", "a StrengthDesign", brief(design))
         if (design is None) != ("R" not in self._columns):

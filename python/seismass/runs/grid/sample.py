@@ -8,9 +8,10 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 
 import numpy as np
 
+from seismass.base.arguments import as_share, as_word
 from seismass.base.distributions import Distribution
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, is_one_of, refusal
+from seismass.base.values import FloatArray, as_array, as_count, brief, refusal
 from seismass.design.modes import Combination, checked_combination, response_spectrum_analysis
 from seismass.model.building import DEFAULT_DAMPING, Building
 from seismass.model.springs import SHAPE_FIELDS
@@ -52,8 +53,7 @@ def points(samples: int, dimensions: int, method: Any, seed: Any) -> FloatArray:
     """Return points of the unit cube, shape (samples, dimensions), the same for the same seed. Sobol's points are the
     first of the next power of two, so that powers of two are balanced.
     """
-    if not is_one_of(method, METHODS):
-        raise refusal(InvalidOption, "method", "sample", f"one of {', '.join(METHODS)}", brief(method))
+    as_word(method, METHODS, "method", "sample")
     stream = seed if isinstance(seed, tuple) else as_count(seed, "seed", "sample", InvalidOption)
     rng = np.random.default_rng(stream)
     if dimensions == 0:
@@ -84,9 +84,7 @@ def drawn_columns(
     """Return the number of samples and the values of each axis at them, as the arguments of a `Grid`; `axes` has
     constants, distributions and lists of values by the name of the argument.
     """
-    rho = as_number(correlation, "correlation", "sample", InvalidOption)
-    if not 0.0 <= rho <= 1.0:
-        raise refusal(InvalidOption, "correlation", "sample", "between 0 and 1", f"{rho:g}")
+    rho = as_share(correlation, "correlation", "sample")
     drawn = {name: _axis(name, value, rho) for name, value in axes.items()}
     if _length(axes.get("storeys")) > 1 and _length(axes.get("period")) == _length(axes.get("storeys")):
         both = [np.asarray(axes[name]) for name in ("storeys", "period")]
@@ -325,9 +323,7 @@ class StrengthDesign:
     def __post_init__(self) -> None:
         if not isinstance(self.target, TargetSpectrum):
             raise refusal(InvalidOption, "target", "strength design", "a TargetSpectrum", brief(self.target))
-        share = as_number(self.share, "share", "strength design", InvalidOption)
-        if not 0.0 <= share <= 1.0:
-            raise refusal(InvalidOption, "share", "strength design", "between 0 and 1", f"{share:g}")
+        share = as_share(self.share, "share", "strength design")
         if not isinstance(self.elastic_at_one, bool):
             got = brief(self.elastic_at_one)
             raise refusal(InvalidOption, "elastic_at_one", "strength design", "true or false", got)

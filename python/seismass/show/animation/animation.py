@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from seismass.base.arguments import as_share
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content
+from seismass.base.values import FloatArray, as_count, brief, content_hash, refusal, same_content
 from seismass.base.views import Card, view
 from seismass.effective_mass.models import attached_scene
 from seismass.media.roles import SLIDE
@@ -338,9 +339,7 @@ def animate(
             row = code_fraction(code, use)
             share, label = row.fraction, f"{row.code} model"
         else:
-            share, label = as_number(fraction, "fraction", "animation", InvalidOption), "model"
-            if not 0.0 <= share <= 1.0:
-                raise refusal(InvalidOption, "fraction", "animation", "between 0 and 1", f"{share:g}")
+            share, label = as_share(fraction, "fraction", "animation"), "model"
         scenes.append((label, share, attached_scene(scene, share)))
     source: Any = getattr(motion, "name", "")
     return Animation(

@@ -12,6 +12,7 @@ from markupsafe import Markup
 
 from seismass.assessment.answer import ANALYSIS_UNITS
 from seismass.assessment.models import NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
+from seismass.base.arguments import ProgressLike
 from seismass.base.files import write_file
 from seismass.base.folders import as_written, read_folder
 from seismass.effective_mass.result import KIND_TEXTS
@@ -41,8 +42,6 @@ from seismass.show.assessment.tables import (
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from seismass.runs.batch import Progress
 
 
 LIMITS: Final = (
@@ -307,7 +306,7 @@ def _provenance(result: AssessmentTables) -> list[Markup]:
 
 
 def write_assessment_page(
-    folder: Path, target: Path, *, force: bool = False, progress: Progress | None = None
+    folder: Path, target: Path, *, force: bool = False, progress: ProgressLike = None
 ) -> tuple[str, ...]:
     """Write the page of an assessment from the tables of its folder alone and return the files that were edited since
     they were written, which are read with `force` alone. `progress` is called with (figures drawn, figures in all).
@@ -322,9 +321,7 @@ def write_assessment_page(
     return files.edited
 
 
-def drawn_figures(
-    tables: AssessmentTables, progress: Progress | None = None
-) -> tuple[dict[str, Figure], dict[str, str]]:
+def drawn_figures(tables: AssessmentTables, progress: ProgressLike = None) -> tuple[dict[str, Figure], dict[str, str]]:
     """Figures and their SVG texts, each drawn once for its file and for the page."""
     from seismass.media.svg import figure_svgs
     from seismass.show.assessment.figures import assessment_figures

@@ -13,6 +13,7 @@ from markupsafe import Markup
 from seismass.base.errors import MissingPackage
 from seismass.base.units import STANDARD_GRAVITY, UNITS, Units
 from seismass.media.page import (
+    DIFFERENCES,
     MOST_STOREYS,
     LiveCase,
     bullets_html,
@@ -27,9 +28,11 @@ from seismass.media.page import PAGE as LIVE_PAGE
 from seismass.media.roles import MU, OMEGA, isolated, lettered, sentence_html
 from seismass.media.svg import short_svg
 from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
+from seismass.motions.records.builtin import builtin_suite
 from seismass.show.animation.html import element_html
 from seismass.show.assessment.tables import AssessmentTables
 from seismass.show.explore import kernel_file
+from seismass.show.explore.page import site_factors
 
 SPRINGS: Final = f"Springs: {OMEGA}, r2, r3"
 LEFT_OUT: Final = ("pgv", "pgd", "fraction", "governing")
@@ -273,10 +276,6 @@ def _size(units: Units, size: dict[str, float] | None) -> str:
     return "" if size is None else " x ".join(units.number("height", size[name]) for name in ("width", "height"))
 
 
-ALIKE = 1e-6
-"""By how much numbers may differ, relatively, that the live page has as one."""
-
-
 class Outcome(NamedTuple):
     """What the live page opens: the building (None where it cannot be shown, with `reasons`), and what is different
     there, each a sentence without its stop.
@@ -313,18 +312,18 @@ def live_case(result: AssessmentTables) -> Outcome:
         reasons.append("some of its storeys yield and others stay elastic")
     if reasons:
         return Outcome(None, tuple(reasons), ())
-    case, differences = _case(result, storeys, loose), _differences(result, storeys, loose)
+    case = _case(result, storeys, loose)
     if case.out_of_range:
         return Outcome(
             None, (f"its numbers are out of the range of the live page ({', '.join(case.out_of_range)})",), ()
         )
-    return Outcome(case, (), differences)
+    return Outcome(case, (), tuple(DIFFERENCES[key] for key in case.differs))
 
 
 def _case(result: AssessmentTables, storeys: list[dict[str, Any]], loose: list[dict[str, Any]]) -> LiveCase:
     data = result.document["input"]
     mass = np.array([row["mass"] for row in storeys])
-    heights = [row["height"] for row in storeys if row["height"] is not None]
+    stiffness = np.array([row["stiffness"] for row in storeys])
     weight = STANDARD_GRAVITY * float(mass.sum())
     ratio, static, kinetic = np.zeros(len(storeys)), np.zeros(len(storeys)), np.zeros(len(storeys))
     for kind in loose:
@@ -339,53 +338,47 @@ def _case(result: AssessmentTables, storeys: list[dict[str, Any]], loose: list[d
     mu_k = np.where(loaded, kinetic / np.where(loaded, ratio, 1.0), least[0])
     elastic = any(row["yield_shear"] is None for row in storeys)
     counted = result.code["share_of_design_live_load"] / result.present_share if result.present_share > 0.0 else 0.0
+    suite, fraction = result.document["suite"], result.effective.get("real")
+    is_built_in = suite["motions"] == [record.name for record in builtin_suite("seven")]
+    site = None if is_built_in else site_factors(result.document["target"], data["period_attached"])
+    factors = (result.document["factors"] or [1.0] * len(suite["motions"])) if is_built_in else site
+    known = {key: [row[key] for row in storeys] for key in ("overstrength", "second_slope", "third_slope")}
+    cap = data["drift_cap"]
+    differs = {
+        "motions": site is not None,
+        "scale": not is_built_in and site is None,
+        "kinds": len({kind["floor"] for kind in loose}) < len(loose),
+        "bolted": any(kind["attached"] for kind in data["goods"]),
+        "height": any(row["height"] is None for row in storeys),
+        "gravity": data["p_delta"] and data["sources"].get("gravity_load", "default") != "default",
+        "capped": cap is not None and bool((result.storeys["max"] > cap).any()),
+        "median": fraction is not None and fraction.statistic != "mean",
+        "collapse": data["collapse_drift_ratio"] is not None,
+        "counted": counted > 1.0,
+    }
+    answer = (
+        ()
+        if fraction is None or fraction.interval is None
+        else (fraction.value, *fraction.interval, len(suite["motions"]))
+    )
     return LiveCase(
         period=data["period_bare"],
         damping=data["damping"],
-        overstrength=float(np.mean([row["overstrength"] for row in storeys])),
-        second_slope=float(np.mean([row["second_slope"] for row in storeys])),
-        height=float(np.mean(heights)) if heights else 3.5,
+        p_delta=data["p_delta"],
+        height=[3.5 if row["height"] is None else row["height"] for row in storeys],
         strength=() if elastic else [row["yield_shear"] / weight for row in storeys],
         mass_ratio=ratio.tolist(),
         mu_s=mu_s.tolist(),
         mu_k=mu_k.tolist(),
+        mass=(mass / mass.mean()).tolist(),
+        stiffness=(stiffness / stiffness[0]).tolist(),
         counted=min(1.0, counted),
+        present=result.present_share or 1.0,
+        factors=factors or (),
+        answer=answer,
+        differs=[key for key, holds in differs.items() if holds],
+        **known,
     )
-
-
-def _differences(
-    result: AssessmentTables, storeys: list[dict[str, Any]], loose: list[dict[str, Any]]
-) -> tuple[str, ...]:
-    data = result.document["input"]
-    differences = ["motions are the seven built-in ones, scaled to their own target, not those of this page"]
-    for name, words in (
-        ("mass", "floor masses are equal: their mean"),
-        ("stiffness", "storey stiffnesses are equal: those of the same first period"),
-        ("height", "storey heights are equal: their mean"),
-        ("overstrength", "Omega is one number: the mean"),
-        ("second_slope", "r2 is one number: the mean"),
-    ):
-        if not _alike([row[name] for row in storeys]):
-            differences.append(words)
-    if any(row["height"] is None for row in storeys):
-        differences.append("storeys are 3.5 m high, since heights are not known here")
-    if any(row["third_slope"] for row in storeys):
-        differences.append("the slope after the second yield, r3, is 0")
-    if data["p_delta"]:
-        differences.append("there is no P-Delta")
-    floors = [kind["floor"] for kind in loose]
-    if len(set(floors)) < len(floors):
-        differences.append("kinds of goods on a floor are one, with their mean friction")
-    if data["collapse_drift_ratio"] is not None:
-        differences.append("no storey counts as collapsed")
-    if result.present_share > 0.0 and result.code["share_of_design_live_load"] > result.present_share:
-        differences.append("the model of the code has all goods present attached, no more")
-    return tuple(differences)
-
-
-def _alike(values: list[float | None]) -> bool:
-    known = [value for value in values if value is not None]
-    return not known or max(known) - min(known) <= ALIKE * abs(max(known))
 
 
 class Pictures:
@@ -398,9 +391,8 @@ class Pictures:
     def sheet(self) -> Markup:
         """The figure of drifts and slips of the first sheet."""
         words = "What each storey uses of its drift limit, and the slip of its floor; the table below has the numbers."
-        return (
-            figure_html(short_svg(self._for_phones["sheet"]), "", words) if "sheet" in self._for_phones else Markup("")
-        )
+        drawn = self._for_phones.get("sheet")
+        return Markup("") if drawn is None else figure_html(short_svg(drawn), "", words)
 
     def figure(self, name: str, caption: str, alt: str) -> Markup:
         """Return one figure; nothing where there is no such drawing."""
@@ -486,7 +478,6 @@ def _live(result: AssessmentTables) -> list[Markup]:
     except MissingPackage:
         return [text_html("There is no live page beside this one: the package has no kernel for browsers.")]
     link = Markup(
-        'The live page, {page} in the folder of this page, <a href="{page}#{address}">shows this building</a>. There '
-        "it is another model, with another answer:"
-    ).format(page=LIVE_PAGE, address=case.address)
-    return [text_html(link), bullets_html(f"{lettered(line)}." for line in differences)]
+        'The live page, {page} in the folder of this page, <a href="{page}#{address}">shows this building</a>{differs}'
+    ).format(page=LIVE_PAGE, address=case.address, differs=". What differs there:" if differences else ".")
+    return [text_html(link), *([bullets_html(f"{lettered(line)}." for line in differences)] if differences else [])]

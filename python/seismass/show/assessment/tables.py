@@ -17,7 +17,7 @@ from seismass.base.folders import ReadFolder
 from seismass.base.units import STANDARD_GRAVITY, UNITS, Units
 from seismass.base.values import brief, refusal
 from seismass.effective_mass import ByHand
-from seismass.effective_mass.models import Kind
+from seismass.effective_mass.share import Kind
 from seismass.model.scene import Scene
 
 DOCUMENT: Final = "assessment.json"

@@ -15,12 +15,13 @@ from jinja2 import ChoiceLoader, Environment, PackageLoader
 from markupsafe import Markup
 
 from seismass import _kernel
-from seismass.base.errors import MissingPackage
+from seismass.base.errors import InvalidOption, MissingPackage, SeismassError
+from seismass.base.statistics import bootstrap_counts
+from seismass.base.values import as_path
 from seismass.design import response_spectrum_analysis
 from seismass.design.scaling import scale_asce7_10
 from seismass.effective_mass import effective_mass, rule
-from seismass.effective_mass.models import bootstrap_counts
-from seismass.media.page import page_html, templates
+from seismass.media.page import DIFFERENCES, page_html, templates
 from seismass.media.roles import CODE, SLIDE, YIELDS
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import Building
@@ -29,6 +30,7 @@ from seismass.model.scene import Scene
 from seismass.motions.motion import scaled_motions
 from seismass.motions.records.builtin import builtin_suite
 from seismass.motions.spectra import TargetSpectrum, mean_spectrum
+from seismass.motions.spectra.target import target_of_parameters
 from seismass.show.animation.animation import FACTORS
 from seismass.show.animation.html import SPEEDS, element_html
 
@@ -145,7 +147,8 @@ RESAMPLES: Final = 2000
 CODES: Final = {"asce7-10": "ASCE 7-10", "nbc": "NBC", "ec8": "EC 8"}
 """Codes whose share for storage the page offers by name, and their short names."""
 ASSUMPTIONS: Final = (
-    "Shear buildings of equal floor masses and storey stiffnesses, motion in one direction, no P-Delta.",
+    "Shear buildings, motion in one direction. Floors, storeys and heights are alike and there is no P-Delta, unless "
+    "the case is that of a building file.",
     "Trilinear springs with Masing unloading; the second yield is at the overstrength times the first, and the slope "
     "behind it is zero. The second slope is an assumption: results depend on it.",
     "Rigid goods that stick and slide with Coulomb friction; they do not rock, stack or hit walls.",
@@ -153,8 +156,9 @@ ASSUMPTIONS: Final = (
     "Strengths by design: V_y = V_e/R, by a response spectrum analysis (SRSS) of the building with the code's share of "
     "the goods, for the mean 5 % spectrum of the suite at intensity 1. Hand-set strengths and the elastic building "
     "leave that out.",
-    "The suite: seven synthetic motions, not recordings, scaled to the default target by ASCE 7-10 for T = 1 s. The "
-    "effective fraction is over this suite, whatever motion is shown; other suites give other fractions.",
+    "The suite: seven synthetic motions, not recordings, scaled to the default target by ASCE 7-10 for T = 1 s, or as "
+    "for the site of a building file. The effective fraction is over this suite, whatever motion is shown; another "
+    "suite gives another fraction.",
     "The interval is a percentile bootstrap over the seven motions; it says nothing of another suite.",
 )
 """What the page says it assumes."""
@@ -182,7 +186,7 @@ def explorer_html(kernel: Path | None = None) -> str:
     OSError
         The kernel cannot be read.
     """
-    wasm = Path(kernel_file() if kernel is None else kernel).read_bytes()
+    wasm = (kernel_file() if kernel is None else as_path(kernel, "live page", InvalidOption)).read_bytes()
     factors = [0.0, *(float(factor) for factor in FACTORS)]
     animation = element_html(
         {
@@ -259,6 +263,8 @@ def _page_data() -> dict[str, Any]:
     return {
         "version": _kernel.VERSION,
         "codes": _named_codes(),
+        "mark": MARK,
+        "differences": DIFFERENCES,
         "suite": [record.name for record in suite],
         "records": _packed(json.dumps(files).encode()),
         "resamples": counts.astype(int).tolist(),
@@ -274,6 +280,20 @@ def _page_data() -> dict[str, Any]:
             "largestLoad": rule.LARGEST_LOAD,
         },
     }
+
+
+def site_factors(target: dict[str, Any] | None, period: float) -> list[float] | None:
+    """Factors of the suite of the page for the target of an assessment, by its parameters, and a period (s); None where
+    they cannot be known.
+    """
+    if target is None:
+        return None
+    try:
+        known = target_of_parameters({key: value for key, value in target.items() if key != "label"})
+        factors: list[float] = scale_asce7_10(builtin_suite("seven"), known, period, between=False).factors.tolist()
+    except SeismassError:
+        return None
+    return factors
 
 
 def _packed(content: bytes) -> str:

@@ -11,10 +11,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike, NDArray
 
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import quantile
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_number, brief, is_one_of, refusal
+from seismass.base.values import FloatArray, as_number, brief, refusal
 from seismass.media.roles import ALPHA, BLOCK_COLOURS, BLUE, GREY, INK, LIMIT, MU, PAPER, SKY
 from seismass.media.style import drawing, grid_lines, plain, say, single
 from seismass.studies.fragility.fragility import fit_counts
@@ -57,8 +58,7 @@ def checked_table(table: Any, columns: tuple[str, ...], owner: str) -> pl.DataFr
     if not isinstance(table, pl.DataFrame):
         raise refusal(InvalidOption, "table", owner, "a polars.DataFrame of runs", brief(table))
     for name in columns:
-        if not is_one_of(name, table.columns):
-            raise refusal(InvalidOption, "column", owner, f"one of {', '.join(table.columns)}", brief(name))
+        as_word(name, table.columns, "column", owner)
     rows = table.filter(pl.col("status") != "failed") if "status" in table.columns else table
     if rows.is_empty():
         raise refusal(InvalidOption, "table", owner, "one with runs that did not fail", f"{table.height} rows")

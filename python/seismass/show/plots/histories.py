@@ -11,9 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from seismass.base.arguments import is_one_of
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_count, as_list, as_one_of, brief, is_list, is_one_of, refusal
+from seismass.base.values import FloatArray, as_count, as_list, as_one_of, brief, is_list, refusal
 from seismass.media.roles import BLUE, GREEN, GREY, INK, PAPER, PURPLE, VERMILION, YIELDS
 from seismass.media.style import RING, SERIES, Panels, drawing, grid_lines, panels, ring, say, single, zero_line
 from seismass.model.scene import goods_names, spring_names

@@ -20,15 +20,7 @@ from seismass.media.style import SERIES, columns, drawing, grid_lines, panels, s
 from seismass.model.building import Building
 from seismass.model.scene import floor_name, goods_levels, goods_names, rack_levels, spring_names
 from seismass.runs.response import Response
-from seismass.show.plots.histories import (
-    MARKS,
-    event_kinds,
-    event_times,
-    histories,
-    mark_events,
-    mark_handles,
-    numbers,
-)
+from seismass.show.plots.histories import MARKS, event_kinds, event_times, histories, mark_events, mark_handles, numbers
 
 BACKBONE_POINTS: Final = 121
 """Drifts to one side at which a backbone is computed, beside its corners."""

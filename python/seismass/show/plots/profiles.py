@@ -15,10 +15,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike, NDArray
 
+from seismass.base.arguments import is_one_of
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import quantile
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_array, as_list, as_number, as_one_of, brief, is_one_of, refusal
+from seismass.base.values import FloatArray, as_array, as_list, as_number, as_one_of, brief, refusal
 from seismass.media.roles import BLUE, GREY, INK, LIMIT
 from seismass.media.style import PERIOD_TICKS, SERIES, columns, drawing, grid_lines, say, single
 from seismass.motions.motion import Motion

@@ -20,7 +20,7 @@ from seismass.media.roles import BLUE, EFFECTIVE, GREY, LAMBDA, MU, OMEGA, VERMI
 from seismass.media.style import PERIOD_TICKS, plain
 from seismass.media.svg import CAPTION_CHARACTERS
 from seismass.media.text_table import change_text, number_text, text_line
-from seismass.studies.study import motions_text
+from seismass.studies.study.run import motions_text
 
 LEAST_WIDTH: Final = 7.0
 """Least width of a figure with a legend of two columns (inches)."""

@@ -35,7 +35,7 @@ from seismass.show.study.answer import (
 )
 from seismass.show.study.figures import slip_demand
 from seismass.show.study.tables import StudyTables, fractions_table, slip_table, storeys_table
-from seismass.studies.study import motions_text
+from seismass.studies.study.run import motions_text
 from seismass.studies.validation.three_storeys import PEAK_G
 
 VERDICT_CLASSES: Final = {"reproduced": "good", "not reproduced": "warn", "depends": "warn"}

@@ -21,7 +21,8 @@ from seismass.show.animation.html import element_content
 from seismass.show.study.answer import percent
 from seismass.studies.study import SCHEMA_VERSION, Sensitivity, StudyResult
 from seismass.studies.study.run import Example
-from seismass.studies.validation import Platform, Section4, Validation, claims_table
+from seismass.studies.validation import Platform, Section4, Validation
+from seismass.studies.validation.paper_claims import claims_table
 from seismass.studies.validation.three_storeys import platform_of, platform_tables, section4_of, section4_tables
 
 DOCUMENT: Final = "study.json"

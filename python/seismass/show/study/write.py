@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import polars as pl
 
+from seismass.base.arguments import ProgressLike
 from seismass.base.errors import InvalidOption
 from seismass.base.files import write_file
 from seismass.base.folders import as_written, read_folder, write_folder
@@ -24,8 +25,6 @@ from seismass.studies.study.sensitivity import Sensitivity
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from seismass.runs.batch import Progress
 
 
 _NUMBER: Final = r"[\d.]+(?:e[+-]\d+)?"
@@ -42,7 +41,7 @@ def write_study(
     *,
     figures: bool = True,
     png: bool = False,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> list[Path]:
     """Write tables (Parquet with units and inputs, CSV), JSON documents, figures (SVG) and the page of a study to a
     folder; return the files. Those of an earlier study in files.json are removed.
@@ -74,7 +73,7 @@ def write_study(
 
 
 def write_study_page(
-    folder: Path, target: Path, *, force: bool = False, progress: Progress | None = None
+    folder: Path, target: Path, *, force: bool = False, progress: ProgressLike = None
 ) -> tuple[str, ...]:
     """Write the page of a study from the tables of its folder alone and return the files that were edited since they
     were written, which are read with `force` alone; `progress` as in `write_study`.
@@ -92,7 +91,7 @@ def write_study_page(
     return files.edited
 
 
-def _drawn(result: StudyTables, progress: Progress | None) -> tuple[dict[str, Figure], dict[str, str]]:
+def _drawn(result: StudyTables, progress: ProgressLike) -> tuple[dict[str, Figure], dict[str, str]]:
     """Figures and their SVG texts, each drawn once for its file and for the page."""
     from seismass.media.style import fewer_collections
     from seismass.media.svg import figure_svgs

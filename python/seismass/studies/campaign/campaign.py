@@ -12,6 +12,7 @@ import numpy as np
 import polars as pl
 
 from seismass import _kernel
+from seismass.base.arguments import ProgressLike, is_one_of
 from seismass.base.digest import inputs_digest
 from seismass.base.distributions import beta, lognormal
 from seismass.base.errors import InvalidCampaignFile, InvalidOption
@@ -24,13 +25,12 @@ from seismass.base.values import (
     as_number,
     brief,
     content_hash,
-    is_one_of,
     printable,
     refusal,
     same_content,
 )
 from seismass.motions.motion import Motion, MotionLike
-from seismass.runs.batch import Progress, checked_motions, stream_many
+from seismass.runs.batch import checked_motions, stream_many
 from seismass.runs.grid.content import axes_table, grid_document
 from seismass.runs.grid.grid import Grid
 
@@ -254,7 +254,7 @@ class CampaignRuns:
         first = (number - 1) * self.part_runs + 1
         return range(first, min(first + self.part_runs, self.total + 1))
 
-    def solve(self, part: int, *, threads: int | None = None, progress: Progress | None = None) -> pl.DataFrame:
+    def solve(self, part: int, *, threads: int | None = None, progress: ProgressLike = None) -> pl.DataFrame:
         """Return the rows of a part.
 
         Parameters
@@ -273,7 +273,7 @@ class CampaignRuns:
         """
         return self.solve_runs(self.runs_of(part), threads=threads, progress=progress)
 
-    def solve_runs(self, runs: range, *, threads: int | None = None, progress: Progress | None = None) -> pl.DataFrame:
+    def solve_runs(self, runs: range, *, threads: int | None = None, progress: ProgressLike = None) -> pl.DataFrame:
         """Return the rows of runs by their numbers, from 1; arguments and errors are those of `solve`."""
         frames = stream_many(
             self.grid,

@@ -2,14 +2,7 @@
 
 from seismass.effective_mass.many import effective_mass_table
 from seismass.effective_mass.share import EqualShare, equal_share
-from seismass.studies.evidence.archetypes import (
-    Archetype,
-    Occupancy,
-    Setting,
-    System,
-    example_file,
-    read_archetypes,
-)
+from seismass.studies.evidence.archetypes import Archetype, Occupancy, Setting, System, example_file, read_archetypes
 from seismass.studies.evidence.table import Evidence, default_hazard, evidence
 
 __all__ = [

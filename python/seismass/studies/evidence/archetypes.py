@@ -13,6 +13,7 @@ from seismass.base.distributions import Distribution, bounded, lognormal, mixtur
 from seismass.base.errors import InvalidOption
 from seismass.base.files import data_directory
 from seismass.base.input_table import NOT_NEGATIVE, POSITIVE, SHARE, Need, Table, load_table
+from seismass.base.values import as_path
 from seismass.design import DesignedBuilding, code_period, designed_building
 from seismass.model.codes import code_fraction
 from seismass.model.friction import friction_pair
@@ -181,7 +182,9 @@ def read_archetypes(path: str | os.PathLike[str] | None = None) -> tuple[tuple[A
     >>> len(archetypes), archetypes[3].name, setting.code
     (29, 'light storage, 2 storeys, R 8 frame', 'asce7-10')
     """
-    top = load_table(Path(path) if path is not None else example_file(), "archetypes", InvalidOption)
+    top = load_table(
+        example_file() if path is None else as_path(path, "archetypes", InvalidOption), "archetypes", InvalidOption
+    )
     top.known(("site", "design", "random", "systems", "occupancies"))
     tables = {name: _table(top, name) for name in ("site", "design", "random", "systems", "occupancies")}
     site = _positive(tables["site"], "sds_g", "sd1_g")

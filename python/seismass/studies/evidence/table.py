@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Final
@@ -13,12 +13,22 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass import _kernel
+from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
-from seismass.base.values import brief, content_hash, refusal, same_content, short_repr
+from seismass.base.values import (
+    as_flag,
+    as_list,
+    as_number,
+    as_one_of,
+    brief,
+    content_hash,
+    refusal,
+    same_content,
+    short_repr,
+)
 from seismass.base.views import view
-from seismass.effective_mass.runs import Stages
 from seismass.media.result import Result, finite_values
 from seismass.model.codes import code_fraction
 from seismass.motions.records import Suite, builtin_suite
@@ -49,9 +59,9 @@ BY_CLASS: Final = "present x factor of the class"
 
 def default_hazard(slope: float = 2.5) -> HazardCurve:
     """Return an illustrative hazard of no site: 1/2475 a year at the MCE, where it has a slope that grows upwards."""
-    ratio = np.geomspace(0.05, 8.0, 60)
+    power, ratio = as_number(slope, "slope", "hazard", InvalidOption), np.geomspace(0.05, 8.0, 60)
     x = np.log(ratio / MCE)
-    return HazardCurve(ratio, np.exp(-slope * x - 0.1 * x * x) / 2475.0, label=f"illustrative, k = {slope:g}")
+    return HazardCurve(ratio, np.exp(-power * x - 0.1 * x * x) / 2475.0, label=f"illustrative, k = {power:g}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +147,7 @@ def evidence(
     vary: bool = False,
     resamples: int = 300,
     threads: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
     store: StoredResults = NOTHING_STORED,
 ) -> Evidence:
     """Return which share of the design live load, as mass, gives archetypes the response with the goods that slide.
@@ -182,24 +192,29 @@ def evidence(
     >>> found.table["occupancy"].to_list(), found.metadata["synthetic"]
     (['light storage'], True)
     """
+    for name, flag in (("quick", quick), ("vary", vary)):
+        as_flag(flag, name, "evidence", InvalidOption)
     is_file = archetypes is None or isinstance(archetypes, str | os.PathLike)
     listed, of_file = read_archetypes(archetypes if is_file else None)  # type: ignore[arg-type]
-    listed = listed if is_file else tuple(archetypes)  # type: ignore[arg-type]
+    requirement = "a file, or a list of Archetypes"
+    if not is_file:
+        listed = tuple(as_list(archetypes, "archetypes", "evidence", InvalidOption, requirement))
     if not listed or not all(isinstance(item, Archetype) for item in listed):
-        raise refusal(InvalidOption, "archetypes", "evidence", "a file, or a list of Archetypes", brief(archetypes))
-    settings = setting or of_file
+        raise refusal(InvalidOption, "archetypes", "evidence", requirement, brief(archetypes))
+    settings = of_file if setting is None else as_one_of(setting, Setting, "setting", "evidence", InvalidOption)
     if quick:
         settings = replace(settings, **QUICK)
         listed = listed[:: -(-len(listed) // _QUICK_ARCHETYPES)]
-    suites = [builtin_suite("forty") if suite is None else suite, *([] if other is None else [other])]
-    if not all(len(each) for each in suites):
+    as_one_of(store, StoredResults, "store", "evidence", InvalidOption)
+    suites: list[Any] = [builtin_suite("forty") if suite is None else suite, *([] if other is None else [other])]
+    if not all(isinstance(each, Suite) and len(each) for each in suites):
         raise refusal(InvalidMotion, "suite", "evidence", "a Suite of records", brief(suite))
     if not {1.0, MCE} <= set(settings.levels):
         raise refusal(InvalidOption, "levels", "evidence", f"1 and {MCE:g} among others", brief(settings.levels))
-    compared = tuple(codes)
+    compared = tuple(as_list(codes, "codes", "evidence", InvalidOption, "names of codes"))
     for code in compared:  # before anything is solved
         _ = [code_fraction(code, each.occupancy.survey.use) for each in listed]
-    curve = hazard or default_hazard()
+    curve = default_hazard() if hazard is None else as_one_of(hazard, HazardCurve, "hazard", "evidence", InvalidOption)
     parts = [_Part("first", suites[0], settings, True)]
     fewer = replace(settings, samples=(max(settings.samples[0] // 2, 1), settings.samples[1]))
     parts += [_Part("other", each, fewer, False) for each in suites[1:]]
@@ -208,14 +223,15 @@ def evidence(
     varied = variants(fewer, suites, typical) if vary else []
     everything = [*work, *((_Part("vary", each.suite, each.setting, False), each.archetype) for each in varied)]
     total = sum(runs_of(each, part.setting, len(part.suite), part.redesign) for part, each in everything)
-    stages = Stages(progress, total)
+    stages = Progress(progress, total, "evidence")
 
     def solved(part: _Part, archetype: Archetype, slope: float | None = None) -> Answer:
         runs = runs_of(archetype, part.setting, len(part.suite), part.redesign)
-        tell = stages.next(runs) or (lambda *_: None)
+        tell = stages.part(runs) or (lambda *_: None)
         digest = inputs_digest(part.setting, archetype, part.redesign, motion_contents(part.suite))[:24]
         how: dict[str, Any] = {"redesign": part.redesign, "threads": threads, "report": lambda done: tell(done, runs)}
         make = lambda: solved_archetype(archetype, part.setting, part.suite, **how)  # noqa: E731
+        tell(0, runs)
         table = store.of(f"{part.name}-{digest}", make)
         tell(runs, runs)
         of_levels = curve if slope is None else default_hazard(slope)

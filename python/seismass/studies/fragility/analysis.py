@@ -9,8 +9,9 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
+from seismass.base.arguments import ProgressLike, as_word
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import FloatArray, as_list, as_positive, brief, is_one_of, refusal
+from seismass.base.values import FloatArray, as_list, as_positive, brief, refusal
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping
 from seismass.model.scene import Scene
 from seismass.motions.motion import HasMotion, Motion, MotionLike
@@ -22,7 +23,6 @@ from seismass.studies.fragility.result import Fits, FragilityAnalysis, result_of
 from seismass.studies.fragility.run import (
     DEFAULT_CODE_SHARE,
     IndexArray,
-    Progress,
     Setting,
     check_levels,
     compared_models,
@@ -53,7 +53,7 @@ def incremental_dynamic_analysis(
     resamples: int = RESAMPLES,
     seed: int = 0,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> FragilityAnalysis:
     """Scale motions up until limits are exceeded, for a building with sliding goods and for the models of it.
 
@@ -124,8 +124,7 @@ def incremental_dynamic_analysis(
     ['real', 'code', 'attached']
     """
     owner = "incremental dynamic analysis"
-    if not is_one_of(method, ("hunt_fill", "stripes")):
-        raise refusal(InvalidOption, "method", owner, "hunt_fill or stripes", brief(method))
+    as_word(method, ("hunt_fill", "stripes"), "method", owner)
     if method == "stripes":
         if intensities is None or hunt is not None:
             requirement = "given and hunt left out where method is stripes"
@@ -176,7 +175,7 @@ def multiple_stripes(
     resamples: int = RESAMPLES,
     seed: int = 0,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> FragilityAnalysis:
     """Solve models under other motions at each of several intensities, as selected for the hazard there.
 
@@ -255,7 +254,7 @@ def cloud_analysis(
     resamples: int = RESAMPLES,
     seed: int = 0,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> FragilityAnalysis:
     """Solve models under motions as they are, and regress demand on intensity.
 
@@ -351,13 +350,11 @@ def _with(setting: Setting, limit: LimitState) -> list[str]:
 
 
 def _rule(capacity: Any, owner: str) -> CapacityRule:
-    if not is_one_of(capacity, get_args(CapacityRule)):
-        raise refusal(InvalidOption, "capacity", owner, "first or last", brief(capacity))
-    checked: CapacityRule = capacity
+    checked: CapacityRule = as_word(capacity, get_args(CapacityRule), "capacity", owner)
     return checked
 
 
-def _solve_all(setting: Setting, levels: FloatArray, threads: int | None, progress: Progress | None) -> pl.DataFrame:
+def _solve_all(setting: Setting, levels: FloatArray, threads: int | None, progress: ProgressLike) -> pl.DataFrame:
     """Runs of all models under all motions at all levels, sorted so."""
     shape = (len(setting.models), len(setting.motions), len(levels))
     model, motion, level = (part.ravel() for part in np.indices(shape))

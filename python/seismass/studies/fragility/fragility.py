@@ -9,12 +9,12 @@ from typing import Any, Final, Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seismass.base.arguments import as_bootstrap
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import interval_of
 from seismass.base.values import (
     FloatArray,
     as_array,
-    as_count,
     as_number,
     as_positive,
     brief,
@@ -304,11 +304,7 @@ class BootstrapOptions:
 
 def bootstrap_options(confidence: Any, resamples: Any, seed: Any, owner: str) -> BootstrapOptions:
     """Return checked options of a bootstrap."""
-    share = as_number(confidence, "confidence", owner, InvalidOption)
-    if not 0.0 < share < 1.0:
-        raise refusal(InvalidOption, "confidence", owner, "between 0 and 1", f"{share:g}")
-    count = as_count(resamples, "resamples", owner, InvalidOption)
-    return BootstrapOptions(share, count, as_count(seed, "seed", owner, InvalidOption))
+    return BootstrapOptions(*as_bootstrap(confidence, resamples, seed, owner, least=0))
 
 
 def _intensities(value: ArrayLike) -> FloatArray:

@@ -12,10 +12,11 @@ from typing import Any, Final, Literal, NamedTuple, TypeAlias
 import numpy as np
 import polars as pl
 
+from seismass.base.arguments import ProgressLike
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_count, as_number, as_positive, refusal
 from seismass.studies.fragility.limits import LimitState
-from seismass.studies.fragility.run import IndexArray, Progress, Setting, solve_runs
+from seismass.studies.fragility.run import IndexArray, Setting, solve_runs
 
 CapacityRule: TypeAlias = Literal["first", "last"]
 """Which crossing of a limit is the capacity, where there are several: the lowest intensity or the highest."""
@@ -215,7 +216,7 @@ def hunt_and_fill(
     rule: CapacityRule,
     *,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> tuple[pl.DataFrame, dict[str, float]]:
     """Return the runs of all motions under all models, sorted by model, motion and intensity, and the steps of the
     hunt. Every round solves one batch for all that are not done; `rule` is the crossing refined.
@@ -244,7 +245,7 @@ class _Hunt:
     """Curves of all motions and models, and the runs that they are made of."""
 
     def __init__(
-        self, setting: Setting, options: HuntAndFill, rule: CapacityRule, threads: int | None, progress: Progress | None
+        self, setting: Setting, options: HuntAndFill, rule: CapacityRule, threads: int | None, progress: ProgressLike
     ) -> None:
         self._setting, self._options, self._threads, self._progress = setting, options, threads, progress
         self._frames: list[pl.DataFrame] = []
@@ -314,7 +315,7 @@ class _Hunt:
             .sort(pl.col("model").cast(order), "motion", "intensity")
         )
 
-    def _since(self) -> Progress | None:
+    def _since(self) -> ProgressLike:
         progress, first = self._progress, self._done
         if progress is None:
             return None

@@ -9,6 +9,7 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 import numpy as np
 import polars as pl
 
+from seismass.base.arguments import as_word, is_one_of
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import (
@@ -20,13 +21,12 @@ from seismass.base.values import (
     as_one_of,
     as_positive,
     brief,
-    is_one_of,
     refusal,
 )
-from seismass.effective_mass.runs import named_motions
 from seismass.model.scene import Scene
 from seismass.motions.motion import MotionLike
 from seismass.motions.spectra import response_spectrum
+from seismass.runs.peaks import named_motions
 
 Quantity: TypeAlias = Literal[
     "drift_ratio",
@@ -109,9 +109,7 @@ class LimitState:
 
     def __post_init__(self) -> None:
         owner = "limit state"
-        if not is_one_of(self.quantity, get_args(Quantity)):
-            known = ", ".join(get_args(Quantity))
-            raise refusal(InvalidOption, "quantity", owner, f"one of {known}", brief(self.quantity))
+        as_word(self.quantity, get_args(Quantity), "quantity", owner)
         value = as_number(self.value, "value", owner, InvalidOption)
         if not 0.0 <= value < np.inf:
             raise refusal(InvalidOption, "value", owner, "zero or positive, and finite", f"{value:g}")
@@ -131,8 +129,7 @@ class LimitState:
             as_count(self.block, "block", owner, InvalidOption, least=1)
             if self.quantity not in _OF_BLOCKS:
                 raise refusal(InvalidOption, "block", owner, "left out for what is no slip", f"{self.block}")
-        if not is_one_of(self.collapsed, get_args(CollapsedRun)):
-            raise refusal(InvalidOption, "collapsed", owner, "exceeds or peak", brief(self.collapsed))
+        as_word(self.collapsed, get_args(CollapsedRun), "collapsed", owner)
         if self.collapsed == "peak" and self.quantity not in _WITH_PEAK:
             requirement = f"exceeds for {self.quantity}, which has no value after a collapse"
             raise refusal(InvalidOption, "collapsed", owner, requirement, "peak")
@@ -350,8 +347,7 @@ class IntensityMeasure:
 
     def __post_init__(self) -> None:
         owner = "intensity measure"
-        if not is_one_of(self.name, get_args(MeasureName)):
-            raise refusal(InvalidOption, "name", owner, f"one of {', '.join(get_args(MeasureName))}", brief(self.name))
+        as_word(self.name, get_args(MeasureName), "name", owner)
         if self.name in ("sa_t1", "sa_avg"):
             if self.period is None:
                 raise refusal(InvalidOption, "period", owner, f"given for {self.name}", "None")

@@ -11,20 +11,11 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
+from seismass.base.arguments import as_word, is_one_of
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import quantile
-from seismass.base.values import (
-    FloatArray,
-    as_array,
-    brief,
-    content_hash,
-    counted,
-    is_one_of,
-    refusal,
-    same_content,
-    short_repr,
-)
+from seismass.base.values import FloatArray, as_array, brief, content_hash, counted, refusal, same_content, short_repr
 from seismass.base.views import view
 from seismass.media.result import Result, finite_values
 from seismass.model.plausibility import usage_remarks
@@ -148,9 +139,9 @@ class FragilityAnalysis(Result):
         """
         state = self.limits[0] if limit is None else self.limit(limit)
         name = self.reference if model is None else model
-        if not is_one_of(name, [each for each, other in self.fits if other == state.name]):
-            known = ", ".join(each for each, other in self.fits if other == state.name)
-            raise refusal(InvalidOption, "model", f"fragility for {state.name}", f"one of {known}", brief(name))
+        as_word(
+            name, [each for each, other in self.fits if other == state.name], "model", f"fragility for {state.name}"
+        )
         return self.fits[name, state.name]
 
     def fractiles(
@@ -183,8 +174,7 @@ class FragilityAnalysis(Result):
         -----
         Vamvatsikos and Cornell (2002), section 5. Between intensities that were solved curves are linear.
         """
-        if not is_one_of(axis, ("intensity", "demand")):
-            raise refusal(InvalidOption, "axis", "fractiles", "intensity or demand", brief(axis))
+        as_word(axis, ("intensity", "demand"), "axis", "fractiles")
         if self.capacities.is_empty():
             requirement = "those of motions that are scaled to several intensities"
             raise refusal(InvalidOption, "analysis", "fractiles", requirement, self.method)
@@ -221,8 +211,7 @@ class FragilityAnalysis(Result):
     def traces(self, model: str, column: str) -> list[tuple[FloatArray, FloatArray]]:
         """Return intensities and demands of each motion under a model; none where the model has no such quantity."""
         for name, known in ((model, self.runs["model"].unique().to_list()), (column, self.runs.columns)):
-            if not is_one_of(name, known):
-                raise refusal(InvalidOption, "name", "traces", f"one of {', '.join(map(str, known))}", brief(name))
+            as_word(name, known, "name", "traces")
         rows = self.runs.filter(pl.col("model") == model).drop_nulls(column).sort("motion", "intensity")
         return [
             (part["intensity"].to_numpy(), part[column].to_numpy())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, TypeAlias
 
@@ -10,12 +10,13 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike, NDArray
 
+from seismass.base.arguments import Progress, ProgressLike, as_share
 from seismass.base.errors import InvalidOption, InvalidScene, SimulationError
-from seismass.base.values import FloatArray, as_array, as_number, as_progress, brief, refusal
+from seismass.base.values import FloatArray, as_array, brief, refusal
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, check_damping, check_loaded
-from seismass.effective_mass.runs import NamedMotions, named_motions
 from seismass.model.scene import Scene
 from seismass.runs.batch import solve_many
+from seismass.runs.peaks import NamedMotions, named_motions
 from seismass.studies.fragility.limits import IntensityMeasure, LimitState, MeasureName, as_limits, measure_for
 
 SLIDING: Final = "real"
@@ -60,9 +61,7 @@ def compared_models(
     {'real': [1.0, 1.0], 'code': [1.25, 1.0], 'attached': [2.0, 1.0]}
     """
     loaded = check_loaded(scene)
-    share = as_number(code_share, "code_share", "compared models", InvalidOption)
-    if not 0.0 <= share <= 1.0:
-        raise refusal(InvalidOption, "code_share", "compared models", "between 0 and 1", f"{share:g}")
+    share = as_share(code_share, "code_share", "compared models")
     convention = check_damping(damping, "compared models")
     return {SLIDING: loaded, CODE: attached(loaded, share, convention), ATTACHED: attached(loaded, 1.0, convention)}
 
@@ -97,8 +96,6 @@ def _heights(scene: Scene) -> FloatArray:
     return np.empty(0) if known is None else known
 
 
-Progress: TypeAlias = Callable[[int, int], object]
-"""Called with (runs done, runs in all)."""
 IndexArray: TypeAlias = NDArray[np.int64]
 
 SAMPLES_AT_ONCE: Final = 2**22
@@ -155,7 +152,7 @@ def solve_runs(
     intensity: FloatArray,
     *,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> pl.DataFrame:
     """Solve runs by the numbers (from 0) of model and motion and the intensity, which scales both components. Return a
     row per run in that order with the demand of each limit, null where a model has none.
@@ -164,11 +161,11 @@ def solve_runs(
     total, scale = len(model), intensity / setting.unit[motion]
     # Runs of one scaled motion follow each other, so that it is made once for all models.
     order = np.lexsort((model, scale, motion))
-    frames, done = [], 0
+    frames, whole = [], Progress(progress, total, "intensity analysis")
     for part in _parts(setting, motion[order], scale[order]):
         ids = order[part]
-        frames.append(_solve_part(setting, model[ids], motion[ids], scale[ids], threads, _since(progress, done, total)))
-        done += len(ids)
+        call = whole.part(len(ids))
+        frames.append(_solve_part(setting, model[ids], motion[ids], scale[ids], threads, call))
     place = np.empty(total, dtype=np.int64)
     place[order] = np.arange(total)
     demands = pl.concat(frames)[place]
@@ -192,7 +189,7 @@ def solve_grid(
     measure: MeasureName | IntensityMeasure = "sa_t1",
     period: float | None = None,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> pl.DataFrame:
     """Solve all models under all motions, each motion scaled to all intensities.
 
@@ -243,7 +240,7 @@ def _solve_part(
     motion: IndexArray,
     scale: FloatArray,
     threads: int | None,
-    progress: Progress | None,
+    progress: ProgressLike,
 ) -> pl.DataFrame:
     """Status and demands of runs, of which each pair of motion and factor is scaled once."""
     pairs, which = np.unique(np.stack([motion.astype(np.float64), scale], axis=1), axis=0, return_inverse=True)
@@ -276,8 +273,3 @@ def _parts(setting: Setting, motion: IndexArray, scale: FloatArray) -> list[slic
     part = np.cumsum(samples) // SAMPLES_AT_ONCE
     starts = [0, *(np.flatnonzero(np.diff(part)) + 1).tolist()]
     return [slice(first, last) for first, last in zip(starts, [*starts[1:], len(motion)], strict=True)]
-
-
-def _since(progress: Progress | None, first: int, total: int) -> Progress | None:
-    report = as_progress(progress, "intensity analysis")
-    return None if report is None else lambda done, _: report(first + done, total)

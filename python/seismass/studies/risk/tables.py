@@ -9,19 +9,13 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 import numpy as np
 import polars as pl
 
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, brief, counted, is_one_of, refusal
-from seismass.effective_mass.models import (
-    Kind,
-    ModelDamping,
-    attached,
-    crossings,
-    interpolated,
-    is_below,
-    kind_of,
-    refined_root,
-)
+from seismass.base.statistics import interval_of
+from seismass.base.values import FloatArray, counted, refusal
+from seismass.effective_mass.models import ModelDamping, attached
 from seismass.effective_mass.search import without_friction
+from seismass.effective_mass.share import Kind, crossings, interpolated, is_below, kind_of, refined_root
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.studies.fragility.hunt import HIGHEST, exact_capacities
@@ -37,9 +31,7 @@ Estimator: TypeAlias = Literal["lognormal", "empirical"]
 
 def check_estimator(estimator: Any, owner: str) -> Estimator:
     """Return the name of an estimator."""
-    if not is_one_of(estimator, get_args(Estimator)):
-        raise refusal(InvalidOption, "estimator", owner, "lognormal or empirical", brief(estimator))
-    checked: Estimator = estimator
+    checked: Estimator = as_word(estimator, get_args(Estimator), "estimator", owner)
     return checked
 
 
@@ -119,8 +111,7 @@ class RateCurve:
 
 def interval(draws: FloatArray, confidence: float) -> tuple[float, float]:
     """Return the percentile interval of resamples."""
-    tail = 50.0 * (1.0 - confidence)
-    low, high = np.percentile(draws, [tail, 100.0 - tail])
+    low, high = interval_of(draws, confidence)
     return float(low), float(high)
 
 

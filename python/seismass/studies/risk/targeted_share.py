@@ -14,24 +14,14 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
+from seismass.base.arguments import Progress, ProgressLike, as_bootstrap, as_share, as_threads
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import (
-    FloatArray,
-    as_array,
-    as_count,
-    as_number,
-    brief,
-    content_hash,
-    refusal,
-    same_content,
-    short_repr,
-)
+from seismass.base.values import FloatArray, as_array, as_number, brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import view
 from seismass.effective_mass.answer import effective_mass
 from seismass.effective_mass.models import (
     SAME_DAMPING,
-    Kind,
     ModelDamping,
     attached,
     building_of,
@@ -40,7 +30,7 @@ from seismass.effective_mass.models import (
     check_loaded,
 )
 from seismass.effective_mass.result import EffectiveMass
-from seismass.effective_mass.runs import Progress
+from seismass.effective_mass.share import Kind
 from seismass.media.result import Result, finite_values
 from seismass.model.scene import Scene
 from seismass.motions.motion import HasMotion, Motion, MotionLike
@@ -219,8 +209,6 @@ class RiskTargetedShare(Result):
         raise NotImplementedError
 
 
-DEFAULT_SHARES: Final = np.linspace(0.0, 1.0, 21)
-"""Shares at which models are solved before roots are refined."""
 OTHER_LIMITS: Final = (0.25, 0.5, 1.5)
 """Other limits of which the share is given, over the limit asked for."""
 
@@ -244,7 +232,7 @@ def risk_targeted_share(
     resamples: int = 2000,
     seed: int = 0,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> RiskTargetedShare:
     """Return the share of the live load whose attached model exceeds a drift limit as often as the real building.
 
@@ -319,24 +307,19 @@ def risk_targeted_share(
     """
     checked = _at_rest(check_loaded(scene))
     curve = check_hazard(hazard, OWNER)
+    probability, count, start = as_bootstrap(confidence, resamples, seed, OWNER)
     options = RiskOptions(
         limit=_limit(limit, checked),
         damping=check_damping(damping, OWNER),
-        code_share=_share(code_share),
+        code_share=as_share(code_share, "code_share", OWNER),
         estimator=check_estimator(estimator, OWNER),
         extrapolate=bool(extrapolate),
-        confidence=as_number(confidence, "confidence", OWNER, InvalidOption),
-        resamples=as_count(resamples, "resamples", OWNER, InvalidOption, least=1),
-        seed=as_count(seed, "seed", OWNER, InvalidOption),
-        threads=None if threads is None else as_count(threads, "threads", OWNER, InvalidOption, least=1),
+        confidence=probability,
+        resamples=count,
+        seed=start,
+        threads=as_threads(threads, OWNER),
     )
-    if not 0.0 < options.confidence < 1.0:
-        raise refusal(InvalidOption, "confidence", OWNER, "above 0 and below 1", f"{options.confidence:g}")
-    if progress is not None and not callable(progress):
-        raise refusal(InvalidOption, "progress", OWNER, "a callable of two numbers", brief(progress))
-    grid = np.unique(
-        np.append(check_fractions(DEFAULT_SHARES if shares is None else shares, OWNER), options.code_share)
-    )
+    grid = np.unique(np.append(check_fractions(shares, OWNER), options.code_share))
     limits = _limits(options.limit, other_limits)
     design = as_number(design_rate, "design_rate", OWNER, InvalidOption)
     listed = _listed(motions)
@@ -345,21 +328,16 @@ def risk_targeted_share(
     slip = LimitState("slip", 0.0)
     setting = setting_of(models, listed, (*limits, slip), measure, period_used, OWNER, threads=options.threads)
     _check_measure(setting.measure, curve)
-    steps = len(limits) + 2
-
-    def done(count: int) -> None:
-        if progress is not None:
-            progress(count, steps)
-
+    whole = Progress(progress, len(limits) + 2, OWNER)
     capacities = {}
-    for number, each in enumerate(limits, start=1):
+    for each in limits:
         capacities[each.value] = exact_capacities(setting, each, threads=options.threads)
-        done(number)
+        whole.tell()
     search = RiskSearch(checked, setting, curve, options, grid, capacities[options.limit.value])
     answer = search.answer()
-    done(steps - 1)
+    whole.tell()
     effective, reason = _effective(checked, listed, setting, curve, design, options, grid)
-    done(steps)
+    whole.tell()
     rates, several = search.rates, setting.motions.clusters > 1
     model = search.rate_at(answer.value) if answer.roots else rates.at(answer.value)[0]
     draws = np.full(1, answer.value) if answer.by_friction else rates.value_draws
@@ -488,13 +466,6 @@ def _limits(limit: LimitState, others: Any) -> tuple[LimitState, ...]:
         raise refusal(InvalidOption, "other_limits", OWNER, "positive", brief(values.tolist()))
     more = sorted(set(values.tolist()) - {limit.value})
     return (limit, *(LimitState(limit.quantity, value, storey=limit.storey) for value in more))
-
-
-def _share(share: Any) -> float:
-    number = as_number(share, "code_share", OWNER, InvalidOption)
-    if not 0.0 <= number <= 1.0:
-        raise refusal(InvalidOption, "code_share", OWNER, "between 0 and 1", f"{number:g}")
-    return number
 
 
 def _check_measure(measure: IntensityMeasure, hazard: HazardCurve) -> None:

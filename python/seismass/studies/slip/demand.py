@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import polars as pl
 
 from seismass import _kernel
+from seismass.base.arguments import Progress, ProgressLike, as_bootstrap
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import as_count, as_flag, as_number, as_progress, brief, content_hash, refusal, same_content
+from seismass.base.values import as_flag, brief, content_hash, refusal, same_content
 from seismass.base.views import view
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, check_damping
-from seismass.effective_mass.runs import named_motions
 from seismass.media.result import Result, finite_values
 from seismass.model.scene import Scene
 from seismass.model.tipping import BlockSize, as_sizes
 from seismass.motions.motion import HasMotion, Motion
 from seismass.motions.records.pair import Pair
 from seismass.runs.batch import MotionsLike
+from seismass.runs.peaks import named_motions
 from seismass.runs.simulate import instruction_set
 from seismass.studies.fragility.analysis import incremental_dynamic_analysis
 from seismass.studies.fragility.fragility import Fragility
@@ -207,9 +208,6 @@ class SlipDemand(Result):
         raise NotImplementedError
 
 
-Progress: TypeAlias = Callable[[int, int], object]
-"""Called with (motions done, motions in all)."""
-
 OWNER: Final = "slip demand"
 
 
@@ -227,7 +225,7 @@ def slip_demand(
     resamples: int = 2000,
     seed: int = 0,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> SlipDemand:
     """Return how far the goods of a scene slide, beside the same goods on the ground and published estimates.
 
@@ -313,12 +311,8 @@ def slip_demand(
     named = named_motions(listed, OWNER, scene)
     count, in_plane = len(scene.goods), scene.other_direction is not False
     measured, limits = as_sizes(sizes, count), as_clearances(clearance, count, plane=in_plane)
-    probability = as_number(confidence, "confidence", OWNER, InvalidOption)
-    if not 0.0 < probability < 1.0:
-        raise refusal(InvalidOption, "confidence", OWNER, "above 0 and below 1", f"{probability:g}")
-    draws = as_count(resamples, "resamples", OWNER, InvalidOption, least=1)
-    start = as_count(seed, "seed", OWNER, InvalidOption)
-    report, fragility = as_progress(progress, OWNER), as_flag(fragility, "fragility", OWNER, InvalidOption)
+    probability, draws, start = as_bootstrap(confidence, resamples, seed, OWNER)
+    whole, fragility = Progress(progress, len(named), OWNER), as_flag(fragility, "fragility", OWNER, InvalidOption)
     if fragility and not any(limits):
         raise refusal(InvalidOption, "clearance", OWNER, "given for a fragility", "None")
     models = SlipModels.of(scene, check_damping(damping, OWNER))
@@ -326,10 +320,9 @@ def slip_demand(
     if fragility:
         scene.require_chain("slip_demand with a fragility")
     others: list[Any] = [None] * len(named) if named.others is None else list(named.others)
-    for number, (motion, other) in enumerate(zip(named.motions, others, strict=True), start=1):
+    for motion, other in zip(named.motions, others, strict=True):
         solved.append(solve_motion(models, motion, other))
-        if report is not None:
-            report(number, len(named))
+        whole.tell()
     runs = SlipRuns.of(solved)
     settings: dict[str, Any] = {
         "damping": damping,

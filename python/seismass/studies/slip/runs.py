@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
+from seismass.base.statistics import or_infinite
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.effective_mass.models import ModelDamping, attached
@@ -231,7 +232,7 @@ class SlipRuns:
 
     def or_infinite(self, values: FloatArray) -> FloatArray:
         """Return values (motions, blocks) with infinity in runs that collapsed: goods of a fallen building are lost."""
-        return np.where(self.collapsed[:, None], np.inf, values)
+        return or_infinite(values, self.collapsed[:, None])
 
 
 def solve_motion(models: SlipModels, motion: Motion, other: Motion | None = None) -> SolvedMotion:

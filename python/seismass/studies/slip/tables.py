@@ -9,14 +9,14 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from seismass.base.statistics import QUANTILES, interval_of, quantile
+from seismass.base.statistics import QUANTILES, bootstrap_counts, interval_of, quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, counted
 from seismass.effective_mass.rule import one_direction_of_slip
-from seismass.effective_mass.runs import NamedMotions
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.model.tipping import BlockSize
+from seismass.runs.peaks import NamedMotions
 from seismass.studies.slip.clearance import Clearance, place_columns, place_names, places_of
 from seismass.studies.slip.estimates import log_ratio
 from seismass.studies.slip.runs import SlipRuns, SolvedMotion
@@ -28,7 +28,7 @@ def block_table(
     """Return one row per block: slips over the motions and on the ground, accelerations; see `SlipDemand.blocks`."""
     slip = runs.or_infinite(runs.peak)
     residual = runs.or_infinite(np.abs(runs.residual))
-    weights = _weights(motions, resamples, seed)
+    weights = bootstrap_counts(motions.cluster_of, resamples, seed)
     rows = []
     places = places_of(scene)
     for number, block in enumerate(scene.goods):
@@ -62,9 +62,7 @@ def block_table(
                 "amplification": pooled,
                 "amplification_low": low,
                 "amplification_high": high,
-                "amplification_p16": _quantile(both, 0.16),
-                "amplification_median": _quantile(both, 0.50),
-                "amplification_p84": _quantile(both, 0.84),
+                **{f"amplification_{name}": value for name, value in _quantiles(both).items()},
                 "slides_on_floor_only": int(((slips > 0.0) & (ground == 0.0)).sum()),
                 **{name: _mean(values) / STANDARD_GRAVITY for name, values in accelerations.items()},
                 "mu_over_attached": _mean(block.mu_s * STANDARD_GRAVITY / accelerations["attached_acceleration_g"]),
@@ -88,9 +86,9 @@ def _contact(scene: Scene, runs: SlipRuns, number: int) -> dict[str, float]:
     velocity, force = runs.contact_velocity[:, number], runs.contact_force[:, number]
     return {
         "touches": float((velocity > 0.0).mean()),
-        "contact_velocity_p84": float(quantile(velocity[None, :], 0.84)[0]),
+        "contact_velocity_p84": float(quantile(velocity, 0.84)),
         "contact_velocity_largest": float(velocity.max()),
-        "contact_force_p84": float(quantile(force[None, :], 0.84)[0]),
+        "contact_force_p84": float(quantile(force, 0.84)),
         "contact_force_largest": float(force.max()),
     }
 
@@ -354,14 +352,6 @@ def demand_remarks(
     return tuple(remarks)
 
 
-def _weights(motions: NamedMotions, resamples: int, seed: int) -> FloatArray:
-    """How often each motion is in each bootstrap resample, those of one earthquake together."""
-    count = motions.clusters
-    equal = np.full(count, 1.0 / count)
-    draws = np.random.default_rng(seed).multinomial(count, equal, size=resamples)
-    return draws[:, motions.cluster_of].astype(np.float64)
-
-
 def _pooled_ratio(
     slips: FloatArray, ground: FloatArray, weights: FloatArray, confidence: float
 ) -> tuple[float | None, float | None, float | None]:
@@ -373,12 +363,8 @@ def _pooled_ratio(
     return float(slips.sum() / ground.sum()), float(low), float(high)
 
 
-def _quantiles(values: FloatArray) -> dict[str, float]:
-    return {name: float(quantile(values[None, :], share)[0]) for name, share in QUANTILES.items()}
-
-
-def _quantile(values: FloatArray, share: float) -> float | None:
-    return float(np.quantile(values, share)) if len(values) else None
+def _quantiles(values: FloatArray) -> dict[str, float | None]:
+    return {name: float(quantile(values, share)) if len(values) else None for name, share in QUANTILES.items()}
 
 
 def _mean(values: FloatArray) -> float:

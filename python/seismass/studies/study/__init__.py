@@ -15,7 +15,7 @@ from seismass.studies.study.parameters import (
     StudyParameters,
     study_buildings,
 )
-from seismass.studies.study.run import SCHEMA_VERSION, StudyResult, display_names, motions_text, run_study
+from seismass.studies.study.run import SCHEMA_VERSION, StudyResult, run_study
 from seismass.studies.study.sensitivity import Sensitivity, study_sensitivity
 
 __all__ = [
@@ -29,8 +29,6 @@ __all__ = [
     "StudyBuilding",
     "StudyParameters",
     "StudyResult",
-    "display_names",
-    "motions_text",
     "run_study",
     "study_buildings",
     "study_sensitivity",

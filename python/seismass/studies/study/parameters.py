@@ -10,10 +10,11 @@ from typing import Any, Final, Literal, TypeAlias, get_args
 
 import numpy as np
 
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import DRIFT_CAP
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_count, as_number, brief, refusal, short_repr
+from seismass.base.values import FloatArray, as_count, as_number, as_one_of, brief, refusal, short_repr
 from seismass.base.views import Card
 from seismass.design import Combination, SpectrumAnalysis, response_spectrum_analysis, vibration_modes
 from seismass.model.block import blocks_on_floors
@@ -139,9 +140,7 @@ class StudyParameters:
         }
         self._unique("buildings", buildings)
         for name, choices in (("combination", get_args(Combination)), ("damping_base", get_args(DampingBase))):
-            if getattr(self, name) not in choices:
-                requirement = f"{', '.join(choices[:-1])} or {choices[-1]}"
-                raise refusal(InvalidOption, name, "study", requirement, brief(getattr(self, name)))
+            as_word(getattr(self, name), choices, name, "study")
         for name in ("yield_at_r1", "p_delta"):
             if not isinstance(getattr(self, name), bool):
                 raise refusal(InvalidOption, name, "study", "True or False", brief(getattr(self, name)))
@@ -273,6 +272,9 @@ def study_buildings(
     building with the share lambda alpha of its floor mass attached to every floor but the roof. Friction changes
     slowest: the first buildings are those of the first coefficient.
     """
+    as_one_of(parameters, StudyParameters, "parameters", "study", InvalidOption)
+    if not callable(spectrum):
+        raise refusal(InvalidOption, "spectrum", "study", "a function of periods", brief(spectrum))
     bare = {(storeys, period): _bare(parameters, storeys, period) for storeys, period in parameters.buildings}
     analyses = _analyses(parameters, bare, spectrum)
     scenes: dict[tuple[float | str, ...], Scene] = {}

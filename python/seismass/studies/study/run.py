@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import chain, count
 from pathlib import Path
@@ -14,10 +13,21 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass import _kernel
+from seismass.base.arguments import ProgressLike
 from seismass.base.digest import inputs_digest, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
-from seismass.base.values import FloatArray, brief, content_hash, printable, refusal, same_content, short_repr
+from seismass.base.values import (
+    FloatArray,
+    as_flag,
+    as_one_of,
+    brief,
+    content_hash,
+    printable,
+    refusal,
+    same_content,
+    short_repr,
+)
 from seismass.base.views import view
 from seismass.design.scaling import ScalingResult, scale_asce7_10
 from seismass.media.result import Result
@@ -156,7 +166,7 @@ def run_study(
     scaling: ScalingResult | None = None,
     effective: bool = False,
     threads: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
     store: StoredResults = NOTHING_STORED,
 ) -> StudyResult:
     """Run the parametric study.
@@ -187,9 +197,8 @@ def run_study(
     KeyboardInterrupt
         Ctrl-C was pressed.
     """
-    settings = StudyParameters() if parameters is None else parameters
-    if not isinstance(suite, Suite):
-        raise refusal(InvalidMotion, "suite", "study", "a Suite of records", brief(suite))
+    settings = checked_study(suite, target, parameters, store)
+    as_flag(effective, "effective", "study", InvalidOption)
     is_stated = scaling is not None
     if scaling is None:
         scaling = scale_asce7_10(
@@ -257,7 +266,7 @@ def _solve(
     buildings: list[StudyBuilding],
     motions: list[Motion],
     threads: int | None,
-    progress: Callable[[int, int], object] | None,
+    progress: ProgressLike,
     store: StoredResults,
 ) -> tuple[int, NDArray[np.int64], pl.DataFrame]:
     """Number of distinct runs, the row of each analysis among them, and the rows."""
@@ -324,6 +333,18 @@ def _scaling_metadata(scaling: ScalingResult) -> dict[str, Any]:
         "periods": [float(scaling.periods[0]), float(scaling.periods[-1]), len(scaling.periods)],
         "governing_period": float(scaling.governing_period),
     }
+
+
+def checked_study(
+    suite: Suite, target: TargetSpectrum, parameters: StudyParameters | None, store: StoredResults
+) -> StudyParameters:
+    """Return the parameters of a study, by default the paper's, where all four are what they must be."""
+    as_one_of(store, StoredResults, "store", "study", InvalidOption)
+    as_one_of(suite, Suite, "suite", "study", InvalidMotion)
+    as_one_of(target, TargetSpectrum, "target", "study", InvalidOption)
+    return as_one_of(
+        StudyParameters() if parameters is None else parameters, StudyParameters, "parameters", "study", InvalidOption
+    )
 
 
 def motions_text(suite: dict[str, Any]) -> str:

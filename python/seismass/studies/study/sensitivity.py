@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final, get_args
 import numpy as np
 import polars as pl
 
+from seismass.base.arguments import Progress, ProgressLike
+from seismass.base.errors import InvalidOption
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
-from seismass.base.values import short_repr
+from seismass.base.values import as_one_of, short_repr
 from seismass.base.views import view
 from seismass.design import Combination
 from seismass.design.scaling import ScalingResult, scale_modal_pushover
@@ -21,7 +23,7 @@ from seismass.motions.records import Suite
 from seismass.motions.spectra import TargetSpectrum
 from seismass.studies.study.columns import SENSITIVITY_COLUMNS
 from seismass.studies.study.parameters import MODELS, DampingBase, StudyParameters
-from seismass.studies.study.run import StudyResult, run_study
+from seismass.studies.study.run import StudyResult, checked_study, run_study
 from seismass.studies.study.tables import Drifts, collapsed_of, drifts_of
 
 if TYPE_CHECKING:
@@ -119,7 +121,7 @@ def study_sensitivity(
     *,
     as_is: StudyResult | None = None,
     threads: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
     store: StoredResults = NOTHING_STORED,
 ) -> Sensitivity:
     """Run the study again with each choice changed alone, from springs and damping to the statistic over records.
@@ -143,8 +145,11 @@ def study_sensitivity(
     InvalidOption, InvalidMotion, KeyboardInterrupt
         As for `run_study`.
     """
-    setup = StudyParameters() if parameters is None else parameters
+    setup = checked_study(suite, target, parameters, store)
+    if as_is is not None:
+        as_one_of(as_is, StudyResult, "as_is", "study", InvalidOption)
     changes = [*_changes(setup, target, suite), *_motion_changes(setup, target, suite, threads)]
+    whole = Progress(progress, len(changes) + 1, "study")
     if as_is is None:
         as_is = run_study(suite, target, setup, threads=threads)
     base_drifts, fallen = drifts_of(as_is.responses, len(suite), setup), collapsed_of(as_is.responses, len(suite))
@@ -152,8 +157,7 @@ def study_sensitivity(
     rows = _rows(AS_IS, "", summary, base_drifts, np.mean)
     of_base: dict[str, tuple[pl.DataFrame, Drifts]] = {setup.damping_base: (summary, base_drifts)}
     for number, change in enumerate(changes, start=1):
-        if progress is not None:
-            progress(number, len(changes) + 1)
+        whole.tell()
         table = store.of(f"changed-{number}", partial(_study_of, change, threads))
         drifts: Drifts = {model: np.array(table[model].to_list()) for model in MODELS}
         rows += _rows(change.choice, change.setting, table, drifts, np.mean)
@@ -170,8 +174,7 @@ def study_sensitivity(
         others: Drifts = {model: np.delete(values, left_out, axis=1) for model, values in base_drifts.items()}
         counts = {f"collapses_{model}": np.delete(fell, left_out, axis=1).sum(axis=1) for model, fell in fallen.items()}
         rows += _rows("one record left out", name, summary.with_columns(**counts), others, np.mean)
-    if progress is not None:
-        progress(len(changes) + 1, len(changes) + 1)
+    whole.tell()
     rows_of_changes = pl.DataFrame(rows, schema=list(SENSITIVITY_COLUMNS), orient="row").with_columns(
         pl.col("collapses").cast(pl.UInt32)
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import Any, Final, Literal, NamedTuple, TypeAlias
 
@@ -10,6 +10,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
+from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.statistics import QUANTILES, capped, quantile
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
 from seismass.base.units import STANDARD_GRAVITY
@@ -288,7 +289,7 @@ def effective_fractions(
     parameters: StudyParameters,
     *,
     threads: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
     store: StoredResults = NOTHING_STORED,
 ) -> dict[Scene, Fraction]:
     """Return the effective fraction of each distinct building with its goods. Damping is that of the study: the real
@@ -296,12 +297,11 @@ def effective_fractions(
     """
     scenes = list(dict.fromkeys(building.scenes["real"] for building in buildings))
     damping: Literal["same", "ratio"] = "ratio" if parameters.damping_base == "own" else "same"
-    fractions = {}
+    fractions, whole = {}, Progress(progress, len(scenes), "effective fractions")
     for number, scene in enumerate(scenes, start=1):
         solve = partial(_solved, scene, records, damping, parameters.drift_cap, threads)
         fractions[scene] = Fraction(*store.of(f"effective-{number}", solve).row(0))
-        if progress is not None:
-            progress(number, len(scenes))
+        whole.tell()
     return fractions
 
 

@@ -6,14 +6,14 @@ package; without them built-in motions stand in, and results say so.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import polars as pl
 
-from seismass.base.errors import InvalidMotion
-from seismass.base.values import brief, refusal, short_repr
+from seismass.base.arguments import ProgressLike
+from seismass.base.values import short_repr
 from seismass.base.views import view
 from seismass.media.result import Result
 from seismass.motions.records import Suite, builtin_suite
@@ -53,7 +53,6 @@ __all__ = [
     "Validation",
     "Verdict",
     "claims",
-    "claims_table",
     "components",
     "paper_scenes",
     "platform",
@@ -160,7 +159,7 @@ def paper_scenes(
     suite: Suite | None = None,
     *,
     springs: Sequence[tuple[float, int]] = SPRINGS,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
 ) -> tuple[Section4, Platform]:
     """Solve the scenes of the paper's section 4: the three-storey building and the platform.
 
@@ -190,7 +189,7 @@ def validate(
     sensitivity: Sensitivity | None = None,
     scenes: tuple[Section4, Platform] | None = None,
     threads: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
 ) -> Validation:
     """Run all validations.
 
@@ -232,10 +231,9 @@ def validate(
     >>> found.section4.synthetic, found.claims[1].verdict
     (True, 'reproduced')
     """
-    if suite is not None and not isinstance(suite, Suite):
-        raise refusal(InvalidMotion, "suite", "validation", "a Suite of records", brief(suite))
     if study is None:
         records = builtin_suite("seven") if suite is None else suite
-        study = run_study(records, target or TargetSpectrum.asce7(), threads=threads, progress=progress)
+        spectrum = TargetSpectrum.asce7() if target is None else target
+        study = run_study(records, spectrum, threads=threads, progress=progress)
     building, table = paper_scenes(suite, progress=progress) if scenes is None else scenes
     return Validation(study, building, table, claims(study, building, table, sensitivity=sensitivity))

@@ -13,6 +13,8 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 import polars as pl
 
+from seismass.base.errors import InvalidOption
+from seismass.base.values import as_one_of
 from seismass.studies.study import Sensitivity, StudyResult
 from seismass.studies.validation.shaking_table import MASS_RATIOS, Platform
 from seismass.studies.validation.three_storeys import OPENSEES, Section4
@@ -89,6 +91,9 @@ def claims(
     list of Claim
         In the order of the paper: the shaking table, the comparison of programs, the study.
     """
+    wanted = {"study": StudyResult, "section4": Section4, "platform": Platform, "sensitivity": Sensitivity}
+    for (name, kind), result in zip(wanted.items(), (study, section4, platform, sensitivity), strict=True):
+        as_one_of(result, kind if name == "study" else (kind, type(None)), name, "validation", InvalidOption)
     rows: list[_Row] = []
     if platform is not None:
         rows.append(_shaking_table(platform))

@@ -14,7 +14,10 @@ from typing import Any, Final, Literal, TypeAlias
 import numpy as np
 import polars as pl
 
-from seismass.base.values import FloatArray
+from seismass.base.arguments import as_word
+from seismass.base.errors import InvalidMotion
+from seismass.base.statistics import quantile
+from seismass.base.values import FloatArray, as_list, as_one_of, brief, refusal
 from seismass.base.views import Card
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import Building
@@ -51,6 +54,8 @@ def components(station: Station, suite: Suite | None = None) -> tuple[Record, ..
     RecordFormatError
         As for `read_suite`.
     """
+    as_word(station, STAND_INS, "station", "validation")
+    as_one_of(suite, (Suite, type(None)), "suite", "validation", InvalidMotion)
     records: dict[str, Record] = {}
     for record in suite or ():
         if record.station != station or record.synthetic:
@@ -151,6 +156,15 @@ def platform_scene(mass_ratio: float, period: float, mu: float, damping: float) 
     return Scene(Building.uniform(1, period, damping=damping), blocks_on_floors([mass_ratio], mu=mu))
 
 
+def check_components(components: Sequence[Record]) -> list[Record]:
+    """Return the components of a station, at least one."""
+    requirement = "a list of at least one Record"
+    records = as_list(components, "components", "validation", InvalidMotion, requirement)
+    if not records or not all(isinstance(record, Record) for record in records):
+        raise refusal(InvalidMotion, "components", "validation", requirement, brief(components))
+    return records
+
+
 def platform(components: Sequence[Record]) -> Platform:
     """Solve the platform over the ranges.
 
@@ -164,10 +178,11 @@ def platform(components: Sequence[Record]) -> Platform:
     Platform
         Runs, bands of histories, and what does not depend on the ranges.
     """
-    models = [record.similitude(LENGTH_RATIO) for record in components]
+    records = check_components(components)
+    models = [record.similitude(LENGTH_RATIO) for record in records]
     runs = _runs(models)
     bands = [_band(model, ratio) for model, ratio in product(models, MASS_RATIOS)]
-    return Platform(runs, tuple(bands), robust_numbers(runs), any(record.synthetic for record in components))
+    return Platform(runs, tuple(bands), robust_numbers(runs), any(record.synthetic for record in records))
 
 
 def _runs(models: Sequence[Record]) -> pl.DataFrame:
@@ -237,8 +252,7 @@ def robust_numbers(runs: pl.DataFrame) -> dict[str, Any]:
 
 def _fractiles(values: pl.Series) -> list[float]:
     """5, 50 and 95 % fractiles."""
-    fractiles: list[float] = np.quantile(values.to_numpy(), (0.05, 0.5, 0.95)).tolist()
-    return fractiles
+    return [float(quantile(values.to_numpy(), share)) for share in (0.05, 0.5, 0.95)]
 
 
 def _spread(runs: pl.DataFrame, name: str) -> float:

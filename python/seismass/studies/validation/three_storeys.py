@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import product
@@ -19,8 +19,9 @@ import numpy as np
 import polars as pl
 
 from seismass import _kernel
-from seismass.base.errors import SimulationError
-from seismass.base.values import FloatArray
+from seismass.base.arguments import Progress, ProgressLike
+from seismass.base.errors import InvalidOption, SimulationError
+from seismass.base.values import FloatArray, as_count, as_list, as_number, brief, refusal
 from seismass.base.views import Card
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import Building
@@ -28,7 +29,7 @@ from seismass.model.scene import Scene
 from seismass.motions.motion import Motion
 from seismass.motions.records import Record
 from seismass.runs.simulate import simulate
-from seismass.studies.validation.shaking_table import Band, Platform, label, robust_numbers
+from seismass.studies.validation.shaking_table import Band, Platform, check_components, label, robust_numbers
 
 STOREYS: Final = 3
 PERIOD: Final = 0.60
@@ -132,11 +133,22 @@ def samples_digest(record: Record) -> str:
     return hashlib.sha256(record.acceleration.tobytes() + np.float64(record.dt).tobytes()).hexdigest()
 
 
+SPRINGS_ARE: Final = "a list of ratios and numbers of steps"
+
+
+def _checked_spring(pair: Any) -> tuple[float, int]:
+    """Return a stiffness ratio and a number of steps."""
+    if not isinstance(pair, tuple | list) or len(pair) != 2:
+        raise refusal(InvalidOption, "springs", "validation", SPRINGS_ARE, brief(pair))
+    ratio = as_number(pair[0], "springs", "validation", InvalidOption)
+    return ratio, as_count(pair[1], "springs", "validation", InvalidOption, least=1)
+
+
 def section4(
     components: Sequence[Record],
     *,
     springs: Sequence[tuple[float, int]] = SPRINGS,
-    progress: Callable[[int, int], object] | None = None,
+    progress: ProgressLike = None,
 ) -> Section4:
     """Solve the building of section 4 for all components, peaks and second slopes, and compare the programs.
 
@@ -155,27 +167,22 @@ def section4(
     Section4
         Runs, differences and histories. OpenSees has its part where its kept results are of these samples.
     """
-    compared = list(product(components, COMPARED_SLOPES))
-    done, total = 0, len(compared) * (1 + len(springs))
-
-    def tell(solved: int) -> None:
-        nonlocal done
-        done += solved
-        if progress is not None:
-            progress(done, total)
-
-    tell(0)
-    grid = product(components, SECOND_SLOPES, PEAKS_G)
+    records = check_components(components)
+    pairs = [_checked_spring(pair) for pair in as_list(springs, "springs", "validation", InvalidOption, SPRINGS_ARE)]
+    compared = list(product(records, COMPARED_SLOPES))
+    whole = Progress(progress, len(compared) * (1 + len(pairs)), "validation")
+    whole.tell(0)
+    grid = product(records, SECOND_SLOPES, PEAKS_G)
     runs = [_run(label(record), record, slope, peak) for record, slope, peak in grid]
     histories: list[Histories] = []
     differences: list[dict[str, Any]] = []
     for record, slope in compared:
         exact = _exact(record, slope)
-        tell(1)
+        whole.tell()
         others: list[Histories] = []
-        for setting in springs:
-            others.append(_springs(record, slope, *setting))
-            tell(1)
+        for ratio, steps in pairs:
+            others.append(_springs(record, slope, ratio, steps))
+            whole.tell()
         others += _opensees(record, slope)
         histories += [exact, *(item for item in others if item.time.size)]
         differences += [_difference(item, exact) for item in others]
@@ -183,7 +190,7 @@ def section4(
         pl.DataFrame(runs),
         pl.DataFrame(differences, schema=_DIFFERENCES),
         tuple(histories),
-        any(record.synthetic for record in components),
+        any(record.synthetic for record in records),
     )
 
 

@@ -7,10 +7,15 @@
   const given = JSON.parse(one("script.given").textContent);
   const player = one("figure.animation");
   const dark = matchMedia("(prefers-color-scheme: dark)");
+  const stillness = matchMedia("(prefers-reduced-motion: reduce)");
   const PAUSE = 150; // ms without a change before the effective fraction is sought, and the address and the words follow
   const TYPED = 700; // ms without a key stroke after which a typed number counts; Enter and leaving the field count at once
+  const BEFORE_PEAK = 3; // s
+  const FILM = 8; // s
+  const PUSHED = "your push";
   const STEP = 1000; // ms between two cases that Back and Undo return to
   const SHARES = 101;
+  const LARGEST_DRAWN = 2; // goods over floor mass of the largest block that is drawn; heavier ones are drawn relative to the heaviest
 
   let kernel = null;
   let module = null;
@@ -19,13 +24,17 @@
   let state = defaultCase();
   let solved = null; // what is shown of the motion
   let found = null; // what is known of the effective fraction
-  let number = 0; // of the case that the worker seeks
+  let number = 0; // of the case that is shown
+  let sought = ""; // the numbers of the case that `found` is of, or that the worker seeks
   let goods = new Set(); // floors that carry goods, as the slider of the goods has them
   let kinetic = []; // mu_k/mu_s of each floor, which stays while mu_s is moved
-  let story = ""; // the address of the story that is told
+  let story = null; // the step that is told
+  let ofFile = ""; // the numbers of the case of a building file
+  let race = null; // models of the codes beside the building
   const past = []; // addresses of the cases before, for Undo
   let stepped = -Infinity; // when the last of them was kept
   let inKernel = ""; // the motion that the kernel holds
+  let inSuite = ""; // and the factors of its suite, for the spectrum of the design
 
   // ---- what the page carries --------------------------------------------------------------------------------------
   const bytesOf = (text) => Uint8Array.from(atob(text.trim()), (letter) => letter.charCodeAt(0));
@@ -39,10 +48,9 @@
     for (const { name, text, factor } of files) records.set(name, { ...readRecord(text, name), name, factor });
     module = await WebAssembly.compile(code);
     kernel = openKernel(await WebAssembly.instantiate(module, {}));
-    kernel.setSuite(suiteAt(1), new Float64Array(0)); // for the spectrum of the design
     open(location.hash);
     requestAnimationFrame(() => requestAnimationFrame(() => performance.mark("first picture")));
-    if (!matchMedia("(prefers-reduced-motion: reduce)").matches) requestAnimationFrame(() => player.play());
+    if (!stillness.matches) requestAnimationFrame(() => player.play());
     window.addEventListener("hashchange", () => {
       if (location.hash.slice(1) !== addressOf(state)) open(location.hash);
     });
@@ -50,9 +58,11 @@
   }
   const suite = () => given.suite.map((name) => records.get(name));
   const scaledBy = ({ samples }, scale) => samples.map((sample) => sample * scale);
-  const suiteAt = (intensity) => suite().map((record) => ({ dt: record.dt, samples: scaledBy(record, record.factor * intensity) }));
+  // By how much a record is scaled at intensity 1: by its own factor, or that of the site of a building file.
+  const factorOf = (key) => (state.factors !== null && given.suite.includes(key) ? state.factors[given.suite.indexOf(key)] : records.get(key).factor);
+  const suiteAt = (intensity) => suite().map((record, i) => ({ dt: record.dt, samples: scaledBy(record, factorOf(given.suite[i]) * intensity) }));
   const nameOf = (key) => key.replace(/^file:/, "");
-  const recordInUse = () => records.get(state.record) || records.get(given.suite[0]);
+  const recordInUse = () => records.get(state.record);
 
   const says = messagesOf(root);
   function complain(words) {
@@ -65,6 +75,12 @@
   function open(address) {
     const { state: opened, remarks } = caseOf(address);
     state = opened;
+    if (state.factors !== null && state.factors.length !== given.suite.length) {
+      remarks.push(`factors of the motions in the address must be ${given.suite.length}; got ${state.factors.length}`);
+      state.factors = null;
+    }
+    ofFile = state.file === null ? "" : caseNumbers(state);
+    inSuite = inKernel = "";
     if (!records.has(state.record)) {
       remarks.push(`The record ${state.record} of this link is not part of the page: drop its file here. ${given.suite[0]} stands in for it.`);
       state.record = given.suite[0];
@@ -73,17 +89,17 @@
     goods = new Set(state.massRatio.flatMap((ratio, i) => (ratio > 0 ? [i] : [])));
     kinetic = state.muS.map((mu, i) => (mu > 0 ? state.muK[i] / mu : 1));
     one("#x-beside").value = state.beside;
-    fill();
     changed();
   }
   const loaded = () => Array.from(goods).filter((i) => i < state.storeys).sort((a, b) => a - b);
   // The value of a slider: of a list that of all loaded floors, null where they differ.
   function shownOf(key) {
     if (!LISTS.includes(key)) return state[key];
-    const values = new Set(floorsOf().map((i) => state[key][i]));
+    const values = new Set(floorsOf(key).map((i) => state[key][i]));
     return values.size === 1 ? [...values][0] : null;
   }
-  const floorsOf = () => (loaded().length ? loaded() : [0]);
+  const storeysOf = () => Array.from({ length: state.storeys }, (_, i) => i);
+  const floorsOf = (key) => (BY_FLOOR.includes(key) ? (loaded().length ? loaded() : [0]) : storeysOf());
   const isEdited = (field) => document.activeElement === field;
   function fill() {
     for (const row of all(".row")) {
@@ -99,6 +115,8 @@
     }
     for (const radio of all('.choice input[type="radio"]')) radio.checked = String(state[radio.name]) === radio.value;
     for (const row of all(".floors tbody tr")) row.hidden = Number(row.dataset.floor) >= state.storeys;
+    for (const option of one("#x-counter").options) option.hidden = Number(option.value) > state.storeys;
+    one("#x-counter").value = String(state.counter);
     const strength = solved === null ? state.strength : solved.scene.strength;
     for (const field of all(".floors input")) {
       const [key, floor] = [field.dataset.list, Number(field.closest("tr").dataset.floor)];
@@ -115,14 +133,16 @@
       if (Array.from(select.options).every((option) => option.value !== name)) select.add(new Option(nameOf(name), name));
     }
     select.value = state.record;
-    const code = Array.from(one("#x-code").options).find((option) => option.value !== "" && Number(option.value) === state.counted);
+    const code = Array.from(one("#x-code").options).find((option) => option.value !== "" && Math.abs(shareOf(option) - state.counted) < 1e-6);
     one("#x-code").value = code === undefined ? "" : code.value;
+    one(".unchecked").hidden = code === undefined || !code.textContent.includes(given.mark);
     const record = recordInUse();
-    const scale = record.factor * state.intensity;
+    const factor = factorOf(state.record);
+    const scale = factor * state.intensity;
     const pga = (largest(record.samples.map(Math.abs)) * scale) / GRAVITY;
     one(".motion").textContent =
       `${record.samples.length} samples at ${record.dt} s, PGA ${fixed(pga, 3)} g` +
-      (record.factor === 1 ? "." : `: scaled by ${general(record.factor, 4)} to the target${state.intensity === 1 ? "" : `, times ${general(state.intensity, 4)}`}.`);
+      (factor === 1 ? "." : `: scaled by ${general(factor, 4)} to the target${state.intensity === 1 ? "" : `, times ${general(state.intensity, 4)}`}.`);
   }
 
   // A number that a field gives; what is out of its range is said beside it and not taken.
@@ -138,6 +158,8 @@
     says(field, problem);
     return problem ? null : value;
   }
+  // The share of the goods that are present which a code counts, of those at most all.
+  const shareOf = (option) => Math.min(1, Number(option.value) / state.present);
   const rounded = (value) => Number(value.toPrecision(6));
   function setValue(key, value, floors) {
     if (!LISTS.includes(key)) state[key] = value;
@@ -151,7 +173,13 @@
     }
     changed();
   }
-  const choose = (key, value) => setValue(key, value, floorsOf());
+  const choose = (key, value) => setValue(key, value, floorsOf(key));
+  // Goods of one floor: without any it stands with the others, and the last of them stay on the list.
+  function chooseMass(value, floor) {
+    if (value > 0) goods.add(floor);
+    else if (loaded().length > 1) goods.delete(floor);
+    setValue("massRatio", value, [floor]);
+  }
   // A typed number counts when it is complete: on Enter, when the field is left, or after a pause.
   function takeTyped(field, take) {
     let typing = 0;
@@ -174,7 +202,7 @@
   for (const row of all(".row")) {
     const [range, field] = row.querySelectorAll("input");
     const take = (input) => {
-      const value = taken(input, row.dataset.key, floorsOf());
+      const value = taken(input, row.dataset.key, floorsOf(row.dataset.key));
       if (value === null) return;
       if (input === range) says(field, "");
       choose(row.dataset.key, value);
@@ -187,9 +215,8 @@
       const [key, floor] = [field.dataset.list, Number(field.closest("tr").dataset.floor)];
       const value = taken(field, key, [floor]);
       if (value === null) return;
-      if (key === "massRatio" && value > 0) goods.add(floor);
-      else if (key === "massRatio" && loaded().length > 1) goods.delete(floor);
-      setValue(key, value, [floor]);
+      if (key === "massRatio") chooseMass(value, floor);
+      else setValue(key, value, [floor]);
     });
   }
   for (const radio of all('.choice input[type="radio"]')) {
@@ -210,10 +237,14 @@
     changed();
   });
   one("#x-code").addEventListener("change", (event) => {
-    if (event.target.value !== "") choose("counted", Number(event.target.value));
+    if (event.target.value !== "") choose("counted", shareOf(event.target.selectedOptions[0]));
   });
   one("#x-beside").addEventListener("change", (event) => {
     state.beside = event.target.value;
+    changed();
+  });
+  one("#x-counter").addEventListener("change", (event) => {
+    state.counter = Number(event.target.value);
     changed();
   });
   one("form.controls").addEventListener("submit", (event) => event.preventDefault());
@@ -267,15 +298,22 @@
   // ---- solving ------------------------------------------------------------------------------------------------------
   function solve() {
     const record = recordInUse();
-    const scale = record.factor * state.intensity;
+    const scale = factorOf(state.record) * state.intensity;
     const wanted = `${state.record} ${scale}`;
     if (inKernel !== wanted) {
       kernel.setMotion(record.dt, scaledBy(record, scale));
       inKernel = wanted;
     }
-    const scene = sceneOf(state, strengthsOf(state, kernel.design(state, state.counted)));
+    const suiteFactors = String(state.factors);
+    if (inSuite !== suiteFactors) {
+      kernel.setSuite(suiteAt(1), new Float64Array(0));
+      inSuite = suiteFactors;
+    }
+    const elastic = state.by === "design" ? kernel.design(sceneOf(state, []), state.counted) : storeysOf();
+    const scene = sceneOf(state, strengthsOf(state, elastic));
     // An oscillator has the base shear S_a of the suite.
-    const acceleration = state.intensity * kernel.design({ storeys: 1, period: state.period, massRatio: [0] }, 0)[0];
+    const oscillator = sceneOf({ ...defaultCase(), storeys: 1, period: state.period, massRatio: [0] }, []);
+    const acceleration = state.intensity * kernel.design(oscillator, 0)[0];
     const rule = ruleBy(scene, acceleration, given.rule);
     const every = Math.max(1, Math.round(record.samples.length / 8000));
     const blocks = scene.massRatio.flatMap((ratio, i) => (ratio > 0 ? [{ floor: i + 1, ratio, muS: scene.muS[i], muK: scene.muK[i] }] : []));
@@ -286,19 +324,22 @@
     };
     const real = run(null);
     const [code, full] = blocks.length ? [run(state.counted), run(1)] : [real, real];
-    const chosen = blocks.length ? state.beside : "none";
+    const share = isFound() ? found.value : rule.estimate;
     const beside = {
-      none: null,
-      code: { run: code, share: state.counted, words: "model of the code" },
-      full: { run: full, share: 1, words: "all goods attached" },
-    }[chosen];
-    return { state: structuredClone(state), scene, record, scale, every, real, code, full, beside, rule };
+      none: () => null,
+      code: () => ({ run: code, share: state.counted, words: "model of the code" }),
+      share: () => ({ run: run(share), share, words: isFound() ? "model with the share found" : "model with the share by hand" }),
+      full: () => ({ run: full, share: 1, words: "all goods attached" }),
+    }[blocks.length ? state.beside : "none"]();
+    const counter = state.counter > 0 ? Math.min(state.counter, state.storeys) - 1 : place(ratiosOf(real, state));
+    return { state: structuredClone(state), scene, record, scale, every, real, code, full, beside, rule, counter, run };
   }
+  const isFound = () => found !== null && found.shares !== undefined;
 
   const seconds = (record, every) => every * record.dt;
-  function animated({ state, scene, record, scale, every, real, code, full, beside }) {
+  function animated({ state, scene, record, scale, every, real, code, full, beside, counter }, kept) {
     const step = seconds(record, every);
-    const { rows } = real;
+    const rows = Math.max(real.rows, beside === null ? 0 : beside.run.rows);
     const [low, high] = [new Float32Array(rows), new Float32Array(rows)];
     for (let row = 0; row < rows; row++) {
       let [least, most] = [Infinity, -Infinity];
@@ -317,7 +358,7 @@
         events.number.push(run.events[i + 2]);
       }
       return {
-        label, what, attached, rows, collapsed: null, end: run.end[0], events,
+        label, what, attached, rows: run.rows, collapsed: run.end[1] || null, end: run.end[0], events,
         drift: { peak: spread(run.drift), values: run.drift }, slip: { peak: spread(run.slip), values: run.slip },
       };
     };
@@ -327,18 +368,18 @@
     const n = scene.storeys;
     let farthest = spread(real.slip);
     for (const run of [real, ...(beside ? [beside.run] : [])]) {
-      for (let row = 0; row < rows; row++) {
+      for (let row = 0; row < run.rows; row++) {
         let moved = 0;
         for (let i = 0; i < n; i++) farthest = Math.max(farthest, Math.abs((moved += run.drift[row * n + i])));
       }
     }
-    const room = 0.15 * n * state.height;
-    const factor = given.enlargements.filter((one) => one * farthest <= room).at(-1) || 1;
-    const mass = Math.max(...real.blocks.map((block) => block.ratio), 0);
+    const room = 0.15 * scene.height.reduce((sum, one) => sum + one, 0);
+    const factor = kept || given.enlargements.filter((one) => one * farthest <= room).at(-1) || 1;
+    const mass = Math.max(...real.blocks.map((block) => block.ratio), LARGEST_DRAWN);
+    const moved = record.moved && Float32Array.from({ length: rows }, (_, row) => (record.moved[Math.min(row * every, record.moved.length - 1)] * state.intensity) * pushScale(player));
     return {
-      step, rows, known: true, factor, marks: true, storey: place(real.peakDrift),
-      heights: Array.from({ length: n }, () => state.height), kinds: EVENT_NAMES,
-      ground: { peak: spread(high) > spread(low) ? spread(high) : spread(low), low, high },
+      step, rows, known: true, factor, marks: true, storey: counter, heights: scene.height, kinds: EVENT_NAMES,
+      ground: { peak: spread(high) > spread(low) ? spread(high) : spread(low), low, high, moved },
       blocks: real.blocks.map((block) => ({ floor: block.floor, size: Math.sqrt(block.ratio / mass) })),
       runs, alt: runWords({ state, real, code, full }, nameOf(state.record)),
     };
@@ -364,7 +405,7 @@
   }
   function sayFraction() {
     const place = one(".fraction");
-    const done = found !== null && found.shares !== undefined;
+    const done = isFound();
     place.classList.toggle("stale", !done);
     const list = one(".remarks");
     list.replaceChildren();
@@ -380,26 +421,31 @@
     }
     fractionTables(root, done ? found : null, given.suite);
     sayHeadline();
-    sayBar();
+    sayStory();
+    const remark = one(".of-file");
+    remark.hidden = state.file === null;
+    if (state.file !== null) remark.textContent = fileWords(state.file, done ? found : null, caseNumbers(state) === ofFile, given.differences);
+  }
+  function sayStory() {
+    const [says, asks] = [one(".story"), one(".asks")];
+    says.hidden = asks.hidden = story === null;
+    for (const [i, button] of all(".stories button").entries()) button.setAttribute("aria-pressed", String(STORIES[i] === story));
+    if (story === null) return;
+    const facts = isFound() ? factsOf(found, solved.state) : null;
+    const isGone = solved.real.blocks.length === 0;
+    says.textContent = isGone ? "There are no goods." : facts === null ? "Being solved\u2026" : TOLD[story.tells](facts);
+    asks.textContent = `${story.asks}${facts === null || isGone ? "" : ` ${questionWords(story, facts)}`}`;
   }
   function sayHeadline() {
-    showHeadline(one(".headline"), { found, real: solved.real, state: solved.state, codes: given.codes, motions: given.suite.length });
-  }
-  function sayBar() {
-    const { state, real, code } = solved;
-    const mm = (run) => fixed(1000 * largest(run.peakDrift), 1);
-    const parts = [`drift ${mm(real)} mm`];
-    if (real.blocks.length) {
-      parts.push(`code\u2019s model ${mm(code)}`);
-      parts.push(found !== null && found.shares ? `fraction ${fixed(found.value, 2)}` : "fraction \u2026");
-    }
-    one(".bar").textContent = parts.join(" \u00b7 ");
+    showHeadline(one(".headline"), { found, real: solved.real, rule: solved.rule, state: solved.state, codes: given.codes, motions: given.suite.length });
   }
   // Said once the reader pauses, so that a screen reader is not flooded.
   function say() {
-    const fraction = found !== null && found.shares ? ` ${fractionWords(found, solved.rule).short}` : "";
-    const words = runWords(solved, nameOf(state.record)) + fraction;
-    if (one(".answer").textContent !== words) one(".answer").textContent = words;
+    // The headline shows the fraction already.
+    const fraction = isFound() ? ` ${fractionWords(found, solved.rule).short}` : "";
+    const words = runWords(solved, nameOf(state.record));
+    if (one(".answer").textContent === words + fraction) return;
+    one(".answer").replaceChildren(words, Object.assign(document.createElement("span"), { className: "heard", textContent: fraction }));
   }
 
   let timer = 0;
@@ -420,16 +466,23 @@
       if (error instanceof WebAssembly.RuntimeError) restart();
       return;
     }
-    const drift = largest(solved.real.peakDrift) / state.height;
+    const drift = largest(ratiosOf(solved.real, state));
     one(".belief").hidden = !(drift > 0.05);
     one(".belief").textContent = `A drift of ${fixed(100 * drift, 0)} % of the storey height is beyond what buildings survive: the run goes on as if it stood.`;
-    found = null;
     number += 1;
-    if (worker !== null) worker.postMessage({ number });
+    // The effective fraction is of the suite: another record, another model beside leave it as it is.
+    const numbers = caseNumbers(state);
+    if (numbers !== sought || !isFound()) {
+      if (worker !== null) worker.postMessage({ number });
+      const isDrawn = found !== null && state.beside === "share";
+      found = null;
+      if (isDrawn) solved = solve();
+    }
+    sought = numbers;
     fill();
     showSentence();
-    const shown = animated(solved);
-    player.show(shown);
+    showHandles(loaded().filter((i) => state.massRatio[i] > 0), state.storeys);
+    player.show(animated(solved), startAt());
     drawRun();
     runTables(root, solved);
     drawFraction();
@@ -441,14 +494,20 @@
   // The kernel stopped on a defect: what it holds may be half of something.
   function restart() {
     kernel = openKernel(new WebAssembly.Instance(module, {}));
-    kernel.setSuite(suiteAt(1), new Float64Array(0));
-    inKernel = "";
+    inKernel = inSuite = "";
+  }
+  // The page and each story start some seconds before the largest drift of the storey that is counted; without motion, at it.
+  let isToldAnew = true;
+  function startAt() {
+    if (!isToldAnew) return undefined;
+    isToldAnew = false;
+    return solved.real.peakDriftTime[solved.counter] - (stillness.matches ? 0 : BEFORE_PEAK);
   }
   function settle() {
-    if (addressOf(state) !== story) one(".story").textContent = "";
     say();
     followAddress();
-    if (solved.real.blocks.length) seek();
+    solveRace();
+    if (solved.real.blocks.length && !isFound()) seek();
     else root.dataset.found = String(number);
   }
   function seek() {
@@ -466,6 +525,11 @@
     if (begun !== undefined) found = begun;
     if (left !== undefined) found = { ...found, left };
     if (answer !== undefined) found = answer;
+    if (answer !== undefined && state.beside === "share") {
+      solved = solve();
+      player.show(animated(solved));
+      drawRun();
+    }
     if (error === undefined && (begun !== undefined || answer !== undefined)) drawFraction();
     sayFraction();
     if (answer !== undefined) say();
@@ -474,26 +538,127 @@
 
   player.addEventListener("time", (event) => {
     time = event.detail;
+    if (isRaceSeen) showRace();
     if (solved !== null) putDots(time / seconds(solved.record, solved.every));
   });
   const redraw = () => {
+    placeTicks(one(".ticks"));
     if (solved === null) return;
     drawRun();
     drawFraction();
+    showRace();
   };
   dark.addEventListener("change", redraw);
-  window.addEventListener("beforeprint", redraw);
+  window.addEventListener("beforeprint", () => {
+    for (const folded of all(".rest details")) folded.open = true;
+    redraw();
+  });
   window.addEventListener("afterprint", redraw);
   new ResizeObserver(redraw).observe(one(".rest"));
+
+  // ---- the building is the control ----------------------------------------------------------------------------------
+  const stage = one(".stage");
+  one(".picture").prepend(one(".buildings"));
+  one(".short").append(one(".play"), one(".time"), one(".clock"));
+  stage.addEventListener("keydown", (event) => event.target.closest(".player") && player.keys(event));
+  const ranges = (key) => {
+    const { min, max, step } = one(`.row[data-key="${key}"] input`);
+    return { min: key === "massRatio" ? 0 : Number(min), max: Number(max), step: Number(step) };
+  };
+  const showHandles = openHandles(one(".handles"), player, {
+    ranges,
+    valueOf: (key, floor) => state[key][floor],
+    // The grip moves the friction of all goods, where it is the same for all.
+    choose: (key, value, floor) => (key === "massRatio" ? chooseMass(value, floor) : setValue(key, value, shownOf(key) === null ? [floor] : floorsOf(key))),
+    pushed: ({ dt, samples, moved }, isOver) => {
+      records.set(PUSHED, { name: PUSHED, title: "", dt, unit: "m/s2", values: samples, samples, moved, factor: 1 });
+      state.record = PUSHED;
+      inKernel = "";
+      if (isOver) {
+        changed();
+        return;
+      }
+      solved = solve();
+      player.show(animated(solved, enlargement), samples.length * dt);
+    },
+  });
+  // While it is pushed, displacements are enlarged as they were before.
+  let enlargement = 0;
+  one(".handle.ground").addEventListener("focus", () => (enlargement = solved === null ? 0 : animated(solved).factor));
+  one(".buildings").addEventListener("click", (event) => {
+    const { ys } = player.places;
+    const y = event.clientY - event.currentTarget.getBoundingClientRect().top;
+    const storey = ys.findIndex((level, i) => i > 0 && y < ys[i - 1] && y >= level);
+    if (storey < 1) return;
+    state.counter = state.counter === storey ? 0 : storey;
+    changed();
+  });
+
+  // ---- the race of the codes ------------------------------------------------------------------------------------------
+  function solveRace() {
+    race = null;
+    const { real, run, scene, counter, record, every } = solved;
+    one(".race").hidden = real.blocks.length === 0;
+    if (real.blocks.length > 0) {
+      const byShare = new Map();
+      for (const [name, fraction] of [["none", 0], ...given.codes, ["all", Infinity]]) {
+        const share = Math.min(1, fraction / state.present);
+        byShare.set(share, byShare.has(share) ? `${byShare.get(share)}, ${name}` : name);
+      }
+      const entrants = Array.from(byShare, ([share, name]) => ({ share, name, run: run(share) })).toSorted((a, b) => a.share - b.share);
+      race = raceOf({ real, entrants, heights: scene.height, masses: scene.massRatio, step: seconds(record, every), counter });
+    }
+    one(".winner").textContent = race === null ? "There are no goods." : raceWords(race, nameOf(state.record));
+    one(".race").setAttribute("aria-label", one(".winner").textContent);
+    showRace();
+  }
+  function showRace() {
+    if (race === null || one(".race").clientWidth === 0) return;
+    const chart = chartOf(one(".race"), colours());
+    drawRace(chart.context, chart, race, time, colours());
+  }
+  let isRaceSeen = false;
+  new IntersectionObserver(([entry]) => (isRaceSeen = entry.isIntersecting)).observe(one(".race"));
+  const card = (at) => ({
+    title: `${one(".share").textContent} of the goods act as mass${isFound() ? "" : ", by the rule by hand"}`, winner: one(".winner").textContent, race, time: at, colours: colours(),
+    sentence: Array.from(one(".sentence").childNodes, (node) => (node.localName === "small" || node.hidden ? "" : node.textContent)).join("").trim(),
+  });
+  const canvasOfCard = () => Object.assign(document.createElement("canvas"), { width: 1200, height: 675 });
+  function give(blob, name) {
+    const link = Object.assign(document.createElement("a"), { download: name, href: URL.createObjectURL(blob) });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+  }
+  one(".save").addEventListener("click", () => {
+    if (race === null) return;
+    const canvas = canvasOfCard();
+    drawCard(canvas, card(time));
+    canvas.toBlob((blob) => give(blob, "seismass.png"));
+    one(".done").textContent = "The picture is at the time that is shown.";
+  });
+  one(".film").addEventListener("click", async () => {
+    if (race === null) return;
+    const canvas = canvasOfCard();
+    const begin = Math.max(0, race.own.run.peakDriftTime[race.counter] - 0.6 * FILM);
+    const still = { ...card(begin) };
+    one(".film").disabled = true;
+    one(".done").textContent = `It takes ${FILM} s, as it is filmed while it runs\u2026`;
+    try {
+      const blob = await filmOf(canvas, FILM, (at) => drawCard(canvas, { ...still, time: begin + at }));
+      give(blob, `seismass.${blob.type.endsWith("mp4") ? "mp4" : "webm"}`);
+      one(".done").textContent = `The film: ${fixed(blob.size / 1e6, 1)} MB.`;
+    } catch (error) {
+      one(".done").textContent = `There is no film: ${error.message}.`;
+    }
+    one(".film").disabled = false;
+  });
 
   // ---- out of the page --------------------------------------------------------------------------------------------------
   one(".download").addEventListener("click", () => {
     const { scene, record, scale } = solved;
     const note = `made with the live page of seismass ${given.version}`;
-    const text = sceneFile(scene, { height: state.height, record, scale, note });
-    const link = Object.assign(document.createElement("a"), { download: "scene.toml", href: URL.createObjectURL(new Blob([text], { type: "application/toml" })) });
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+    const text = sceneFile(scene, { stiffness: kernel.stiffness(scene), record, scale, note });
+    give(new Blob([text], { type: "application/toml" }), "scene.toml");
     one(".done").textContent = "Solve it with: seismass run scene.toml";
   });
   one(".link").addEventListener("click", async () => {
@@ -520,7 +685,15 @@
     stepped = performance.now();
     one(".undo").disabled = past.length === 0;
   }
-  one(".undo").addEventListener("click", () => {
+  one(".undo").addEventListener("click", undo);
+  document.addEventListener("keydown", (event) => {
+    const isText = event.target.matches('input[type="number"], input[type="text"]');
+    if (event.key.toLowerCase() !== "z" || !(event.ctrlKey || event.metaKey) || event.shiftKey || isText) return;
+    event.preventDefault();
+    followAddress();
+    undo();
+  });
+  function undo() {
     const now = addressOf(state);
     let before = past.pop();
     while (before === now) before = past.pop(); // Back has been there
@@ -528,9 +701,10 @@
     if (before === undefined) return;
     history.replaceState(null, "", `#${before}`);
     open(before);
-  });
+  }
   one(".reset").addEventListener("click", () => {
     one(".done").textContent = "";
+    story = null;
     open("");
   });
   const sliderOf = (key) => one(`.row[data-key="${key}"] input`);
@@ -541,13 +715,13 @@
     one(".storeys-said").textContent = state.storeys === 1 ? "one storey" : `${state.storeys} storeys`;
     one(".sentence .record").textContent = nameOf(state.record);
   }
-  one(".stories").replaceChildren(...STORIES.map(([name, address, words]) => {
-    const button = Object.assign(document.createElement("button"), { type: "button", textContent: name, title: words });
+  one(".stories").replaceChildren(...STORIES.map((step, i) => {
+    const button = Object.assign(document.createElement("button"), { type: "button", textContent: `${i + 1} ${step.name}` });
     button.addEventListener("click", () => {
       stepped = -Infinity;
-      open(address);
-      story = addressOf(state);
-      one(".story").textContent = words;
+      story = step;
+      isToldAnew = true;
+      open(step.address);
     });
     return button;
   }));

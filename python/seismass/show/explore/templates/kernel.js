@@ -37,8 +37,8 @@ function openKernel(instance) {
   // Mean peak base shear of the fully attached model over the full weight, and friction over it.
   const shearOf = ([coefficient, eta]) => ({ coefficient, eta });
   const listed = (scene) => [
-    scene.storeys, scene.period, scene.damping, scene.overstrength, scene.secondSlope, scene.thirdSlope,
-    ...scene.strength, ...scene.massRatio, ...scene.muS, ...scene.muK,
+    scene.storeys, scene.period, scene.damping, scene.pDelta, ...scene.strength, ...scene.massRatio, ...scene.muS, ...scene.muK,
+    ...scene.floorMass, ...scene.stiffness, ...scene.height, ...scene.overstrength, ...scene.secondSlope, ...scene.thirdSlope,
   ];
 
   return {
@@ -67,10 +67,16 @@ function openKernel(instance) {
       return named(RUN);
     },
     // V_e/W of each storey, of a response spectrum analysis with a share of the goods counted, for the mean spectrum of the
-    // suite.
-    design({ storeys, period, massRatio }, counted) {
-      give([storeys, period, counted, ...massRatio.slice(0, storeys)]);
-      checked(calls.seismass_design());
+    // suite; strengths of the scene do not count.
+    design(scene, counted) {
+      give(listed({ ...scene, strength: scene.massRatio.map(() => 1) }));
+      checked(calls.seismass_design(counted));
+      return Array.from(output());
+    },
+    // N/m, where the mean floor mass is 1 kg.
+    stiffness(scene) {
+      give(listed(scene));
+      checked(calls.seismass_stiffness());
       return Array.from(output());
     },
     beginEffective(scene) {

@@ -10,6 +10,7 @@ function general(value, digits) {
   const sign = power < 0 ? "-" : "+";
   return `${Number(mantissa)}e${sign}${String(Math.abs(power)).padStart(2, "0")}`.replaceAll("-", MINUS);
 }
+const per100 = (share) => `${fixed(100 * share, 0)} %`;
 const largest = (list) => list.reduce((most, value) => Math.max(most, value), 0);
 const place = (list) => list.reduce((best, value, i) => (value > list[best] ? i : best), 0);
 const listed = (words) => (words.length < 2 ? words.join("") : `${words.slice(0, -1).join(", ")} and ${words.at(-1)}`);
@@ -21,15 +22,18 @@ const KIND_WORDS = {
   one: "even with all goods attached the model drifts less than the building whose goods slide",
 };
 
+// Peak drifts over the storey heights.
+const ratiosOf = (run, { height }) => Array.from(run.peakDrift, (drift, i) => drift / height[i]);
+const weightOf = (scene) => GRAVITY * scene.floorMass.reduce((sum, mass) => sum + mass, 0);
+
 // The run in words, for the live region.
 function runWords({ state, real, code, full }, name) {
-  const per = 100 / state.height;
-  const storey = place(real.peakDrift);
-  const drift = (run) => largest(run.peakDrift);
+  const storey = place(ratiosOf(real, state));
+  const drift = (run) => run.peakDrift[storey];
   const yielding = new Set();
   for (let i = 0; i < real.events.length; i += 4) if (real.events[i + 1] === 0) yielding.add(real.events[i + 2]);
   const parts = [
-    `Under ${name} at intensity ${general(state.intensity, 4)}: largest drift ${fixed(1000 * drift(real), 1)} mm (${fixed(per * drift(real), 2)} % of the height) in storey ${storey + 1}.`,
+    `Under ${name} at intensity ${general(state.intensity, 4)}: largest drift ${fixed(1000 * drift(real), 1)} mm (${fixed((100 * drift(real)) / state.height[storey], 2)} % of the height) in storey ${storey + 1}.`,
     yielding.size ? `Storeys that yield: ${listed([...yielding].sort().map(String))}.` : "No storey yields.",
   ];
   if (real.blocks.length) {
@@ -47,14 +51,14 @@ function runWords({ state, real, code, full }, name) {
 
 // The rule of `seismass.effective_mass.rule`, with the constants that the page carries; S_a of the suite in g.
 function ruleBy(scene, acceleration, constants) {
-  const { storeys, massRatio, muS, muK, strength, overstrength, secondSlope } = scene;
+  const { massRatio, muS, muK, strength, overstrength, secondSlope, floorMass } = scene;
   const goods = massRatio.reduce((sum, ratio) => sum + ratio, 0);
   const friction = massRatio.reduce((sum, ratio, i) => sum + (ratio * (muS[i] + muK[i])) / 2, 0) / goods;
-  const yieldCoefficient = strength[0] / (1 + goods / storeys);
+  const yieldCoefficient = strength[0] / (1 + goods / floorMass.reduce((sum, mass) => sum + mass, 0));
   const reduction = Math.max(1, acceleration / yieldCoefficient);
   const coefficient = acceleration / reduction ** constants.power;
-  const ordinary = overstrength >= constants.leastOverstrength && secondSlope > 0 && secondSlope <= constants.largestSecondSlope;
-  const less = !(ordinary || !Number.isFinite(yieldCoefficient)) || Math.max(...massRatio) > constants.largestLoad;
+  const ordinary = overstrength.every((one) => one >= constants.leastOverstrength) && secondSlope.every((one) => one > 0 && one <= constants.largestSecondSlope);
+  const less = !(ordinary || !Number.isFinite(yieldCoefficient)) || massRatio.some((ratio, i) => ratio > constants.largestLoad * floorMass[i] * (1 + 1e-12));
   const offset = less ? constants.smallOffset : constants.offset;
   const share = (mu) => Math.min(1, Math.max(0, (constants.slope * mu) / coefficient - offset));
   const words =
@@ -66,7 +70,7 @@ function ruleBy(scene, acceleration, constants) {
 
 function fractionWords(found, rule) {
   return {
-    short: `Over the built-in motions: effective fraction of the goods ${fixed(found.value, 2)}, 90 % interval ${fixed(found.low, 2)} to ${fixed(found.high, 2)}.`,
+    short: `Over the built-in motions ${per100(found.value)} of the goods act as mass, 90 % interval ${per100(found.low)} to ${per100(found.high)}.`,
     long:
       `Effective fraction ${fixed(found.value, 3)} (90 % interval over the built-in motions ${fixed(found.low, 2)} to ${fixed(found.high, 2)}); ` +
       `${KIND_WORDS[found.kind].replace(/^./, (letter) => letter.toUpperCase())}. By hand: ${rule.words}.`,
@@ -97,7 +101,7 @@ function fillTable(table, caption, heads, rows) {
   const make = (name, words, attributes = {}) => Object.assign(document.createElement(name), { textContent: words, ...attributes });
   const row = (cells, name) => {
     const made = document.createElement("tr");
-    made.append(...cells.map((words, i) => make(name === "td" && i ? "td" : "th", words, { scope: name === "td" ? "row" : "col" })));
+    made.append(...cells.map((words, i) => (name === "td" && i ? make("td", words) : make("th", words, { scope: name === "td" ? "row" : "col" }))));
     return made;
   };
   const [head, body] = [document.createElement("thead"), document.createElement("tbody")];
@@ -106,13 +110,18 @@ function fillTable(table, caption, heads, rows) {
   table.replaceChildren(make("caption", caption), head, body);
 }
 
+// Three digits, of what is larger none behind the point.
+function millimetres(value) {
+  const [size, mm] = [Math.abs(1000 * value), 1000 * value];
+  return fixed(mm, size >= 99.95 ? 0 : size >= 9.995 ? 1 : 2);
+}
 function runTables(root, { state, scene, real, code, full }) {
-  const weight = GRAVITY * scene.storeys;
-  const mm = (value) => fixed(1000 * value, 3);
+  const weight = weightOf(scene);
+  const mm = millimetres;
   const hasGoods = real.blocks.length > 0;
   const storeyRows = Array.from(real.peakDrift, (drift, i) => [
-    String(i + 1), mm(drift), fixed((100 * drift) / state.height, 3), fixed(real.peakDriftTime[i], 3), mm(real.residualDrift[i]),
-    general(real.peakShear[i] / weight, 4), fixed(real.peakAcceleration[i] / GRAVITY, 4),
+    String(i + 1), mm(drift), fixed((100 * drift) / state.height[i], 2), fixed(real.peakDriftTime[i], 2), mm(real.residualDrift[i]),
+    general(real.peakShear[i] / weight, 3), fixed(real.peakAcceleration[i] / GRAVITY, 2),
     ...(hasGoods ? [mm(code.peakDrift[i]), mm(full.peakDrift[i])] : []),
   ]);
   fillTable(
@@ -122,8 +131,8 @@ function runTables(root, { state, scene, real, code, full }) {
     storeyRows,
   );
   const goodsRows = real.blocks.map((block, j) => [
-    String(block.floor), general(block.ratio, 5), `${general(block.muS, 6)}${block.muS === block.muK ? "" : `/${general(block.muK, 6)}`}`,
-    mm(real.peakSlip[j]), fixed(real.peakSlipTime[j], 3), mm(real.residualSlip[j]), mm(real.slipPath[j]),
+    String(block.floor), general(block.ratio, 3), `${general(block.muS, 3)}${block.muS === block.muK ? "" : `/${general(block.muK, 3)}`}`,
+    mm(real.peakSlip[j]), fixed(real.peakSlipTime[j], 2), mm(real.residualSlip[j]), mm(real.slipPath[j]),
   ]);
   root.querySelector("table.goods").hidden = !hasGoods;
   fillTable(
@@ -135,7 +144,7 @@ function runTables(root, { state, scene, real, code, full }) {
 }
 
 function fractionTables(root, found, names) {
-  const mm = (value) => fixed(1000 * value, 3);
+  const mm = millimetres;
   const tables = [root.querySelector("table.suite"), root.querySelector("table.motions")];
   for (const table of tables) table.hidden = found === null;
   if (found === null) return;
@@ -144,15 +153,15 @@ function fractionTables(root, found, names) {
     ["storey", "goods slide", "model at the fraction", "none attached", "all attached", "slide / model", "slide / none", "slide / all", "slide / larger of model and none"],
     Array.from(found.realByStorey, (real, i) => {
       const [model, bare, full] = [found.modelByStorey[i], found.bareByStorey[i], found.fullByStorey[i]];
-      return [String(i + 1), mm(real), mm(model), mm(bare), mm(full), ...[model, bare, full, Math.max(model, bare)].map((one) => fixed(real / one, 3))];
+      return [String(i + 1), mm(real), mm(model), mm(bare), mm(full), ...[model, bare, full, Math.max(model, bare)].map((one) => fixed(real / one, 2))];
     }),
   );
   fillTable(
     tables[1], "Each motion of the suite on its own: single motions have other shares, several or none",
-    ["motion", "goods slide", "largest drift mm", "first share", "last share"],
+    ["motion", "goods slide", "largest drift % of height", "first share", "last share"],
     names.map((name, i) => [
-      name, found.slides[i] ? "yes" : "no", mm(found.realDrift[i]),
-      ...[found.firstRoot[i], found.lastRoot[i]].map((root) => (Number.isNaN(root) ? "\u2013" : fixed(root, 3))),
+      name, found.slides[i] ? "yes" : "no", fixed(100 * found.realDrift[i], 2),
+      ...[found.firstRoot[i], found.lastRoot[i]].map((root) => (Number.isNaN(root) ? "\u2013" : fixed(root, 2))),
     ]),
   );
 }
@@ -167,11 +176,11 @@ function evenTicks(most) {
 }
 // Returns what puts the dots where a row of the histories is, over the loops that stay as they are.
 function drawLoops(canvas, colours, { state, scene, real, beside }) {
-  const besides = colours[{ code: "code", full: "attached", none: "bare" }[state.beside]];
+  const besides = colours[{ code: "code", share: "code", full: "attached", none: "bare" }[state.beside]];
   const chart = chartOf(canvas, colours);
   if (chart.width === 0) return () => {};
   const n = scene.storeys;
-  const weight = GRAVITY * n;
+  const weight = weightOf(scene);
   const columns = n === 4 && chart.width < 480 ? 2 : n;
   const lines = Math.ceil(n / columns);
   const other = beside === null ? null : beside.run;
@@ -218,7 +227,7 @@ function drawProfile(canvas, colours, { state, scene, real, code, full }) {
   const chart = chartOf(canvas, colours);
   if (chart.width === 0) return;
   const n = scene.storeys;
-  const per = 100 / state.height;
+  const percent = (run) => ratiosOf(run, state).map((ratio) => 100 * ratio);
   const lines = [{ words: "goods slide", run: real, colour: colours.slide, dash: [], thick: 3 }];
   if (real.blocks.length) {
     lines.push(
@@ -227,18 +236,18 @@ function drawProfile(canvas, colours, { state, scene, real, code, full }) {
     );
   }
   const keyEnd = chart.key(lines, 46, 14, chart.width);
-  const most = Math.max(...lines.map(({ run }) => largest(run.peakDrift) * per), 1e-6) * 1.08;
+  const most = Math.max(...lines.map(({ run }) => largest(percent(run))), 1e-6) * 1.08;
   const box = { left: 46, top: keyEnd + 6, right: chart.width - 14, bottom: chart.height - 40 };
   const panel = chart.panel(box, [0, most], [0, n], {
     xTitle: "peak drift (% of the storey height)", yTitle: "floor",
     yTicks: Array.from({ length: n + 1 }, (_, i) => [i, i ? String(i) : "ground"]).map(([i, words]) => [i, i ? words : "0"]),
   });
   for (const { run, colour, dash, thick } of lines.toReversed()) {
-    const points = Array.from(run.peakDrift, (drift, i) => [[per * drift, i], [per * drift, i + 1]]).flat();
+    const points = percent(run).map((drift, i) => [[drift, i], [drift, i + 1]]).flat();
     panel.line(points, { colour, width: thick, dash });
-    run.peakDrift.forEach((drift, i) => panel.dot(per * drift, i + 0.5, colour, 3));
+    percent(run).forEach((drift, i) => panel.dot(drift, i + 0.5, colour, 3));
   }
-  const words = lines.map(({ words: name, run }) => `${name}: ${Array.from(run.peakDrift, (drift) => fixed(per * drift, 2)).join(", ")}`);
+  const words = lines.map(({ words: name, run }) => `${name}: ${percent(run).map((drift) => fixed(drift, 2)).join(", ")}`);
   canvas.setAttribute("aria-label", `Peak drift in per cent of the height, from storey 1. ${words.join("; ")}.`);
 }
 
@@ -259,7 +268,7 @@ function drawCurve(canvas, colours, found, state) {
   const keyEnd = chart.key([
     { words: "mean over the suite", colour: colours.slide },
     { words: "90 % of resamples", colour: colours.slide, fill: 0.25 },
-    { words: "effective fraction", colour: colours.yield },
+    { words: "effective fraction", colour: colours.ink, thick: 3 },
     { words: "code", colour: colours.code, dash: [4, 3] },
   ], 52, 14, chart.width);
   box.top = keyEnd + 4;
@@ -268,9 +277,9 @@ function drawCurve(canvas, colours, found, state) {
   panel.area(points(low), points(high), colours.slide, 0.22);
   panel.line([[0, 1], [1, 1]], { colour: colours.ink, width: 1 });
   panel.line([[state.counted, least - margin], [state.counted, most + margin]], { colour: colours.code, width: 1.5, dash: [4, 3] });
-  panel.line([[found.value, least - margin], [found.value, most + margin]], { colour: colours.yield, width: 1.5 });
+  panel.line([[found.value, least - margin], [found.value, most + margin]], { colour: colours.ink, width: 2 });
   panel.line(points(ratios), { colour: colours.slide, width: 2 });
-  panel.dot(found.value, found.realMean / found.modelMean, colours.yield);
+  panel.dot(found.value, found.realMean / found.modelMean, colours.ink);
   const at = (share) => fixed(ratios[Math.round(100 * share)], 2);
   canvas.setAttribute("aria-label", `Drift with sliding goods over that of the model is ${at(0)} with nothing attached, ${at(state.counted)} with the share of the code and ${at(1)} with all; it is 1 at the effective fraction ${fixed(found.value, 3)}.`);
 }
@@ -281,7 +290,7 @@ function drawRule(canvas, colours, found, bins, rule, state) {
   const keyEnd = chart.key([
     { words: "the rule for this case", colour: colours.ink },
     { words: "other buildings, median, 16 to 84 %", colour: colours.soft, fill: 0.35 },
-    { words: "this case", colour: colours.yield },
+    { words: "this case", colour: colours.slide, thick: 3 },
     { words: "code", colour: colours.code, dash: [4, 3] },
   ], 46, 14, chart.width);
   const most = 2;
@@ -305,12 +314,12 @@ function drawRule(canvas, colours, found, bins, rule, state) {
   }
   const eta = Math.min(found.eta, most);
   if (found.shares) {
-    panel.line([[eta, found.low], [eta, found.high]], { colour: colours.yield, width: 3 });
-    panel.dot(eta, found.value, colours.yield, 5);
+    panel.line([[eta, found.low], [eta, found.high]], { colour: colours.slide, width: 3 });
+    panel.dot(eta, found.value, colours.slide, 5);
   } else {
-    panel.line([[eta, 0], [eta, 1.04]], { colour: colours.yield, width: 1.2, dash: [2, 3] });
+    panel.line([[eta, 0], [eta, 1.04]], { colour: colours.slide, width: 1.2, dash: [2, 3] });
   }
-  if (found.eta > most) chart.text(`eta = ${general(found.eta, 3)} \u2192`, box.right - 4, panel.y(0.9), { size: 11, align: "right", colour: colours.yield });
+  if (found.eta > most) chart.text(`eta = ${general(found.eta, 3)} \u2192`, box.right - 4, panel.y(0.9), { size: 11, align: "right", colour: colours.slide });
   const where = found.shares ? `effective fraction ${fixed(found.value, 2)}, interval ${fixed(found.low, 2)} to ${fixed(found.high, 2)}` : "effective fraction not solved yet";
   canvas.setAttribute("aria-label", `This case has eta ${fixed(found.eta, 2)}: ${where}; the rule by hand gives ${fixed(rule.estimate, 2)}, the code's share ${fixed(state.counted, 2)}.`);
 }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Final, Literal, TypeAlias, get_args
 
@@ -10,68 +10,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seismass import _kernel
-from seismass.base.errors import InvalidMotion, InvalidOption, SimulationError
+from seismass.base.arguments import Progress, ProgressLike, as_progress, as_threads, as_word
+from seismass.base.errors import InvalidMotion, SimulationError
 from seismass.base.statistics import DRIFT_CAP, capped
-from seismass.base.values import FloatArray, as_list, as_progress, as_threads, brief, is_one_of, refusal
+from seismass.base.values import FloatArray, as_list, refusal
 from seismass.model.scene import Scene
 from seismass.motions.motion import HasMotion, Motion, as_motion, motion_names
 from seismass.motions.records.pair import Pair
-from seismass.runs.plane import motions_in_plane
+from seismass.runs.batch import Solved, solve_engine
+from seismass.runs.plane import PlaneMotion, motions_in_plane
 
 DriftMeasure: TypeAlias = Literal["larger", "vector", "x", "y"]
 """What counts as the drift of a storey in two directions: the larger of its peaks in x and in y, the peak length of its
 vector, or the peak in one direction."""
 LARGER: Final[DriftMeasure] = "larger"
 
-Progress: TypeAlias = Callable[[int, int], object]
-"""Called with (runs done, runs in all)."""
-Solved: TypeAlias = tuple[_kernel.Batch, FloatArray, FloatArray]
-"""A batch whose lists of blocks and whose ends hold for all directions, peak drifts and peak base shears (runs,)."""
-
 
 def check_drift(drift: Any, owner: str) -> DriftMeasure:
     """Return a measure of drift in two directions."""
-    if not is_one_of(drift, get_args(DriftMeasure)):
-        raise refusal(InvalidOption, "drift", owner, "larger, vector, x or y", brief(drift))
-    checked: DriftMeasure = drift
+    checked: DriftMeasure = as_word(drift, get_args(DriftMeasure), "drift", owner)
     return checked
-
-
-def solve_plane(
-    scenes: Sequence[Scene],
-    pairs: tuple[Sequence[Motion], Sequence[Motion]],
-    runs: NDArray[np.int64],
-    measure: DriftMeasure,
-    threads: int | None,
-    progress: Progress | None,
-) -> Solved:
-    """Solve scenes in two directions, with friction on the circle; `runs` has rows of scene and motion. The base shear
-    is that of the direction `measure`; of "larger" and "vector" the mean of both.
-    """
-    (vector, _), (x, of_x), (y, of_y) = _kernel.simulate_many_plane(
-        [scene._plane_scene for scene in scenes if scene._plane_scene is not None],
-        [motion._kernel for motion in pairs[0]],
-        [motion.acceleration for motion in pairs[1]],
-        runs,
-        threads=threads,
-        progress=progress,
-    )
-    shear = {"x": of_x.peak_base_shear, "y": of_y.peak_base_shear}
-    both = 0.5 * (of_x.peak_base_shear + of_y.peak_base_shear)
-    drift = {"x": x.peak_drift, "y": y.peak_drift, "vector": vector.peak_drift}
-    drift["larger"] = np.maximum(x.peak_drift, y.peak_drift)
-    return vector, drift[measure], shear.get(measure, both)
-
-
-def are_uncoupled(scenes: Sequence[Scene], measure: DriftMeasure) -> bool:
-    """Whether each direction can be solved by itself: no goods couple them, and no drift is of the vector."""
-    return measure != "vector" and not any(scene.goods for scene in scenes)
-
-
-def in_directions(scenes: Sequence[Scene]) -> tuple[list[Scene], list[Scene]]:
-    """Return scenes in two directions as those in x and those in y."""
-    both = [scene._directions() for scene in scenes]
-    return [x for x, _ in both], [y for _, y in both]
 
 
 _STATUS = _kernel.Batch.status_names()
@@ -95,6 +53,11 @@ class NamedMotions:
     def components(self) -> list[Motion]:
         """All motions, those in y after those in x."""
         return [*self.motions, *(self.others or ())]
+
+    @property
+    def of_runs(self) -> Sequence[Motion | PlaneMotion]:
+        """The motions as runs take them: of pairs both."""
+        return self.motions if self.others is None else list(zip(self.motions, self.others, strict=True))
 
     def direction(self, axis: int) -> NamedMotions:
         """Return the motions of pairs in one direction: 0, in x; 1, in y."""
@@ -186,22 +149,18 @@ def solve(
     drift: DriftMeasure = LARGER,
     drift_cap: float = DRIFT_CAP,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: ProgressLike = None,
 ) -> Peaks:
     """Solve scenes of equal number of storeys, all of one engine, under all motions. Scenes in two directions take
     pairs, and `drift` says which counts; without goods each is solved alone. There is no cap without heights.
     """
     threads, progress = as_threads(threads, "runs"), as_progress(progress, "runs")
-    if scenes[0].engine == "plane" and are_uncoupled(scenes, drift):
+    if scenes[0].engine == "plane" and drift != "vector" and not any(scene.goods for scene in scenes):
         return _directions_apart(scenes, motions, drift, drift_cap, threads, progress)
     count, storeys = len(motions), scenes[0].storeys
-    runs = np.stack(np.divmod(np.arange(len(scenes) * count), count), axis=1)
-    if scenes[0].engine == "plane":
-        pairs = (motions.motions, motions.others or [])
-        batch, peak_drift, base_shear = solve_plane(scenes, pairs, runs, drift, threads, progress)
-    else:
-        batch, base_shear = _batch(scenes, motions, runs, threads, progress)
-        peak_drift = batch.peak_drift
+    rows = np.stack(np.divmod(np.arange(len(scenes) * count), count), axis=1)
+    solved = solve_engine(scenes, motions.of_runs, rows, peaks_only=True, threads=threads, progress=progress)
+    batch, peak_drift, base_shear = solved[0][0], *_of_measure(solved, drift)
     for run, reason in batch.failures:
         name = motions.names[run % count]
         raise SimulationError(f"run under motion {run % count + 1} ({name}) must reach its end; got: {reason}")
@@ -226,25 +185,22 @@ def _directions_apart(
     drift: DriftMeasure,
     drift_cap: float,
     threads: int | None,
-    progress: Progress | None,
+    progress: ProgressLike,
 ) -> Peaks:
     """Peaks of scenes in two directions without goods, of one direction or of the larger of both."""
     axes = {"x": (0,), "y": (1,)}.get(drift, (0, 1))
-    total = len(scenes) * len(motions)
-
-    def progress_from(first: int) -> Progress | None:
-        return None if progress is None else lambda done, _: progress((first + done) // len(axes), total)
-
-    pairs = in_directions(scenes)
+    pairs = [[scene._directions()[axis] for scene in scenes] for axis in axes]
+    call = None if progress is None else lambda done, total: progress(done // len(axes), total // len(axes))
+    whole = Progress(call, len(axes) * len(scenes) * len(motions), "runs")
     parts = [
         solve(
-            pairs[axis],
+            of_axis,
             motions.direction(axis),
             drift_cap=drift_cap,
             threads=threads,
-            progress=progress_from(number * total),
+            progress=whole.part(len(scenes) * len(motions)),
         )
-        for number, axis in enumerate(axes)
+        for of_axis, axis in zip(pairs, axes, strict=True)
     ]
     if len(parts) == 1:
         return parts[0]
@@ -258,25 +214,26 @@ def _directions_apart(
     )
 
 
-def _batch(
-    scenes: Sequence[Scene],
-    motions: NamedMotions,
-    runs: NDArray[np.int64],
-    threads: int | None,
-    progress: Progress | None,
-) -> tuple[_kernel.Batch, FloatArray]:
-    """What the engine of the scenes gives back, and the peak base shear of each run (N)."""
-    shakings = [motion._kernel for motion in motions.motions]
-    general = [scene._general_scene for scene in scenes if scene._general_scene is not None]
-    if general:
-        batch, racks = _kernel.simulate_many_general(general, shakings, runs, threads=threads, progress=progress)
-        return batch, racks.peak_base_shear
-    kernels = [scene._kernel for scene in scenes]
-    batch = _kernel.simulate_many(kernels, shakings, runs, peaks_only=True, threads=threads, progress=progress)
-    shear = np.zeros(len(runs))
+def _of_measure(solved: Solved, measure: DriftMeasure) -> tuple[FloatArray, FloatArray]:
+    """Peak drifts and base shears of runs. In two directions the base shear is that of the direction `measure`; of
+    "larger" and "vector" the mean of both.
+    """
+    drifts, shears = [one.peak_drift for one, _ in solved], [_base_shear(*one) for one in solved]
+    if len(solved) == 1:
+        return drifts[0], shears[0]
+    (vector, x, y), (_, of_x, of_y) = drifts, shears
+    drift = {"x": x, "y": y, "vector": vector, "larger": np.maximum(x, y)}
+    return drift[measure], {"x": of_x, "y": of_y}.get(measure, 0.5 * (of_x + of_y))
+
+
+def _base_shear(batch: _kernel.Batch, racks: _kernel.RackColumns | None) -> FloatArray:
+    """Peak base shear of each run (N): of the chain that of storey 1."""
+    if racks is not None:
+        return racks.peak_base_shear
+    shear = np.zeros(len(batch.storeys))
     solved = batch.storeys > 0
     shear[solved] = batch.peak_storey_shear[(np.cumsum(batch.storeys) - batch.storeys)[solved]]
-    return batch, shear
+    return shear
 
 
 def _slides(scenes: Sequence[Scene], batch: _kernel.Batch, count: int) -> NDArray[np.bool_]:
@@ -292,18 +249,3 @@ def _slides(scenes: Sequence[Scene], batch: _kernel.Batch, count: int) -> NDArra
             slides[number] = flags[:, on_floor].any(axis=1)
         first += count * blocks
     return slides
-
-
-class Stages:
-    """Progress of several batches as progress of one whole."""
-
-    def __init__(self, progress: Progress | None, total: int) -> None:
-        self._progress = as_progress(progress, "runs")
-        self._total = total
-        self._done = 0
-
-    def next(self, runs: int) -> Progress | None:
-        """Return the progress of the next batch, of so many runs."""
-        first, self._done = self._done, self._done + runs
-        progress, total = self._progress, self._total
-        return None if progress is None else lambda done, _: progress(min(first + done, total), total)
