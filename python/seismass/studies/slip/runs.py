@@ -117,7 +117,7 @@ class EstimateRow:
 
 @dataclass(frozen=True, slots=True)
 class SlipRuns:
-    """Runs under one motion, arrays of shape (blocks,), or under all, (motions, blocks), in SI units; `collapsed` has no
+    """Runs under one motion, arrays of shape (blocks,), or under all, (motions, blocks), in SI; `collapsed` has no
     blocks, `demand` is abs(a)/(g + a_v). In `plane` they are lengths, `plus` and `minus` in x, without estimates.
     """
 
