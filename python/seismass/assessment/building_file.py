@@ -322,6 +322,8 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
     """The building of a file in one direction."""
     units = top.choice("units", SYSTEMS) if "units" in top.values else ""
     storeys = top.tables("storeys")
+    sources = sources_of(top.values)
+    is_us = units == US or (not units and any(key in text for _, text in sources for key in _US))
     if not storeys:
         top.refuse("storeys", "a table per storey, storey 1 first", "none")
     for storey in storeys:
@@ -418,8 +420,10 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
         drift_cap=np.inf if heights is None else building.number("drift_cap", DRIFT_CAP, POSITIVE),
         scaling_period=_optional(building, "scaling_period_s"),
         path=path,
+        file_sha256=top.sha256,
+        units=US if is_us else SI,
         project=project_of(project),
-        sources=sources_of(top.values),
+        sources=sources,
         walls=None if wall_matrix is None else wall_matrix.matrix,
         walls_stated="" if wall_matrix is None else wall_matrix.how,
         base=base_of(base),

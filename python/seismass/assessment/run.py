@@ -45,7 +45,7 @@ from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.digest import metadata_head, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.files import without_formulas
-from seismass.base.statistics import bootstrap_counts
+from seismass.base.statistics import bootstrap_counts, few_collapses
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.design.scaling import ScalingResult
 from seismass.effective_mass.models import DEFAULT_FRACTIONS, SHARES_BEYOND, check_cap, goes_beyond
@@ -211,7 +211,12 @@ def assess(
     doubts = (*doubts_of(stated, sliding_scene, scaled, spectrum, storeys), *motion_doubts(left_out, effective))
     tables = (storeys, governing, runs, left_out, collapses, slip, amounts)
     tipping = tipping_table(stated, sliding_scene, scaled)
-    answer = answer_of(stated, advised, effective, design, *tables, (tipping, tuple(of_models)), facts, scaling, doubts)
+
+    def remedy() -> str:
+        return "" if in_plane else _remedy(stated, spectrum, scaled, names, threads)
+
+    cases = (tipping, tuple(of_models))
+    answer = answer_of(stated, advised, effective, design, *tables, cases, facts, scaling, doubts, remedy)
     return Assessment(
         building=stated,
         target=spectrum,
@@ -253,6 +258,33 @@ def assess(
             "motions": len(suite),
         },
     )
+
+
+STRONGER: Final = (1.25, 1.5, 2.0, 3.0)
+"""Factors of the strengths that are tried where runs collapse."""
+
+
+def _remedy(
+    building: OwnBuilding, target: TargetSpectrum | None, motions: list[Any], names: list[str], threads: int | None
+) -> str:
+    """The least of a few factors of the strengths with which few enough runs of every model collapse."""
+    tried = [factor for factor in STRONGER if building.design is None or factor <= building.design.R]
+    for factor in tried:
+        changes: dict[str, Any] = {}
+        if building.design is not None:
+            changes["design"] = replace(building.design, R=building.design.R / factor)
+        if building.yield_shear is not None:
+            changes["yield_shear"] = factor * building.yield_shear
+        stronger = replace(building, **changes)
+        runs, _ = solve_models(stronger, compared_models(stronger, target, None), motions, names, threads=threads)
+        worst = max(collapses_of(runs).values())
+        if few_collapses(worst, len(motions)):
+            how = "" if stronger.design is None else f", R = {stronger.design.R:.3g},"
+            return (
+                f"With strengths {factor:g} times as large{how} there is an answer: models collapse under at most "
+                f"{worst} of {len(motions)} motions"
+            )
+    return f"Strengths {tried[-1]:g} times as large give no answer either" if tried else ""
 
 
 def _building(source: Any, code: CodeFraction | None, mu_factors: tuple[float, float] | None) -> OwnBuilding:

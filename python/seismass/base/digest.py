@@ -13,8 +13,8 @@ import numpy as np
 from seismass import _kernel
 from seismass.base.values import Value
 
-LABELS: Final = frozenset({"name", "note", "path", "project", "sources"})
-"""Fields that no number depends on: what something is called, and which file and keys state it."""
+LABELS: Final = frozenset({"file_sha256", "name", "note", "path", "project", "sources", "units"})
+"""Fields that no number depends on: what something is called, which file and keys state it, and how it is shown."""
 
 
 def inputs_digest(*inputs: Any) -> str:

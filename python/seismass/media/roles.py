@@ -46,6 +46,11 @@ class Role:
         """Colour and marker without a line, likewise."""
         return {"color": self.colour, "marker": self.marker, "linestyle": ""}
 
+    @property
+    def band(self) -> dict[str, Any]:
+        """A paler area, for a bar of matplotlib."""
+        return {"color": self.colour, "alpha": 0.3, "linewidth": 0.0}
+
 
 SLIDE: Final = Role("goods slide", BLUE, "#0072b2", "#62b6f0")
 CODE: Final = Role("code", VERMILION, "#b34700", "#ff9a5c", (0, (5, 2)), "s")
