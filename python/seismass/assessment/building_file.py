@@ -263,7 +263,6 @@ KEYS: Final = {
 """Keys of each table of a building file, the file itself first."""
 US_KEYS: Final = {kind: tuple(row.us for row in UNIT_KEYS if row.us and kind in row.tables) for kind in KEYS}
 """Keys in US units, in place of those in SI units."""
-US_WORDS: Final = {key for keys in US_KEYS.values() for key in keys}
 
 
 def example_file() -> Path:
@@ -324,9 +323,7 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
     units = top.choice("units", SYSTEMS) if "units" in top.values else ""
     storeys = top.tables("storeys")
     sources = sources_of(top.values)
-    is_us = units == US or (
-        not units and any(key in text for _, text in sources for keys in US_KEYS.values() for key in keys)
-    )
+    is_us = units == US or (not units and any(row.us and row.us in text for _, text in sources for row in UNIT_KEYS))
     if not storeys:
         top.refuse("storeys", "a table per storey, storey 1 first", "none")
     for storey in storeys:

@@ -118,8 +118,8 @@ class EstimateRow:
 
 @dataclass(frozen=True, slots=True)
 class SlipRuns:
-    """Runs under one motion, arrays of shape (blocks,), or under all, (motions, blocks), in SI units; `collapsed` has
-    no blocks, `demand` is abs(a)/(g + a_v). In `plane` they are lengths, `plus` and `minus` in x, without estimates.
+    """Runs under one motion, arrays of shape (blocks,), or under all, (motions, blocks), in SI; `collapsed` has no
+    blocks, `demand` is abs(a)/(g + a_v). In `plane` they are lengths, `plus` and `minus` in x, without estimates.
     """
 
     peak: FloatArray
