@@ -143,9 +143,9 @@ def kinds(place: Path) -> list[Kind]:
     found.append(Kind("archive of records", "records.zip", packed.getvalue(), sm.read_suite))
     if shutil.which("node"):
         link = b"v=1&by=design&m=synthetic-1&d=code&n=3&T=0.47&z=0.05&O=2&r2=0.05&h=3.5&R=4&V=0.34,0.27,0.13&a=1,1,0"
-        found.append(
-            Kind("link of the live page", "link.txt", link + b"&s=0.2,0.2,0.2&k=0.2,0.2,0.2&x=1&c=0.25", Links())
-        )
+        of_file = b"&r3=0&M=1.1,1.1,0.8&K=1,1,0.7&P=1&o=0.8&y=1&g=1,1,1,1,1,1,2&F=0.5,0.1,0.8,7&W=kinds"
+        text = link + b"&s=0.2,0.2,0.2&k=0.2,0.2,0.2&x=1&c=0.25" + of_file
+        found.append(Kind("link of the live page", "link.txt", text, Links()))
     return found
 
 
@@ -208,7 +208,8 @@ class Links:
     PROGRAM = """
         const vm = require("vm"), fs = require("fs");
         const names = "{ caseOf, sceneOf, sceneFile, strengthsOf, addressOf, LIMITS, LISTS }";
-        vm.runInThisContext(fs.readFileSync(process.argv[1], "utf8") + ";globalThis.page = " + names);
+        const sources = process.argv.slice(1).map((file) => fs.readFileSync(file, "utf8")).join("");
+        vm.runInThisContext(sources + ";globalThis.page = " + names);
         const record = { name: "a", dt: 0.01, unit: "g", values: [0.1, -0.1] };
         require("readline").createInterface({ input: process.stdin }).on("line", (line) => {
           let said;
@@ -220,7 +221,8 @@ class Links:
             const again = page.caseOf(page.addressOf(state));
             if (again.remarks.length) throw new Error(again.remarks[0]);
             const scene = page.sceneOf(state, page.strengthsOf(state, [1, 1, 1, 1].slice(0, state.storeys)));
-            const words = { height: state.height, record, scale: state.intensity, note: "" };
+            const stiffness = scene.stiffness.map((shape) => 100 * shape);
+            const words = { stiffness, record, scale: state.intensity, note: "" };
             said = { file: page.sceneFile(scene, words), remarks };
           } catch (error) {
             said = { error: String(error) };
@@ -230,8 +232,8 @@ class Links:
     """
 
     def __init__(self) -> None:
-        case = Path(sm.__file__).parent / "show" / "explore" / "templates" / "case.js"
-        command = ["node", "-e", self.PROGRAM, str(case)]
+        templates = Path(sm.__file__).parent / "show" / "explore" / "templates"
+        command = ["node", "-e", self.PROGRAM, *(str(templates / name) for name in ("record.js", "case.js"))]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         atexit.register(self.process.kill)
 

@@ -730,12 +730,15 @@ def test_it_plays_when_it_is_opened_unless_less_motion_is_preferred(html: str, o
         until(page, f"{SHOWN} >= 2")
         assert page.evaluate(clock) >= before
         page.locator(".play").click()
-        assert page.evaluate(loops) != drawn
+        page.locator(".loops").scroll_into_view_if_needed()
+        until(page, f"{loops} !== '{drawn}'")
     with open_page(html, "explorer", reduced_motion="reduce") as page:
         settled(page)
         still = page.evaluate(clock)
         page.wait_for_timeout(200)
         assert page.evaluate(clock) == still == pytest.approx(float(rows(page, "storeys")[0][3]), abs=0.006)
+        page.locator(".loops").scroll_into_view_if_needed()
+        page.wait_for_timeout(100)
         drawn = page.evaluate(loops)
         page.locator(".time").evaluate("e => { e.value = 9.5; e.dispatchEvent(new Event('input')); }")
         assert page.evaluate(loops) != drawn

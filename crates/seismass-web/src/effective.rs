@@ -13,7 +13,7 @@ use crate::scatter::{Resamples, percentiles};
 use crate::sections::sections;
 
 /// Intervals between the shares 0 and 1 at which models are solved.
-const INTERVALS: usize = 100;
+const INTERVALS: usize = 20;
 /// Ends of the interval of 90 %.
 const ENDS: [f64; 2] = [0.05, 0.95];
 
@@ -247,7 +247,7 @@ mod tests {
 
     fn answer(mu: f64) -> Vec<f64> {
         let mut search = Search::new(case(mu), vec![motion()]).unwrap();
-        assert_eq!(search.solve(40).unwrap(), 61);
+        assert_eq!(search.solve(15).unwrap(), 6);
         assert!(search.answer(&Resamples::default()).is_err());
         assert_eq!(search.solve(100).unwrap(), 0);
         let found = search.answer(&Resamples::new(1, &[1.0])).unwrap();

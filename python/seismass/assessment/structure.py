@@ -135,7 +135,7 @@ def force_ratios(scene: Scene, motions: list[Any]) -> FloatArray:
         response = simulate(scene, getattr(motion, "motion", motion), histories=True, events=False)
         forces = response.floor_velocity @ matrix.T
         damping = np.cumsum(forces[:, ::-1], axis=1)[:, ::-1]
-        springs = response.storey_force
+        springs = response.storey_shear
         spring = np.abs(springs).max(axis=0)
         both = np.abs(springs + damping).max(axis=0)
         ratios.append(np.divide(both, spring, out=np.ones(len(spring)), where=spring > 0.0))

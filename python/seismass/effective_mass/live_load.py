@@ -49,6 +49,8 @@ LEVELS: Final = (0.05, 0.16, 0.50, 0.84, 0.95)
 """Probabilities at which the share is tabulated."""
 TORNADO_LEVELS: Final = (0.05, 0.95)
 """Probabilities to which one variable at a time is moved, the others at their medians."""
+SHARES: Final = np.linspace(0.0, 1.0, 101)
+"""Shares of the models; those of the samples are linear between them, and not refined."""
 RESAMPLES: Final = 2000
 """Bootstrap resamples over the records."""
 
@@ -213,7 +215,7 @@ def live_load_uncertainty(
     owner = "live load uncertainty"
     checked = check_loaded(scene)
     named = named_motions(motions, owner)
-    shares = check_fractions(fractions, owner)
+    shares = SHARES if fractions is None else check_fractions(fractions, owner)
     convention = check_damping(damping, owner)
     count = as_count(samples, "samples", owner, InvalidOption, least=2)
     start = as_count(seed, "seed", owner, InvalidOption)

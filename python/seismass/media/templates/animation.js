@@ -537,6 +537,7 @@
   // ---- player -----------------------------------------------------------------------------------------------------
   let time = 0;
   let since = null; // the time of the last frame on the screen while it plays
+  let isInSight = true; // the histories, which are drawn where they are seen
 
   function draw() {
     if (data === null) return;
@@ -545,7 +546,7 @@
     if (width === 0) return;
     const each = width / runs.length;
     runs.forEach((run, i) => drawBuilding(context, run, i * each, each, height, at, Number(factor.value) || data.factor));
-    drawPlots(at);
+    if (isInSight) drawPlots(at);
     slider.value = String(time);
     slider.setAttribute("aria-valuetext", `${time.toFixed(1)} of ${END.toFixed(1)} seconds`);
     clock.textContent = `${time.toFixed(2)} of ${END.toFixed(1)} s`;
@@ -613,7 +614,10 @@
   (alone ? document : root).addEventListener("keydown", keys);
 
   dark.addEventListener("change", redraw);
-  window.addEventListener("beforeprint", () => requestAnimationFrame(redraw));
+  window.addEventListener("beforeprint", () => {
+    isInSight = true;
+    requestAnimationFrame(redraw);
+  });
   window.addEventListener("afterprint", redraw);
   const resized = new ResizeObserver(() => {
     backdrop = null;
@@ -621,6 +625,10 @@
   });
   resized.observe(root);
   resized.observe(buildings);
+  new IntersectionObserver(([entry]) => {
+    isInSight = entry.isIntersecting;
+    if (isInSight) draw();
+  }).observe(plots);
   const stored = JSON.parse(root.querySelector('script[type="application/json"]').textContent);
   if (stored !== null) open(stored);
   // For a page that solves while it is shown: other runs, at the time that is shown or another one; where things stand in

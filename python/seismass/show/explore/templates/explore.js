@@ -14,7 +14,7 @@
   const FILM = 8; // s
   const PUSHED = "your push";
   const STEP = 1000; // ms between two cases that Back and Undo return to
-  const SHARES = 101;
+  const SHARES = 21;
   const LARGEST_DRAWN = 2; // goods over floor mass of the largest block that is drawn; heavier ones are drawn relative to the heaviest
 
   let kernel = null;
@@ -392,16 +392,26 @@
   }
   let time = 0;
   let putDots = () => {};
-  function drawRun() {
+  // Figures that are out of sight are drawn after a pause.
+  const inSight = new Set();
+  const sight = new IntersectionObserver((entries) => {
+    for (const { target, isIntersecting } of entries) inSight[isIntersecting ? "add" : "delete"](target);
+    redraw(false);
+  });
+  for (const canvas of [...all(".chart"), one(".race")]) sight.observe(canvas);
+  const isDrawn = (name, even) => even || inSight.has(one(name));
+  function drawRun(even) {
     const palette = colours();
-    putDots = drawLoops(one(".loops"), palette, solved);
-    putDots(time / seconds(solved.record, solved.every));
-    drawProfile(one(".profile"), palette, solved);
+    if (isDrawn(".loops", even)) {
+      putDots = drawLoops(one(".loops"), palette, solved);
+      putDots(time / seconds(solved.record, solved.every));
+    }
+    if (isDrawn(".profile", even)) drawProfile(one(".profile"), palette, solved);
   }
-  function drawFraction() {
+  function drawFraction(even) {
     const palette = colours();
-    drawCurve(one(".curve"), palette, found, state);
-    drawRule(one(".rule"), palette, found, given.bins, solved.rule, state);
+    if (isDrawn(".curve", even)) drawCurve(one(".curve"), palette, found, state);
+    if (isDrawn(".rule", even)) drawRule(one(".rule"), palette, found, given.bins, solved.rule, state);
   }
   function sayFraction() {
     const place = one(".fraction");
@@ -429,6 +439,7 @@
   function sayStory() {
     const [says, asks] = [one(".story"), one(".asks")];
     says.hidden = asks.hidden = story === null;
+    one(".next").textContent = story === null ? "Tell the first" : story === STORIES.at(-1) ? "Tell the first again" : "Tell the next";
     for (const [i, button] of all(".stories button").entries()) button.setAttribute("aria-pressed", String(STORIES[i] === story));
     if (story === null) return;
     const facts = isFound() ? factsOf(found, solved.state) : null;
@@ -474,18 +485,18 @@
     const numbers = caseNumbers(state);
     if (numbers !== sought || !isFound()) {
       if (worker !== null) worker.postMessage({ number });
-      const isDrawn = found !== null && state.beside === "share";
+      const isBeside = found !== null && state.beside === "share";
       found = null;
-      if (isDrawn) solved = solve();
+      if (isBeside) solved = solve();
     }
     sought = numbers;
     fill();
     showSentence();
     showHandles(loaded().filter((i) => state.massRatio[i] > 0), state.storeys);
     player.show(animated(solved), startAt());
-    drawRun();
+    drawRun(false);
     runTables(root, solved);
-    drawFraction();
+    drawFraction(false);
     sayFraction();
     clearTimeout(timer);
     timer = setTimeout(settle, PAUSE);
@@ -504,6 +515,8 @@
     return solved.real.peakDriftTime[solved.counter] - (stillness.matches ? 0 : BEFORE_PEAK);
   }
   function settle() {
+    drawRun(true);
+    drawFraction(true);
     say();
     followAddress();
     solveRace();
@@ -528,9 +541,9 @@
     if (answer !== undefined && state.beside === "share") {
       solved = solve();
       player.show(animated(solved));
-      drawRun();
+      drawRun(true);
     }
-    if (error === undefined && (begun !== undefined || answer !== undefined)) drawFraction();
+    if (error === undefined && (begun !== undefined || answer !== undefined)) drawFraction(true);
     sayFraction();
     if (answer !== undefined) say();
     if (answer !== undefined || error !== undefined) root.dataset.found = String(number);
@@ -538,23 +551,23 @@
 
   player.addEventListener("time", (event) => {
     time = event.detail;
-    if (isRaceSeen) showRace();
-    if (solved !== null) putDots(time / seconds(solved.record, solved.every));
+    if (inSight.has(one(".race"))) showRace();
+    if (solved !== null && inSight.has(one(".loops"))) putDots(time / seconds(solved.record, solved.every));
   });
-  const redraw = () => {
+  function redraw(even = true) {
     placeTicks(one(".ticks"));
     if (solved === null) return;
-    drawRun();
-    drawFraction();
+    drawRun(even);
+    drawFraction(even);
     showRace();
-  };
-  dark.addEventListener("change", redraw);
+  }
+  dark.addEventListener("change", () => redraw());
   window.addEventListener("beforeprint", () => {
     for (const folded of all(".rest details")) folded.open = true;
     redraw();
   });
-  window.addEventListener("afterprint", redraw);
-  new ResizeObserver(redraw).observe(one(".rest"));
+  window.addEventListener("afterprint", () => redraw());
+  new ResizeObserver(() => redraw()).observe(one(".rest"));
 
   // ---- the building is the control ----------------------------------------------------------------------------------
   const stage = one(".stage");
@@ -617,8 +630,6 @@
     const chart = chartOf(one(".race"), colours());
     drawRace(chart.context, chart, race, time, colours());
   }
-  let isRaceSeen = false;
-  new IntersectionObserver(([entry]) => (isRaceSeen = entry.isIntersecting)).observe(one(".race"));
   const card = (at) => ({
     title: `${one(".share").textContent} of the goods act as mass${isFound() ? "" : ", by the rule by hand"}`, winner: one(".winner").textContent, race, time: at, colours: colours(),
     sentence: Array.from(one(".sentence").childNodes, (node) => (node.localName === "small" || node.hidden ? "" : node.textContent)).join("").trim(),
@@ -717,14 +728,16 @@
   }
   one(".stories").replaceChildren(...STORIES.map((step, i) => {
     const button = Object.assign(document.createElement("button"), { type: "button", textContent: `${i + 1} ${step.name}` });
-    button.addEventListener("click", () => {
-      stepped = -Infinity;
-      story = step;
-      isToldAnew = true;
-      open(step.address);
-    });
+    button.addEventListener("click", () => tell(step));
     return button;
   }));
+  function tell(step) {
+    stepped = -Infinity;
+    story = step;
+    isToldAnew = true;
+    open(step.address);
+  }
+  one(".next").addEventListener("click", () => tell(STORIES[(STORIES.indexOf(story) + 1) % STORIES.length]));
 
   start().catch((error) => {
     complain(`The kernel could not be started: ${error.message}. The page needs a newer browser: Chromium 120, Firefox 117, Safari 17.2 or later.`);

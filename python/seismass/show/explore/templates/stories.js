@@ -5,9 +5,7 @@ function factsOf(found, state) {
   const top = state.storeys - 1;
   const motions = found.slides.length;
   const slides = found.slides.reduce((sum, one) => sum + one, 0);
-  const at = 100 * state.counted;
-  const [low, high] = [Math.floor(at + 1e-9), Math.min(Math.ceil(at - 1e-9), 100)];
-  const model = found.model[low] + (found.model[high] - found.model[low]) * Math.max(0, at - low);
+  const model = valueAt(state.counted, found.model);
   return {
     share: found.value, counted: state.counted, motions, slides, code: model / found.realMean, storeys: state.storeys,
     roof: found.realByStorey[top] / found.modelByStorey[top],

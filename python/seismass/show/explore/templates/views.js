@@ -11,6 +11,12 @@ function general(value, digits) {
   return `${Number(mantissa)}e${sign}${String(Math.abs(power)).padStart(2, "0")}`.replaceAll("-", MINUS);
 }
 const per100 = (share) => `${fixed(100 * share, 0)} %`;
+// A value at a share between those that were solved, which have equal distances from 0 to 1.
+function valueAt(share, values) {
+  const at = share * (values.length - 1);
+  const low = Math.min(Math.floor(at), values.length - 2);
+  return values[low] + (values[low + 1] - values[low]) * (at - low);
+}
 const largest = (list) => list.reduce((most, value) => Math.max(most, value), 0);
 const place = (list) => list.reduce((best, value, i) => (value > list[best] ? i : best), 0);
 const listed = (words) => (words.length < 2 ? words.join("") : `${words.slice(0, -1).join(", ")} and ${words.at(-1)}`);
@@ -280,7 +286,7 @@ function drawCurve(canvas, colours, found, state) {
   panel.line([[found.value, least - margin], [found.value, most + margin]], { colour: colours.ink, width: 2 });
   panel.line(points(ratios), { colour: colours.slide, width: 2 });
   panel.dot(found.value, found.realMean / found.modelMean, colours.ink);
-  const at = (share) => fixed(ratios[Math.round(100 * share)], 2);
+  const at = (share) => fixed(valueAt(share, ratios), 2);
   canvas.setAttribute("aria-label", `Drift with sliding goods over that of the model is ${at(0)} with nothing attached, ${at(state.counted)} with the share of the code and ${at(1)} with all; it is 1 at the effective fraction ${fixed(found.value, 3)}.`);
 }
 
