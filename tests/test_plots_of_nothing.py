@@ -105,7 +105,7 @@ def test_the_figure_of_a_slip_demand_is_no_wider_than_a_page() -> None:
     assert [len(figure.axes) for figure in (two, three)] == [2, 3]
     for figure in (two, three):
         assert figure.legends
-        assert "mm of slip at 84 % of the motions" in figure.get_suptitle()
+        assert "mm of slip at 84 % of the motions" in figure.axes[0].get_title(loc="left")
 
 
 def test_demands_and_fragilities_of_nothing() -> None:

@@ -323,7 +323,7 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
     units = top.choice("units", SYSTEMS) if "units" in top.values else ""
     storeys = top.tables("storeys")
     sources = sources_of(top.values)
-    is_us = units == US or (not units and any(key in text for _, text in sources for key in _US))
+    is_us = units == US or (not units and any(row.us and row.us in text for _, text in sources for row in UNIT_KEYS))
     if not storeys:
         top.refuse("storeys", "a table per storey, storey 1 first", "none")
     for storey in storeys:

@@ -96,6 +96,7 @@ def _hazard(axes: Axes, other: Axes, result: RiskTargetedShare) -> None:
     other.set_ylim(0.0, 1.0)
     known = result.capacities["capacity"].to_numpy()
     for panel in (axes, other):
+        panel.xaxis.set_minor_formatter(NullFormatter())
         panel.set_xlim(max(hazard.sa_g[0], 0.5 * known.min()), min(hazard.sa_g[-1], 1.5 * known.max()))
     other.set_ylabel("probability")
     other.set_title(f"Probability of {result.limit.text}", loc="left")

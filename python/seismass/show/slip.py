@@ -68,8 +68,8 @@ def slip_demand_figure(result: SlipDemand, name: str | None = None) -> Figure:
     worst = result.blocks.sort("p84", nulls_last=True, descending=True).row(0, named=True)
     place = "the ground" if worst["floor"] == 0 else f"floor {worst['floor']}"
     known = worst["p84"] is not None and math.isfinite(worst["p84"])
-    said = f"{1e3 * worst['p84']:.0f} mm of slip at 84 % of the motions" if known else "runs that collapse"
-    figure.suptitle(f"Block {worst['block']} on {place} has the most: {said}", fontsize=9.5)
+    words = f"{1e3 * worst['p84']:.0f} mm of slip at 84 % of the motions" if known else "runs that collapse"
+    axes[0].set_title(f"Block {worst['block']} on {place}: {words}", loc="left")
     figure.supxlabel(textwrap.fill(_caption(result), int(CAPTION_CHARACTERS * width)), fontsize=7.5)
     return figure
 
