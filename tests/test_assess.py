@@ -184,7 +184,7 @@ def test_without_heights_drifts_are_in_millimetres() -> None:
     assert result.storeys["unit"].unique().to_list() == ["m"]
     assert result.storeys["limit"].null_count() == result.storeys.height
     assert "Peak storey drift, mm" in result.text
-    assert "Stability coefficient" not in result.text
+    assert "stability coefficient" not in result.text.lower()
     assert any(line == "P-Delta: none (heights are not known)." for line in result.assumptions)
 
 
@@ -213,7 +213,7 @@ def test_many_collapses_leave_a_capped_mean_and_no_answer(collapsing: sm.Assessm
     assert f") collapses under {worst} of 40 motions" in collapsing.answer.statement
     told = next(line for line in collapsing.advice if line.startswith("Of 40 runs each some collapse: "))
     assert f") under {worst}, analysis 2 under {collapsing.collapses['bare']}" in told
-    assert collapsing.answer.statement.endswith("more than a tenth.")
+    assert "more than a tenth." in collapsing.answer.statement
     document = json.loads(collapsing.to_json())
     assert document["answer"] is None
     assert document["reason"] == collapsing.answer.reason
@@ -228,10 +228,8 @@ def test_without_an_answer_nothing_stands_as_if_there_were_one(collapsing: sm.As
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert '<div class="answer bad">' in page
     assert "nan" not in page.lower().replace("name", "")[: page.index("<h2")]
-    known = [
-        name for name in ("effective_fraction", "drift", "slip", "spectrum") if (tmp_path / f"{name}.svg").exists()
-    ]
-    assert tuple(known) == collapsing.figure_names
+    # A fraction is no answer where there is none.
+    assert {file.stem for file in tmp_path.glob("*.svg")} == set(collapsing.figure_names) == {"drift", "spectrum"}
 
 
 def test_a_building_that_always_collapses_has_no_empty_figures(tmp_path: Path) -> None:
@@ -240,7 +238,7 @@ def test_a_building_that_always_collapses_has_no_empty_figures(tmp_path: Path) -
     assert result.answer.reason == (
         "the building with goods that slide (mu as stated) collapses under 3 of 3 motions, more than a tenth"
     )
-    assert result.figure_names == ("drift", "slip", "spectrum")
+    assert result.figure_names == ("drift", "spectrum")
     result.write(tmp_path)
     assert not (tmp_path / "effective_fraction.svg").exists()
     assert "nan" not in result.text
@@ -446,7 +444,7 @@ def test_inertia_over_the_spring_force_is_that_of_the_run() -> None:
     scene, record = sm.Scene(building), sm.builtin_suite("seven")[0]
     run = sm.simulate(scene, record, histories=True)
     inertia = np.abs((building.mass * run.floor_acceleration).sum(axis=1)).max()
-    expected = inertia / np.abs(run.storey_force[:, 0]).max()
+    expected = inertia / np.abs(run.storey_shear[:, 0]).max()
     assert force_ratios(scene, [record])[0] == pytest.approx(expected, rel=1e-9)
 
 
@@ -525,14 +523,24 @@ def test_files_are_written_whole_and_old_ones_removed(small: sm.Assessment, tmp_
 
 def test_figures_have_what_they_should(warehouse: sm.Assessment) -> None:
     figures = warehouse.figures()
-    assert list(figures) == ["effective_fraction", "drift", "slip", "spectrum"]
+    assert list(figures) == ["drift", "effective_fraction", "spectrum"]
     for figure in figures.values():
         assert isinstance(figure, Figure)
     texts = [text.get_text() for text in figures["effective_fraction"].legends[0].get_texts()]
     assert any("0.25 of the design live load" in text for text in texts)
     assert any(text.startswith("advised") for text in texts)
-    axes = figures["drift"].axes[0]
-    assert axes.get_xlim()[1] > 2.0  # the limit of 2 % is in sight
+    drifts, slips = figures["drift"].axes
+    assert drifts.get_xlim()[1] > 100.0  # the limit is in sight
+    largest = warehouse.slip["peak_p84"].max()
+    assert slips.get_xlim()[1] == pytest.approx(1.3e3 * largest, rel=1e-9)
+    row = warehouse.governing.sort("governing").row(-1, named=True)
+    title = (
+        f"Storey {row['storey']} uses {100.0 * row['governing'] / 0.02:.0f} % of its drift limit: {row['governed_by']}"
+    )
+    assert " ".join(drifts.get_title(loc="left").split()) == title
+    assert " ".join(slips.get_title(loc="left").split()).startswith(
+        f"Allow for {1e3 * largest:.0f} mm of slip on floor"
+    )
 
 
 def test_the_page_says_the_answer_first(warehouse: sm.Assessment) -> None:
@@ -552,7 +560,7 @@ def test_the_page_says_the_answer_first(warehouse: sm.Assessment) -> None:
     assert "rounded up to a multiple of 0.01" in box
     assert "motions on 40 synthetic motions, none recorded, scaled by " in box
     assert all(len(line) <= 120 for line in lines)
-    for heading in ("Peak storey drift", "Stability coefficient", "Slip of the goods", "In an analysis", "Assumptions"):
+    for heading in ("What each storey uses of its", "Peak storey drift", "In an analysis", "Assumptions"):
         assert any(line.startswith(heading) for line in lines)
 
 
@@ -628,7 +636,7 @@ def test_command_prints_page_and_json(tmp_path: Path, capsys: pytest.CaptureFixt
     out = str(tmp_path / "out")
     assert main(["building", str(file), "--out", out, "--no-figures", "--mu-factors", "1", "1"]) == 0
     page = capsys.readouterr().out
-    assert "two analyses; the larger drift" in page
+    assert "two analyses; " in page
     assert page.rstrip().splitlines()[-1].startswith("27 files in ")
     options = ["--json", "--no-figures", "--sds", "0.8", "--sd1", "0.5", "--code", "nbc", "--period", "0.6"]
     assert main(["building", str(file), "--out", out, *options]) == 0

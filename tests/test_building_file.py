@@ -216,7 +216,7 @@ def test_the_head_of_the_page_is_as_the_file_says() -> None:
 @pytest.mark.parametrize(
     ("project", "message"),
     [
-        ({"client": "x"}, r"project.client of building must be one of the keys name, number"),
+        ({"customer": "x"}, r"project.customer of building must be one of the keys name, number"),
         ({"number": 114}, r"project.number of building must be text; got 114"),
         ({"date": "25.11.2026"}, r"project.date of building must be a date, such as 2026-11-25; got '25.11.2026'"),
         ({"date": 2026}, r"project.date of building must be a date, such as 2026-11-25; got 2026"),

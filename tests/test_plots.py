@@ -247,7 +247,7 @@ def test_loops_are_those_of_the_run_within_their_backbone(response: sm.Response)
     for number, axes in enumerate(figure.axes):
         drawn = {line.get_gid(): line for line in axes.lines}
         np.testing.assert_array_equal(drawn["loop"].get_xdata(), 1e3 * response.drift[:, number])
-        np.testing.assert_array_equal(drawn["loop"].get_ydata(), 1e-3 * response.storey_force[:, number])
+        np.testing.assert_array_equal(drawn["loop"].get_ydata(), 1e-3 * response.storey_shear[:, number])
         way, force = drawn["backbone"].get_xdata(), 1e3 * drawn["backbone"].get_ydata()
         assert way[-1] == -way[0] == 1e3 * response.peak_drift[number]
         np.testing.assert_array_equal(force, -force[::-1])

@@ -64,7 +64,7 @@ def test_a_result_gives_all_that_it_promises(results: list[Result], tmp_path: Pa
         assert json.loads(result.to_json()) == json.loads(json.dumps(result.to_dict()))
         assert all(isinstance(figure, Figure) for figure in result.figures().values())
         assert isinstance(result.plot(), Figure)
-        with pytest.raises(sm.errors.InvalidOption, match=f"name of figure of {result.document} must be one of"):
+        with pytest.raises(sm.errors.InvalidOption, match=f"name of figure of {result.document} must be"):
             result.plot("another")
         files = {path.name for path in result.write(tmp_path / result.document, figures=False)}
         assert files >= {f"{result.document}.json", *(f"{name}.parquet" for name in result.tables)}

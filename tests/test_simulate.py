@@ -41,7 +41,7 @@ def test_response_arrays() -> None:
     assert response.status == "completed"
     assert response.end_time == pytest.approx(19.99)
     assert response.collapsed_storey is None
-    for name in ("drift", "floor_velocity", "floor_acceleration", "storey_force"):
+    for name in ("drift", "floor_velocity", "floor_acceleration", "storey_shear"):
         assert getattr(response, name).shape == (2000, 3), name
     for name in ("slip", "block_velocity"):
         assert getattr(response, name).shape == (2000, 2), name
@@ -163,7 +163,7 @@ def test_histories_of_displacements_alone_are_those_of_all() -> None:
         np.testing.assert_array_equal(displacements.slip, everything.slip)
         np.testing.assert_array_equal(displacements.time, everything.time)
         with pytest.raises(sm.errors.InvalidOption, match="displacements_only of simulate must be False"):
-            displacements.storey_force  # noqa: B018
+            displacements.storey_shear  # noqa: B018
 
 
 def halved(samples: np.ndarray) -> np.ndarray:
@@ -184,7 +184,7 @@ def random_blocks(random: np.random.Generator, count: int) -> list[sm.Block]:
 
 def test_histories_of_random_scenes_hold_together() -> None:
     """Rows wherever blocks lie: the same at half the step and for blocks in another order, no larger than the peaks."""
-    names = ("drift", "slip", "floor_velocity", "block_velocity", "floor_acceleration", "storey_force")
+    names = ("drift", "slip", "floor_velocity", "block_velocity", "floor_acceleration", "storey_shear")
     events = collapsed = 0
     for seed in range(150):
         random = np.random.default_rng(seed)

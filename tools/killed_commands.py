@@ -72,6 +72,8 @@ COMMANDS = {
     ),
     "map": Command(("map", "--suite", "seven", "--mu", "0.2", "--R", "4", "--alpha", "1", "--out", "out"),
                    ("--no-figures",), "out"),
+    "evidence": Command(("evidence", "--quick", "--suite", "seven", "--out", "out"), ("--no-figures",), "out"),
+    "validate": Command(("validate", "--out", "out"), ("--no-figures",), "out"),
     "run": Command(("run", "s.toml", "--out", "x.csv"), (), "x.csv"),
     "scale": Command(("scale", "--suite", "seven", "--period", "0.5", "--out", "x.csv"), ("--sds", "1"), "x.csv"),
     "target": Command(("target", "ec8:1:C:0.3", "--out", "x.csv"), ("--period", "1"), "x.csv"),

@@ -47,7 +47,7 @@ def numbers(response: sm.Response) -> list[Any]:
         np.stack([log["time"], kinds, log["number"], log["sign"]], axis=1),
         response.drift,
         response.slip,
-        response.storey_force,
+        response.storey_shear,
     ]
 
 

@@ -12,4 +12,4 @@ FILE = "README.md"
 def fill(page: Page) -> None:
     """Put in the first part of the answer."""
     text = assess(data_directory() / "examples" / "warehouse.toml").text
-    page.block("warehouse", [text.partition("Stability coefficient")[0].strip("\n")])
+    page.block("warehouse", [text.partition("Peak storey drift")[0].strip("\n")])

@@ -16,7 +16,7 @@ from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, SLIDING, SLID
 from seismass.assessment.statement import SHORT, collapsing
 from seismass.assessment.structure import base_advice, rule_advice, support_remarks
 from seismass.base.statistics import CAPPED_MEAN
-from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.units import STANDARD_GRAVITY, Units
 from seismass.design import THETA_THRESHOLD
 from seismass.design.rules import rule_of, weakest
 from seismass.design.scaling import GEOMETRIC_MEAN, ScalingResult
@@ -99,7 +99,7 @@ def goods_remarks(building: OwnBuilding) -> list[str]:
 def _bolted_remarks(building: OwnBuilding) -> list[str]:
     """Goods that are part of the mass of their floors."""
     items = [
-        f"{kind.name or 'goods'} on floor {kind.floor}, {1e-3 * STANDARD_GRAVITY * kind.mass:.0f} kN"
+        f"{kind.name or 'goods'} on floor {kind.floor}, {building.shown.text('force', STANDARD_GRAVITY * kind.mass)}"
         for kind in building.kinds
         if kind.attached and kind.mass > 0.0
     ]
@@ -170,21 +170,27 @@ def advice_of(
     lines = []
     if answer.reason is not None:
         lines.append(f"{collapsing(building, collapses, motions)}.")
+        lines += [f"{answer.remedy}."] * bool(answer.remedy)
         lines.append("A share that fits drifts says nothing of collapse: strengthen the building before it is used.")
     else:
         one, _ = answer.analyses
-        lines.append(
+        what = (
             f"Analysis 1: attach {one.share_of_goods_present:.2f} of the goods present "
             f"({one.share_of_design_live_load:.2f} of the design live load) as mass. Analysis 2: attach none. In both "
-            "keep the whole weight of the goods in P-Delta, and the damping of the building without goods. Take the "
-            "larger drift of each storey."
+            "keep"
         )
-        lines += [_envelope(building, storeys, sliding), answer.design]
+        if one.share_of_goods_present == 0.0:
+            what = "One analysis: attach none of the loose goods as mass. Keep"
+        lines.append(
+            f"{what} the whole weight of the goods in P-Delta, and the damping of the building without goods."
+            + " Take the larger drift of each storey." * (one.share_of_goods_present > 0.0)
+        )
+        lines += [*([_envelope(building, storeys, sliding)] if one.share_of_goods_present else []), answer.design]
         lines += rule_advice(building, effective)
-    lines += _checks(building, storeys, sliding)
+    lines += _checks(building, storeys, (*sliding, ADVISED, BARE))
     lines.append(_against_code(building, storeys, sliding))
-    lines += _slip_advice(slip, in_plane=building.other is not None)
-    return (*lines, *base_advice(runs))
+    lines += _slip_advice(slip, building.shown, in_plane=building.other is not None)
+    return (*lines, *base_advice(runs, building.shown))
 
 
 def _largest_ratio(storeys: pl.DataFrame, sliding: Sequence[str], model: str) -> tuple[float, int, str]:
@@ -207,15 +213,16 @@ def _envelope(building: OwnBuilding, storeys: pl.DataFrame, sliding: Sequence[st
 def _checks(building: OwnBuilding, storeys: pl.DataFrame, models: Any) -> list[str]:
     """Drift and stability of the models beside their limits."""
     if building.heights is None:
-        return ["Heights are not known: drifts are in millimetres, without P-Delta and without a limit."]
-    rows = storeys.filter(pl.col("model").is_in(list(models)))
+        unit = building.shown.unit("drift")
+        return [f"Heights are not known: drifts are in {unit}, without P-Delta and without a limit."]
+    rows, called = storeys.filter(pl.col("model").is_in(list(models))), {**NAMES, BARE: "no goods"}
     lines = []
     limit = 100.0 * building.drift_limit
     row = rows.sort("mean", descending=True).row(0, named=True)
     verdict = "above" if row["mean_over_limit"] > 1.0 else "within"
     lines.append(
         f"The capped mean drift ratio is {verdict} the limit of {limit:g} %: largest {100.0 * row['mean']:.2f} % "
-        f"(storey {row['storey']}, {NAMES[row['model']]}; motions above the limit: {row['motions_above_limit']})."
+        f"(storey {row['storey']}, {called[row['model']]}; motions above the limit: {row['motions_above_limit']})."
     )
     stable = rows.drop_nulls("theta").sort("theta", descending=True)
     if stable.height:
@@ -225,8 +232,8 @@ def _checks(building: OwnBuilding, storeys: pl.DataFrame, models: Any) -> list[s
         needed = "above" if elastic > THETA_THRESHOLD else "up to"
         lines.append(
             f"The stability coefficient P d/(V h) is {verdict} its limit of {building.theta_limit:g}: largest "
-            f"{row['theta']:.3f} (storey {row['storey']}, {NAMES[row['model']]}); its elastic value P/(k h) is at most "
-            f"{elastic:.3f}, {needed} the {THETA_THRESHOLD:g} below which ASCE 7-10 neglects P-Delta."
+            f"{row['theta']:.3f} (storey {row['storey']}, {called[row['model']]}); its elastic value P/(k h) is at "
+            f"most {elastic:.3f}, {needed} the {THETA_THRESHOLD:g} below which ASCE 7-10 neglects P-Delta."
         )
     return lines
 
@@ -239,7 +246,7 @@ def _against_code(building: OwnBuilding, storeys: pl.DataFrame, sliding: Sequenc
     )
 
 
-def _slip_advice(slip: pl.DataFrame, *, in_plane: bool) -> list[str]:
+def _slip_advice(slip: pl.DataFrame, units: Units, *, in_plane: bool) -> list[str]:
     known = slip.drop_nulls("peak_p84").sort("peak_p84", descending=True)
     if not known.height:
         return []
@@ -250,16 +257,17 @@ def _slip_advice(slip: pl.DataFrame, *, in_plane: bool) -> list[str]:
     sentences = [] if in_plane else [f"{sentence[:1].upper()}{sentence[1:]}."]
     way = "in any direction" if in_plane else "each way"
     return [
-        f"Allow for {1e3 * row['peak_p84']:.0f}{slip_ends(row)} mm of slip {way} on floor {row['floor']} (84 % of the "
-        f"motions, mu = {row['mu_s']:.3g}; largest {1e3 * row['peak_max']:.0f} mm): edges, aisles and neighbours.",
+        f"Allow for {units.number('slip', row['peak_p84'])}{slip_ends(row, units)} {units.unit('slip')} of slip {way} "
+        f"on floor {row['floor']} (84 % of the motions, mu = {row['mu_s']:.3g}; largest "
+        f"{units.text('slip', row['peak_max'])}): edges, aisles and neighbours.",
         *sentences,
     ]
 
 
-def slip_ends(row: dict[str, Any]) -> str:
-    """Return the interval of a slip at 84 % (mm) behind it; empty where there is none."""
+def slip_ends(row: dict[str, Any], units: Units) -> str:
+    """Return the interval of a slip at 84 % behind it; empty where there is none."""
     low, high = row["peak_p84_low"], row["peak_p84_high"]
-    return "" if low is None else f" [{1e3 * low:.0f}, {1e3 * high:.0f}]"
+    return "" if low is None else f" [{units.number('slip', low)}, {units.number('slip', high)}]"
 
 
 def remarks_of(

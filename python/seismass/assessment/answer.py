@@ -6,6 +6,7 @@ Text, page and JSON say what stands here, and nothing else beside it.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -39,8 +40,8 @@ MOST_DOUBTS: Final = 3
 """Doubts that stand in the headline; the others are among the remarks."""
 ANALYSIS: Final = "analysis"
 """Name of the table of what to type into another program."""
-PAIR: Final = "two analyses; the larger drift of each storey counts"
-"""What stands above the pair."""
+ANALYSIS_UNITS: Final = {"si": ("t", "kn"), "us": ("kip_s2_per_ft", "kip")}
+"""Units of mass and weight in the names of its columns."""
 MANY: Final = ", more than a tenth"
 """The bound above which there is no answer, `few_collapses` in words."""
 
@@ -108,6 +109,10 @@ class Answer:
         Which share goes into the weight W of a design of strengths.
     motions : str
         On which motions the answer stands.
+    remedy : str
+        Which strengths give an answer where runs collapse; empty where that was not tried.
+    opening : str
+        How many analyses there are, and which drift counts.
     matters : bool or None
         Whether the share changes the drift of any storey by more than 1 %; None where there is no answer.
     """
@@ -124,6 +129,8 @@ class Answer:
     sensitivity: tuple[str, ...] = ()
     design: str = ""
     motions: str = ""
+    remedy: str = ""
+    opening: str = ""
     matters: bool | None = None
 
     @property
@@ -138,7 +145,10 @@ class Answer:
 
     @property
     def pair(self) -> tuple[str, ...]:
-        """The two analyses in words, the base of shares in the first."""
+        """The analyses in words, the base of shares in the first; one where the share is 0 and both are the same."""
+        if self.analyses and self.analyses[0].share_of_goods_present == 0.0:
+            loose = "loose " * any(self.analyses[1].multipliers)
+            return (f"lambda = 0.00, no {loose}goods as mass: {self.analyses[1].mass_source}",)
         return tuple(
             f"lambda = {one.share_of_goods_present:.2f} of the goods present ({one.share_of_design_live_load:.2f} of "
             f"the design live load) as mass: {one.mass_source}"
@@ -179,14 +189,19 @@ def answer_of(
     suite: dict[str, Any],
     scaling: ScalingResult | None,
     doubts: tuple[str, ...],
+    remedy: Callable[[], str],
 ) -> Answer:
-    """Return the answer of an assessment of its parts, as `Assessment` has them."""
+    """Return the answer of an assessment of its parts, as `Assessment` has them; `remedy` finds strengths that give
+    one where runs collapse.
+    """
     on = motions_sentence(suite, scaling)
     reason = _reason(building, effective, collapses, len(suite["motions"]))
     if reason is not None or advised is None:
         why = reason or "there are no goods on the floors, and no live load could act as mass"
         few = "" if reason is not None else collapsing(building, collapses, len(suite["motions"]))
-        return Answer(f"No answer, because {why}.{f' {few}.' * bool(few)}", why, doubts, motions=on)
+        stronger = "" if reason is None else remedy()
+        sentences = (f"No answer, because {why}", few, stronger)
+        return Answer(" ".join(f"{one}." for one in sentences if one), why, doubts, motions=on, remedy=stronger)
     tables, motions = (storeys, governing, slip), len(suite["motions"])
     of_tipping = (*tipping_sentences(building, tipping[0]), *(case.words for case in tipping[1]))
     change = largest_change(storeys, (*effective, ATTACHED, BARE))
@@ -194,13 +209,14 @@ def answer_of(
         statement_of(building, deciding(effective), tables, collapses, motions, amounts, tipping=tipping[0]),
         None,
         doubts,
+        opening=_opening(advised, governing),
         analyses=(_analysis(building, 1, ADVISED, advised), _analysis(building, 2, BARE, 0.0)),
-        governs=_governs(governing),
+        governs=_governs(building, governing),
         goods=(presence_sentence(building), *(amount.words for amount in amounts), *of_tipping),
         tipping=tipping[1],
         amounts=amounts,
         why=_why(advised, effective, friction_words(building)),
-        sensitivity=(*_left_out(left_out, governing), *_at_other_caps(building, advised, effective, runs)),
+        sensitivity=(*_left_out(building, left_out), *_at_other_caps(building, advised, effective, runs)),
         design=_design(building, advised, design),
         motions=on,
         matters=change is None or change > NO_MATTER,
@@ -298,16 +314,29 @@ def _mass_source(multipliers: FloatArray) -> str:
     return f"dead + {multipliers[0]:.2f} live"
 
 
-def _governs(governing: pl.DataFrame) -> tuple[str, ...]:
+def _opening(advised: float, governing: pl.DataFrame) -> str:
+    """How many analyses there are, and whether they cover the goods that slide."""
+    what, times = "two analyses", largest_excess(governing)[0]
+    of_what, alone = "the larger of both", "the larger drift of each storey counts"
+    if advised == 0.0:
+        what, of_what, alone = "one analysis, since no share of the goods acts as mass", "its own", "its drifts count"
+    if not governing["governed_by"].str.starts_with("goods slide").any():
+        return f"{what}; {alone}"
+    return f"{what}; goods that slide drift up to {times:.2f} times {of_what}, and that drift counts"
+
+
+def _governs(building: OwnBuilding, governing: pl.DataFrame) -> tuple[str, ...]:
     """One sentence per analysis that governs a storey, and one about the goods that slide."""
-    scale, unit = (1e2, "%") if governing["unit"][0] == "ratio" else (1e3, "mm")
+    scale, unit = building.shown.drifts(ratio=governing["unit"][0] == "ratio")
+    single = governing[ADVISED].equals(governing[BARE], check_names=False)
+    larger, both = ("the analysis", "that of the analysis") if single else ("the larger analysis", "the larger")
     lines = []
     for model in dict.fromkeys(governing["governed_by"].to_list()):
         rows = governing.filter(pl.col("governed_by") == model).sort("governing", descending=True)
         row = rows.row(0, named=True)
         if model.startswith("goods slide"):
             times = max(one["governing"] / max(one[ADVISED], one[BARE]) for one in rows.iter_rows(named=True))
-            model = f"{model}, {times:.2f} times the larger analysis"
+            model = f"{model}, {times:.2f} times {larger}"
         limit = "" if row["limit"] is None else f" of {scale * row['limit']:g} %"
         ending = "" if row["limit"] is None or row["governing_over_limit"] <= 1.0 else ", above the limit"
         where = _storeys(rows["storey"].to_list())
@@ -316,7 +345,7 @@ def _governs(governing: pl.DataFrame) -> tuple[str, ...]:
         called = f"storey {row['storey']}{named}" if rows.height == 1 else where
         lines.append(f"{called}: {model}, {largest}{scale * row['governing']:.2f} {unit}{limit}{ending}")
     ratio, storey, mu = largest_excess(governing)
-    lines.append(f"with sliding goods no storey drifts more than {ratio:.2f} times the larger (storey {storey}, {mu})")
+    lines.append(f"with sliding goods no storey drifts more than {ratio:.2f} times {both} (storey {storey}, {mu})")
     return tuple(lines)
 
 
@@ -367,11 +396,11 @@ def _at_other_caps(
     ]
 
 
-def _left_out(left_out: pl.DataFrame, governing: pl.DataFrame) -> list[str]:
+def _left_out(building: OwnBuilding, left_out: pl.DataFrame) -> list[str]:
     """The range of the fraction that decides and of the governing drift over the motions left out."""
     if left_out["governing"].null_count():
         return []
-    scale, unit = (1e2, "%") if governing["unit"][0] == "ratio" else (1e3, "mm")
+    scale, unit = building.shown.drifts(ratio=building.heights is not None)
     share, drift = (left_out[name].to_numpy() for name in ("fraction", "governing"))
     return [
         f"with one motion left out the fraction is {share.min():.2f} to {share.max():.2f}, the governing drift "
@@ -394,17 +423,20 @@ def _design(building: OwnBuilding, advised: float, design: DesignShare | None) -
 
 
 def analysis_table(answer: Answer, building: OwnBuilding) -> pl.DataFrame:
-    """Return what to type into another program, one row per floor: masses (t), weights (kN) and the multiplier of the
-    design live load in both analyses. It is empty where there is no answer.
+    """Return what to type into another program, one row per floor: masses (t, or kip s2/ft), weights (kN, or kip) and
+    the multiplier of the design live load in both analyses. It is empty where there is no answer.
     """
     columns: dict[str, Any] = {"floor": [], "name": []}
+    mass, force = (building.shown.of(quantity)[1] for quantity in ("mass", "force"))
+    mass_unit, force_unit = ANALYSIS_UNITS[building.units]
     if answer.analyses:
         columns = {"floor": list(range(1, building.storeys + 1)), "name": list(building.storey_names)}
     schema: dict[str, Any] = {"floor": pl.UInt32, "name": pl.String}
     for number in (1, 2):
         row = next((one for one in answer.analyses if one.number == number), None)
-        columns[f"mass_{number}_t"] = [] if row is None else [1e-3 * mass for mass in row.mass]
-        columns[f"weight_{number}_kn"] = [] if row is None else [1e-3 * STANDARD_GRAVITY * mass for mass in row.mass]
+        masses = np.array(() if row is None else row.mass)
+        columns[f"mass_{number}_{mass_unit}"] = masses / mass
+        columns[f"weight_{number}_{force_unit}"] = STANDARD_GRAVITY * masses / force
         columns[f"multiplier_{number}"] = [] if row is None else list(row.multipliers)
     schema |= dict.fromkeys(list(columns)[2:], pl.Float64)
     return pl.DataFrame(columns, schema=schema)

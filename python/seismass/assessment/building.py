@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from seismass.assessment.floors import CountedFraction, FloorCode, FloorGoods, by_floor, counted_fractions
 from seismass.base.errors import InvalidOption
 from seismass.base.input_table import Table
-from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.units import STANDARD_GRAVITY, UNITS, Units
 from seismass.base.values import FloatArray, brief, content_hash, printable, refusal, same_content, short_repr
 from seismass.base.views import Card
 from seismass.design import (
@@ -43,7 +43,7 @@ from seismass.model.tipping import Tipping
 from seismass.motions.spectra import TargetSpectrum
 from seismass.motions.spectra.target import target_of_parameters
 
-PROJECT: Final = ("name", "number", "author", "checker", "date")
+PROJECT: Final = ("name", "number", "client", "revision", "author", "checker", "date")
 """Keys of the table."""
 
 
@@ -53,14 +53,16 @@ class Project:
 
     Attributes
     ----------
-    name, number, author, checker : str
-        Project, its number, who made the calculation and who checked it.
+    name, number, client, revision, author, checker : str
+        Project, its number, for whom it is, revision of the calculation, who made it and who checked it.
     date : str
         Date of the calculation, as 2026-11-25.
     """
 
     name: str = ""
     number: str = ""
+    client: str = ""
+    revision: str = ""
     author: str = ""
     checker: str = ""
     date: str = ""
@@ -182,6 +184,10 @@ class OwnBuilding(Card):
         Period (s) for which motions are scaled; None: first period of the building with its goods attached.
     path : Path or None
         The file.
+    file_sha256 : str
+        Its digest; empty without a file.
+    units : {"si", "us"}
+        Units in which results are shown: those of the file.
     project : Project
         What the head of the page says.
     sources : tuple of (str, str)
@@ -238,6 +244,8 @@ class OwnBuilding(Card):
     drift_cap: float
     scaling_period: float | None
     path: Path | None = None
+    file_sha256: str = ""
+    units: str = "si"
     project: Project = NO_PROJECT
     sources: tuple[tuple[str, str], ...] = ()
     walls: FloatArray | None = None
@@ -253,6 +261,11 @@ class OwnBuilding(Card):
     __repr__ = short_repr
     __eq__ = same_content
     __hash__ = content_hash
+
+    @property
+    def shown(self) -> Units:
+        """The units in which results are shown."""
+        return UNITS[self.units]
 
     @property
     def storeys(self) -> int:

@@ -77,86 +77,72 @@ SYSTEMS: Final = (SI, US)
 """What `units` of a file may be."""
 
 
-class UsKey(NamedTuple):
-    """A key in US units: the key that stands for it, its unit in that of the other, and what its number must be."""
+class UnitKey(NamedTuple):
+    """A quantity in the units of a file: its key without a unit (empty: none), in SI and in US units, the US unit in
+    that of the SI key, what its number must be, and which tables have it; `in_si`: without a unit in SI files too.
+    """
 
-    key: str
+    plain: str
+    si: str
+    us: str
     factor: float
     need: Need
+    tables: tuple[str, ...]
+    in_si: bool = True
 
 
-US_STOREY_KEYS: Final = {
-    "height_ft": UsKey("height_m", FOOT, POSITIVE),
-    "area_ft2": UsKey("area_m2", FOOT**2, POSITIVE),
-    "dead_load_psf": UsKey("dead_load_kpa", 1e-6 * KIP / FOOT**2, POSITIVE),
-    "weight_kip": UsKey("mass_kg", KIP / STANDARD_GRAVITY, POSITIVE),
-    "gravity_load_kip": UsKey("gravity_load_kn", 1e-3 * KIP, POSITIVE),
-    "stiffness_kip_per_in": UsKey("stiffness_kn_per_m", 1e-3 * KIP / (FOOT / 12.0), POSITIVE),
-    "yield_shear_kip": UsKey("yield_shear_kn", 1e-3 * KIP, STRONG),
-}
-"""Keys in US units of a storey, or of all in [building]."""
-US_GOODS_KEYS: Final = {
-    "live_load_psf": UsKey("live_load_kpa", 1e-6 * KIP / FOOT**2, NOT_NEGATIVE),
-    "live_load_kip": UsKey("live_load_kg", KIP / STANDARD_GRAVITY, NOT_NEGATIVE),
-}
-"""Keys in US units of the goods of a floor, or of all in [goods]."""
-US_SIZE_KEYS: Final = {
-    "width_ft": UsKey("width_m", FOOT, POSITIVE),
-    "height_ft": US_STOREY_KEYS["height_ft"],
-}
-"""Keys in US units of the size of goods of one kind, or of all in [goods]."""
-PLAIN_STOREY_KEYS: Final = {
-    "height": {SI: "height_m", US: "height_ft"},
-    "area": {SI: "area_m2", US: "area_ft2"},
-    "dead_load": {SI: "dead_load_kpa", US: "dead_load_psf"},
-    "mass": {SI: "mass_kg"},
-    "weight": {US: "weight_kip"},
-    "gravity_load": {SI: "gravity_load_kn", US: "gravity_load_kip"},
-    "stiffness": {SI: "stiffness_kn_per_m", US: "stiffness_kip_per_in"},
-    "yield_shear": {SI: "yield_shear_kn", US: "yield_shear_kip"},
-}
-"""Keys without a unit of a storey, by the system that the file states, as the keys that they stand for."""
-PLAIN_GOODS_KEYS: Final = {"live_load": {SI: "live_load_kpa", US: "live_load_psf"}}
-"""The same of the goods of a floor."""
-PLAIN_SIZE_KEYS: Final = {
-    "width": {SI: "width_m", US: "width_ft"},
-    "height": PLAIN_STOREY_KEYS["height"],
-}
-"""The same of the size of goods."""
-_PLAIN: Final = PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS | PLAIN_SIZE_KEYS
-_US: Final = US_STOREY_KEYS | US_GOODS_KEYS | US_SIZE_KEYS
+_STOREYS: Final = ("building", "storeys")
+_LOADS: Final = ("goods", "storeys")
+_SIZES: Final = ("goods", "storeys.goods")
+UNIT_KEYS: Final = (
+    UnitKey("height", "height_m", "height_ft", FOOT, POSITIVE, _STOREYS + _SIZES),
+    UnitKey("area", "area_m2", "area_ft2", FOOT**2, POSITIVE, _STOREYS),
+    UnitKey("dead_load", "dead_load_kpa", "dead_load_psf", 1e-6 * KIP / FOOT**2, POSITIVE, _STOREYS),
+    UnitKey("mass", "mass_kg", "", 1.0, POSITIVE, _STOREYS),
+    UnitKey("weight", "mass_kg", "weight_kip", KIP / STANDARD_GRAVITY, POSITIVE, _STOREYS, in_si=False),
+    UnitKey("gravity_load", "gravity_load_kn", "gravity_load_kip", 1e-3 * KIP, POSITIVE, _STOREYS),
+    UnitKey("stiffness", "stiffness_kn_per_m", "stiffness_kip_per_in", 1e-3 * KIP / (FOOT / 12.0), POSITIVE, _STOREYS),
+    UnitKey("yield_shear", "yield_shear_kn", "yield_shear_kip", 1e-3 * KIP, STRONG, _STOREYS),
+    UnitKey("live_load", "live_load_kpa", "live_load_psf", 1e-6 * KIP / FOOT**2, NOT_NEGATIVE, _LOADS),
+    UnitKey("", "live_load_kg", "live_load_kip", KIP / STANDARD_GRAVITY, NOT_NEGATIVE, _LOADS),
+    UnitKey("width", "width_m", "width_ft", FOOT, POSITIVE, _SIZES),
+)
+"""Keys of quantities that may stand in other units, or without one in a file that states its system."""
 
 
-def plain_keys(keys: dict[str, dict[str, str]], units: str) -> tuple[str, ...]:
-    """Return the keys without a unit that a file may have; none where it does not state its system."""
-    return tuple(key for key, systems in keys.items() if units in systems)
+def _of_file(row: UnitKey, units: str) -> str:
+    """The key that one without a unit stands for; empty where there is none in that system."""
+    return {SI: row.si * row.in_si, US: row.us}.get(units, "") if row.plain else ""
 
 
 def to_si(table: Table, units: str) -> None:
     """Convert the table in place to SI units: keys without a unit are in the `units` of the file ("", "si" or "us"). A
     key stated in two units is refused.
     """
-    for name, factors in _PLAIN.items():
-        if name in table.values and units in factors:
-            table.excluded(name, factors[units])
-            table.values[factors[units]] = table.values.pop(name)
-    for name, us in _US.items():
-        if name in table.values:
-            table.excluded(name, us.key)
-            table.values[us.key] = us.factor * table.number(name, need=us.need)
-            del table.values[name]
+    for row in UNIT_KEYS:
+        key = _of_file(row, units)
+        if key and row.plain in table.values:
+            table.excluded(row.plain, key)
+            table.values[key] = table.values.pop(row.plain)
+    for row in UNIT_KEYS:
+        if row.us and row.us in table.values:
+            table.excluded(row.us, row.si)
+            table.values[row.si] = row.factor * table.number(row.us, need=row.need)
+            del table.values[row.us]
 
 
 DEFAULT: Final = "default"
 """Source of a quantity that the file does not state."""
-_STRENGTH_SOURCES: Final = ("yield_shear_kn", "yield_shear_n", "yield_shear_over_weight")
+_MASS: Final = ("dead_load_kpa", "mass_kg")
+_STIFFNESS: Final = ("stiffness_kn_per_m", "stiffness_n_per_m")
+_STRENGTH: Final = ("yield_shear_kn", "yield_shear_n", "yield_shear_over_weight")
 _OF_STOREYS: Final = {
     "height": ("height_m",),
     "area": ("area_m2",),
     "dead_load": ("dead_load_kpa", "mass_kg"),
     "gravity_load": ("gravity_load_kn",),
-    "stiffness": ("stiffness_kn_per_m", "stiffness_n_per_m", "relative_stiffness"),
-    "strength": _STRENGTH_SOURCES,
+    "stiffness": (*_STIFFNESS, "relative_stiffness"),
+    "strength": _STRENGTH,
     "overstrength": ("overstrength",),
     "second_slope": ("second_slope",),
     "third_slope": ("third_slope",),
@@ -217,16 +203,9 @@ def _stated(keys: Sequence[str], default: tuple[str, Mapping[str, Any]], storeys
 
 def _in_other_units(keys: Sequence[str]) -> set[str]:
     """Keys in US units, and those without a unit, that stand in the place of keys."""
-    others = {other for other, one in _US.items() if one.key in keys}
-    for key, factors in _PLAIN.items():
-        if any(one in keys or one in others for one in factors.values()):
-            others.add(key)
-    return others
+    return {other for row in UNIT_KEYS if row.si in keys for other in (row.plain, row.us) if other}
 
 
-_MASS: Final = ("dead_load_kpa", "mass_kg")
-_STIFFNESS: Final = ("stiffness_kn_per_m", "stiffness_n_per_m")
-_STRENGTH: Final = ("yield_shear_kn", "yield_shear_n", "yield_shear_over_weight")
 _STOREY: Final = (
     "height_m",
     "area_m2",
@@ -282,20 +261,8 @@ KEYS: Final = {
     "other_direction": OTHER_DIRECTION,
 }
 """Keys of each table of a building file, the file itself first."""
-US_KEYS: Final[dict[str, tuple[str, ...]]] = {
-    "building": tuple(US_STOREY_KEYS),
-    "goods": (*US_GOODS_KEYS, *US_SIZE_KEYS),
-    "storeys": (*US_STOREY_KEYS, *US_GOODS_KEYS),
-    "storeys.goods": tuple(US_SIZE_KEYS),
-}
+US_KEYS: Final = {kind: tuple(row.us for row in UNIT_KEYS if row.us and kind in row.tables) for kind in KEYS}
 """Keys in US units, in place of those in SI units."""
-PLAIN_KEYS: Final[dict[str, dict[str, dict[str, str]]]] = {
-    "building": PLAIN_STOREY_KEYS,
-    "goods": PLAIN_GOODS_KEYS | PLAIN_SIZE_KEYS,
-    "storeys": PLAIN_STOREY_KEYS | PLAIN_GOODS_KEYS,
-    "storeys.goods": PLAIN_SIZE_KEYS,
-}
-"""Keys without a unit, in a file that states its system of units."""
 
 
 def example_file() -> Path:
@@ -355,6 +322,8 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
     """The building of a file in one direction."""
     units = top.choice("units", SYSTEMS) if "units" in top.values else ""
     storeys = top.tables("storeys")
+    sources = sources_of(top.values)
+    is_us = units == US or (not units and any(row.us and row.us in text for _, text in sources for row in UNIT_KEYS))
     if not storeys:
         top.refuse("storeys", "a table per storey, storey 1 first", "none")
     for storey in storeys:
@@ -451,8 +420,10 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
         drift_cap=np.inf if heights is None else building.number("drift_cap", DRIFT_CAP, POSITIVE),
         scaling_period=_optional(building, "scaling_period_s"),
         path=path,
+        file_sha256=top.sha256,
+        units=US if is_us else SI,
         project=project_of(project),
-        sources=sources_of(top.values),
+        sources=sources,
         walls=None if wall_matrix is None else wall_matrix.matrix,
         walls_stated="" if wall_matrix is None else wall_matrix.how,
         base=base_of(base),
@@ -473,7 +444,8 @@ def _table(top: Table, key: str, units: str) -> Table:
 
 def _known(table: Table, kind: str, units: str) -> None:
     """Refuse keys that are not known, and put those without a unit and in US units into SI units."""
-    table.known(KEYS[kind], also=(*US_KEYS.get(kind, ()), *plain_keys(PLAIN_KEYS.get(kind, {}), units)))
+    plain = (row.plain for row in UNIT_KEYS if _of_file(row, units) and kind in row.tables)
+    table.known(KEYS[kind], also=(*US_KEYS[kind], *plain))
     to_si(table, units)
 
 

@@ -40,7 +40,7 @@ def collapses_allowed(building: OwnBuilding, motions: int) -> int:
 
 def checks_table(building: OwnBuilding, storeys: pl.DataFrame, collapses: dict[str, int], motions: int) -> pl.DataFrame:
     """Return one row per check and model: the storey with the largest value, value, limit, whether it is met (null
-    where there is no value), and the clause of the limit. `collapses` counts collapsed runs by model.
+    where there is no value), why there is no value, and the clause of the limit. `collapses` counts runs by model.
     """
     models = [model for model in (*SLIDING_ALL, ADVISED, BARE) if model in collapses]
     allowed = collapses_allowed(building, motions)
@@ -57,12 +57,16 @@ def checks_table(building: OwnBuilding, storeys: pl.DataFrame, collapses: dict[s
             "stability coefficient": ("theta", building.theta_limit, _theta_source(building)),
         }
         for check, (column, limit, source) in limits.items():
-            rows += [_largest(storeys, check, model, column, limit, source) for model in models]
-        elastic = _largest(storeys, "elastic stability coefficient", models[0], "theta_elastic", THETA_THRESHOLD, "")
+            why = _missing(building, column)
+            rows += [_largest(storeys, check, model, column, limit, source, why) for model in models]
+        why = _missing(building, "theta_elastic")
+        elastic = _largest(
+            storeys, "elastic stability coefficient", models[0], "theta_elastic", THETA_THRESHOLD, "", why
+        )
         elastic["source"] = "ASCE/SEI 7-10, 12.8.7 (verified): above it P-Delta must be considered"
         if building.gravity_load is not None:
             elastic["source"] += ", as it is here"
-            elastic["met"] = True
+            elastic["met"] = None if elastic["value"] is None else True
         rows.append(elastic)
     return pl.DataFrame(
         [_judged(row) for row in rows],
@@ -73,23 +77,33 @@ def checks_table(building: OwnBuilding, storeys: pl.DataFrame, collapses: dict[s
             "value": pl.Float64,
             "limit": pl.Float64,
             "met": pl.Boolean,
+            "reason": pl.String,
             "source": pl.String,
         },
     )
 
 
-def _largest(storeys: pl.DataFrame, check: str, model: str, column: str, limit: float, source: str) -> dict[str, Any]:
+def _missing(building: OwnBuilding, column: str) -> str:
+    """Why a value of a storey is missing where it is."""
+    if column == "mean_by_code":
+        return "half of the runs collapse, or more"
+    return "no storey force" if building.walls is None else "not defined beside walls"
+
+
+def _largest(
+    storeys: pl.DataFrame, check: str, model: str, column: str, limit: float, source: str, why: str
+) -> dict[str, Any]:
     rows = storeys.filter(model=model)
     row: dict[str, Any] = {"check": check, "model": model, "limit": limit, "source": source}
     if rows[column].null_count():
-        return {**row, "storey": None, "value": None}
+        return {**row, "storey": None, "value": None, "reason": why}
     place = int(np.argmax(rows[column].to_numpy()))
     return {**row, "storey": int(rows["storey"][place]), "value": float(rows[column][place])}
 
 
 def _judged(row: dict[str, Any]) -> dict[str, Any]:
     value = row["value"]
-    return {"storey": None, "met": None if value is None else value <= row["limit"], **row}
+    return {"storey": None, "met": None if value is None else value <= row["limit"], "reason": None, **row}
 
 
 def drift_source(building: OwnBuilding) -> str:
@@ -185,11 +199,15 @@ def input_document(building: OwnBuilding, target: TargetSpectrum | None) -> dict
         "scaling_period": building.scaling_period,
         "sources": dict(building.sources),
         "file": None if building.path is None else building.path.name,
+        "file_sha256": building.file_sha256,
+        "units": building.units,
     }
 
 
 ANALYSES: Final = {ADVISED: "analysis 1", BARE: "analysis 2"}
 """The pair of analyses, by their models: with the share attached, and without goods."""
+ONE_ANALYSIS: Final = {ADVISED: "the analysis", BARE: "the analysis"}
+"""The same where the share is 0 and both are one."""
 DIGITS: Final = 2
 """Decimals of a drift (%, or mm) that are printed; drifts with equal ones are one, as of goods that hardly slide."""
 
@@ -206,6 +224,8 @@ def governing_table(building: OwnBuilding, storeys: pl.DataFrame) -> pl.DataFram
     """
     words = friction_words(building)
     known = storeys["model"].unique(maintain_order=True).to_list()
+    both = [storeys.filter(model=name)["mean"].to_list() for name in ANALYSES]
+    called = ONE_ANALYSIS if both[0] in (both[1], []) else ANALYSES
     models = (ADVISED, BARE, SLIDING, SLIDING_HIGH, SLIDING_LOW)
     columns = [name for name in models if name in known]
     rows: list[dict[str, Any]] = []
@@ -219,7 +239,7 @@ def governing_table(building: OwnBuilding, storeys: pl.DataFrame) -> pl.DataFram
         if sliding:
             worst = max(sliding, key=lambda name: sliding[name])
             row |= {"sliding": sliding[worst], "sliding_at": words[worst]}
-        row |= _governing(drifts, words, 1e2 if first["unit"] == "ratio" else 1e3)
+        row |= _governing(drifts, words, called, 1e2 if first["unit"] == "ratio" else 1e3)
         if first["limit"] is not None:
             row["governing_over_limit"] = row["governing"] / first["limit"]
         rows.append(row)
@@ -228,12 +248,12 @@ def governing_table(building: OwnBuilding, storeys: pl.DataFrame) -> pl.DataFram
     return pl.DataFrame(rows, schema={"storey": pl.UInt32, **texts, **dict.fromkeys(numbers, pl.Float64)})
 
 
-def _governing(drifts: dict[str, float], words: dict[str, str], scale: float) -> dict[str, Any]:
+def _governing(drifts: dict[str, float], words: dict[str, str], called: dict[str, str], scale: float) -> dict[str, Any]:
     """The largest drift and what has it; sliding goods only where they drift more than both analyses."""
     model = max((name for name in ANALYSES if name in drifts), key=lambda name: drifts[name])
     largest = max(drifts, key=lambda name: drifts[name])
     if round(scale * drifts[largest], DIGITS) == round(scale * drifts[model], DIGITS):
-        return {"governing": drifts[model], "governed_by": ANALYSES[model]}
+        return {"governing": drifts[model], "governed_by": called[model]}
     return {"governing": drifts[largest], "governed_by": f"goods slide, {words[largest]}"}
 
 

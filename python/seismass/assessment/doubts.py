@@ -120,15 +120,19 @@ def _load_doubts(building: OwnBuilding) -> list[str]:
     frame = building.mass - building.bolted
     live, floor = (1e-3 * STANDARD_GRAVITY * mass / building.area for mass in (building.live_load, frame))
     dead = np.where(building.dead_load_stated, floor, np.nan)
-    psf = "are loads in kPa (1 psf is 0.0479 kPa)?"
+    units = building.shown
+    psf = f"are loads in {units.unit('load')} (1 psf is 0.0479 kPa)?"
+    most, dead_most, low_text, high_text = (
+        units.text("load", 1e3 * value) for value in (heaviest, MAX_DEAD_LOAD, *FLOOR_WEIGHT_RANGE)
+    )
     doubts = [
-        *_outside(building, "design live load", live, 0.0, heaviest, f"above {heaviest:g} kPa{{others}}: {psf}"),
-        *_outside(building, "dead load", dead, 0.0, MAX_DEAD_LOAD, f"above {MAX_DEAD_LOAD:g} kPa{{others}}: {psf}"),
+        *_outside(building, "design live load", live, 0.0, heaviest, f"above {most}{{others}}: {psf}"),
+        *_outside(building, "dead load", dead, 0.0, MAX_DEAD_LOAD, f"above {dead_most}{{others}}: {psf}"),
     ]
     if not any(text.startswith("dead load") for text in doubts):
         asked = (
-            f"outside {low:g} to {high:g} kPa{{others}}: are area and mass or load in the units of their keys, and is "
-            "the mass no weight?"
+            f"outside {low_text} to {high_text}{{others}}: are area and mass or load in the units of their keys, and "
+            "is the mass no weight?"
         )
         doubts += _outside(building, "weight over the area", floor, low, high, asked)
     heavy = float(building.goods_mass.sum() / building.mass.sum())
@@ -148,7 +152,8 @@ def _outside(building: OwnBuilding, what: str, values: FloatArray, low: float, h
     name = building.storey_names[floor - 1]
     called = f"floor {floor}, {name}," if name else f"floor {floor}"
     others = f" (and {len(places) - 1} more)" if len(places) > 1 else ""
-    return [f"{what} of {called} is {values[floor - 1]:.4g} kPa, {sentence.format(others=others)}"]
+    value = building.shown.text("load", 1e3 * values[floor - 1], ".4g")
+    return [f"{what} of {called} is {value}, {sentence.format(others=others)}"]
 
 
 def _order_doubts(building: OwnBuilding) -> list[str]:
@@ -197,13 +202,14 @@ def _size_doubts(building: OwnBuilding) -> list[str]:
     for kind in building.loose:
         if kind.size is None or kind.live_load == 0.0:
             continue
-        size, goods = kind.size, f"{kind.name or 'goods'} on floor {kind.floor}"
+        units, size, goods = building.shown, kind.size, f"{kind.name or 'goods'} on floor {kind.floor}"
         clear = MAX_GOODS_HEIGHT
         if building.heights is not None and kind.floor < building.storeys:
             clear = float(building.heights[kind.floor])
         if max(size.width, size.height) > max(clear, MAX_GOODS_HEIGHT) or size.height > clear:
             doubts.append(
-                f"the {goods} are {size.width:g} x {size.height:g} m, more than the {clear:.3g} m that they have: is "
+                f"the {goods} are {units.number('height', size.width)} x {units.text('height', size.height)}, more "
+                f"than the {units.text('height', clear, '.3g')} that they have: is "
                 "that the size of one of them, in the unit of its key?"
             )
         if np.isclose(kind.mu_s, size.uplift_g, rtol=SAME_RATIO, atol=0.0):

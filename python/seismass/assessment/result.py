@@ -25,19 +25,13 @@ from seismass.motions.spectra import TargetSpectrum
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SCHEMA_VERSION: Final = 9
+SCHEMA_VERSION: Final = 10
 """Version of the tables and of the JSON of an assessment."""
 
 
-def shown_figures(fractions: bool, storeys: pl.DataFrame, slip: pl.DataFrame) -> tuple[str, ...]:
-    """Return the names of the figures with content; `fractions`: whether an effective fraction has a value."""
-    shown = {
-        "effective_fraction": fractions,
-        "drift": True,
-        "slip": slip["peak_mean"].drop_nulls().len() > 0,
-        "spectrum": True,
-    }
-    return tuple(name for name, is_shown in shown.items() if is_shown)
+def shown_figures(fractions: bool) -> tuple[str, ...]:
+    """Return the names of the figures with content; `fractions`: whether there is an answer with a fraction."""
+    return ("drift", *(("effective_fraction",) if fractions else ()), "spectrum")
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,9 +165,10 @@ class Assessment(Result):
 
     @property
     def figure_names(self) -> tuple[str, ...]:
-        """effective_fraction, drift, slip, spectrum: those that have something to show."""
-        fractions = any(math.isfinite(one.value) for one in self.effective.values())
-        return shown_figures(fractions, self.storeys, self.slip)
+        """drift, effective_fraction, spectrum: those that have something to show."""
+        return shown_figures(
+            bool(self.answer.analyses) and any(math.isfinite(one.value) for one in self.effective.values())
+        )
 
     @view
     def plot(self, name: str | None = None) -> Figure:
@@ -182,9 +177,9 @@ class Assessment(Result):
         Parameters
         ----------
         name : str, optional
-            "effective_fraction": drift with goods that slide over that of the model against the share, by friction;
-            "drift": drift by storey and model, beside the limit; "slip": slip demand by floor; "spectrum": spectra of
-            the motions beside that of the site.
+            "drift": what each storey uses of its drift limit in both analyses and with goods that slide, and the slip
+            of its floor; "effective_fraction": drift with goods that slide over that of the model against the share,
+            by friction; "spectrum": spectra of the motions beside that of the site.
 
         Raises
         ------
@@ -207,6 +202,7 @@ class Assessment(Result):
             "doubts": list(self.answer.doubts),
             "doubt_lines": list(self.answer.doubt_lines),
             "reason": self.answer.reason,
+            "remedy": self.answer.remedy,
             "on_motions": self.answer.motions,
             "answer": self._answer_document(),
             "code": asdict(code)
@@ -243,6 +239,7 @@ class Assessment(Result):
             "advised_share_of_design_live_load": self.advised_of_live_load,
             "share_for_strengths_of_goods_present": share,
             "analyses": [asdict(one) for one in answer.analyses],
+            "opening": answer.opening,
             "pair": list(answer.pair),
             "governs": list(answer.governs),
             "goods": list(answer.goods),

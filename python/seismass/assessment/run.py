@@ -10,7 +10,6 @@ from typing import Any, Final
 
 import numpy as np
 
-from seismass import _kernel
 from seismass.assessment.advice import advice_of, assumptions_of, remarks_of
 from seismass.assessment.answer import (
     ANALYSIS,
@@ -43,10 +42,10 @@ from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.assessment.rocking import other_models, tipping_table
 from seismass.assessment.statement import PresentGoods, governing_drifts, other_amounts, present_goods
 from seismass.base.arguments import Progress, ProgressLike
-from seismass.base.digest import inputs_digest, motion_contents
+from seismass.base.digest import metadata_head, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.files import without_formulas
-from seismass.base.statistics import bootstrap_counts
+from seismass.base.statistics import bootstrap_counts, few_collapses
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.design.scaling import ScalingResult
 from seismass.effective_mass.models import DEFAULT_FRACTIONS, SHARES_BEYOND, check_cap, goes_beyond
@@ -56,7 +55,6 @@ from seismass.motions.motion import motion_names, scaled_motions
 from seismass.motions.records import Pair, Pairs, Record, Suite, builtin_pairs, builtin_suite
 from seismass.motions.spectra import TargetSpectrum
 from seismass.runs.peaks import named_motions
-from seismass.runs.simulate import instruction_set
 
 FIXED_MODELS: Final = 4
 """Models that every assessment with goods solves beside those with goods that slide."""
@@ -213,7 +211,12 @@ def assess(
     doubts = (*doubts_of(stated, sliding_scene, scaled, spectrum, storeys), *motion_doubts(left_out, effective))
     tables = (storeys, governing, runs, left_out, collapses, slip, amounts)
     tipping = tipping_table(stated, sliding_scene, scaled)
-    answer = answer_of(stated, advised, effective, design, *tables, (tipping, tuple(of_models)), facts, scaling, doubts)
+
+    def remedy() -> str:
+        return "" if in_plane else _remedy(stated, spectrum, scaled, names, threads)
+
+    cases = (tipping, tuple(of_models))
+    answer = answer_of(stated, advised, effective, design, *tables, cases, facts, scaling, doubts, remedy)
     return Assessment(
         building=stated,
         target=spectrum,
@@ -241,10 +244,8 @@ def assess(
         remarks=remarks_of(stated, doubts, scaling, effective, facts),
         assumptions=assumptions_of(stated, spectrum, scaling, facts, period),
         metadata={
-            "schema_version": SCHEMA_VERSION,
-            "package_version": _kernel.VERSION,
-            "instructions": instruction_set(),
-            "inputs_sha256": inputs_digest(
+            **metadata_head(
+                SCHEMA_VERSION,
                 scenes,
                 stated,
                 None if spectrum is None else spectrum.parameters,
@@ -257,6 +258,33 @@ def assess(
             "motions": len(suite),
         },
     )
+
+
+STRONGER: Final = (1.25, 1.5, 2.0, 3.0)
+"""Factors of the strengths that are tried where runs collapse."""
+
+
+def _remedy(
+    building: OwnBuilding, target: TargetSpectrum | None, motions: list[Any], names: list[str], threads: int | None
+) -> str:
+    """The least of a few factors of the strengths with which few enough runs of every model collapse."""
+    tried = [factor for factor in STRONGER if building.design is None or factor <= building.design.R]
+    for factor in tried:
+        changes: dict[str, Any] = {}
+        if building.design is not None:
+            changes["design"] = replace(building.design, R=building.design.R / factor)
+        if building.yield_shear is not None:
+            changes["yield_shear"] = factor * building.yield_shear
+        stronger = replace(building, **changes)
+        runs, _ = solve_models(stronger, compared_models(stronger, target, None), motions, names, threads=threads)
+        worst = max(collapses_of(runs).values())
+        if few_collapses(worst, len(motions)):
+            how = "" if stronger.design is None else f", R = {stronger.design.R:.3g},"
+            return (
+                f"With strengths {factor:g} times as large{how} there is an answer: models collapse under at most "
+                f"{worst} of {len(motions)} motions"
+            )
+    return f"Strengths {tried[-1]:g} times as large give no answer either" if tried else ""
 
 
 def _building(source: Any, code: CodeFraction | None, mu_factors: tuple[float, float] | None) -> OwnBuilding:

@@ -11,11 +11,11 @@ import numpy as np
 import polars as pl
 
 from seismass.assessment.building import OwnBuilding
-from seismass.assessment.checks import ANALYSES, friction_words, largest_change, largest_excess
+from seismass.assessment.checks import ANALYSES, ONE_ANALYSIS, friction_words, largest_change, largest_excess
 from seismass.assessment.floors import NOTHING_STATED, FloorGoods
-from seismass.assessment.models import ATTACHED, BARE, SLIDING
+from seismass.assessment.models import ADVISED, ATTACHED, BARE, SLIDING
 from seismass.assessment.structure import beyond_rule
-from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.units import STANDARD_GRAVITY, UNITS
 from seismass.base.values import FloatArray
 from seismass.effective_mass import EffectiveMass
 from seismass.model.occupancy import SURVEYED, surveyed_load
@@ -36,6 +36,7 @@ NO_MATTER: Final = 0.01
 class PresentGoods:
     """The answer for an amount of goods, `floors` in words: share `present` of the design live load, share of them
     `advised` as mass, storey that governs, its drift (ratio, or m without heights) and limit; or the `reason` for none.
+    `units` are those of its words.
     """
 
     floors: str
@@ -45,6 +46,7 @@ class PresentGoods:
     drift: float | None = None
     limit: float | None = None
     reason: str | None = None
+    units: str = "si"
 
     @property
     def verdict(self) -> str:
@@ -54,8 +56,10 @@ class PresentGoods:
     @property
     def drifts(self) -> str:
         """The drift beside its limit."""
-        drift = self.drift or 0.0
-        return f"{1e3 * drift:.2f} mm" if self.limit is None else f"{100.0 * drift:.2f} % of {100.0 * self.limit:g} %"
+        drift, units = self.drift or 0.0, UNITS[self.units]
+        return (
+            units.text("drift", drift) if self.limit is None else f"{100.0 * drift:.2f} % of {100.0 * self.limit:g} %"
+        )
 
     @property
     def words(self) -> str:
@@ -110,7 +114,8 @@ def governing_drifts(effective: dict[str, EffectiveMass], advised: float) -> Flo
 def present_goods(floors: str, building: OwnBuilding, advised: float, drifts: FloatArray) -> PresentGoods:
     """Return the answer for an amount of goods, of the drift that governs each storey."""
     storey, limit = int(np.argmax(drifts)), None if building.heights is None else building.drift_limit
-    return PresentGoods(floors, building.present_share, advised, storey + 1, float(drifts[storey]), limit)
+    drift = float(drifts[storey])
+    return PresentGoods(floors, building.present_share, advised, storey + 1, drift, limit, units=building.units)
 
 
 def statement_of(
@@ -140,28 +145,36 @@ def statement_of(
         if other.verdict != first.verdict:
             changed = f"it is {other.verdict}: {other.drifts}" if other.verdict else "there is no answer"
             verdict += f"; with {other.floors} {changed}"
-    sentences = (_uncovered(building, governing), sliding, verdict, collapsing(building, collapses, motions))
+    single = first.advised == 0.0
+    fallen = collapsing(building, collapses, motions, single=single)
+    sentences = (_uncovered(building, governing, single=single), sliding, verdict, fallen)
     return " ".join(f"{sentence}." for sentence in sentences if sentence)
 
 
-def collapsing(building: OwnBuilding, collapses: dict[str, int], motions: int) -> str:
-    """Return which models collapse under how many motions: goods that slide, at their worst friction, and the pair."""
+def collapsing(building: OwnBuilding, collapses: dict[str, int], motions: int, *, single: bool = False) -> str:
+    """Return which models collapse under how many motions: goods that slide, at their worst friction, and the pair, or
+    the `single` analysis.
+    """
     called = {BARE: "the building"}
     words = {name: where for name, where in friction_words(building).items() if name in collapses}
     if words:
         worst = max(words, key=lambda name: collapses[name])
         called = {worst: f"the building with goods that slide ({words[worst]})", **ANALYSES}
-    sentences = [f"{name} under {collapses[key]}" for key, name in called.items() if collapses.get(key)]
+        called = {**called, BARE: ONE_ANALYSIS[BARE], ADVISED: ""} if single else called
+    sentences = [f"{name} under {collapses[key]}" for key, name in called.items() if name and collapses.get(key)]
     return f"Of {motions} runs each some collapse: {', '.join(sentences)}" if sentences else ""
 
 
-def _uncovered(building: OwnBuilding, governing: pl.DataFrame) -> str:
+def _uncovered(building: OwnBuilding, governing: pl.DataFrame, *, single: bool) -> str:
     (ratio, storey, where), parts = largest_excess(governing), " and ".join(beyond_rule(building))
     if ratio <= SHORT:
         return ""
+    analyses, of_what = (
+        ("No analysis covers", "its drift") if single else ("No pair of analyses covers", "the larger of both")
+    )
     return (
-        f"No pair of analyses covers this building{f' with {parts}' * bool(parts)}: with goods that slide ({where}) "
-        f"storey {storey} drifts {ratio:.2f} times the larger of both, and that drift counts"
+        f"{analyses} this building{f' with {parts}' * bool(parts)}: with goods that slide ({where}) storey {storey} "
+        f"drifts {ratio:.2f} times {of_what}, and that drift counts"
     )
 
 
@@ -193,7 +206,8 @@ def _sliding(
     nothing += "; count all goods that are there as mass"
     if not slides:
         return f"No goods slide under any of the {runs} motions{where}: {nothing}"
-    slid = f"in {slides} of {runs} motions{where}, {1e3 * p84:.1f} mm at 84 %, {1e3 * most:.1f} mm at most"
+    slips = [UNITS[first.units].text("slip", value, ".1f") for value in (p84, most)]
+    slid = f"in {slides} of {runs} motions{where}, {slips[0]} at 84 %, {slips[1]} at most"
     hardly = bool(p84 <= HARDLY)
     return f"Goods {'hardly ' * hardly}slide ({slid}){f', which {effect}' * (not hardly)}: {nothing}"
 

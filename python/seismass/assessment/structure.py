@@ -11,7 +11,7 @@ import polars as pl
 from seismass.assessment.building import OwnBuilding
 from seismass.assessment.floors import CONTACT_PERIOD
 from seismass.assessment.models import NAMES, SLIDING_ALL
-from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.units import STANDARD_GRAVITY, Units
 from seismass.base.values import FloatArray
 from seismass.effective_mass import EffectiveMass
 from seismass.model.building import Building
@@ -47,27 +47,35 @@ def rule_advice(building: OwnBuilding, effective: EffectiveMass | None) -> tuple
     )
 
 
-def base_advice(runs: pl.DataFrame) -> list[str]:
-    """Return how far a sliding base slips: at the friction of goods at which it slips most; or nothing."""
+def slip_of_base(runs: pl.DataFrame) -> dict[str, Any] | None:
+    """Return mean, median, 84 % and largest slip of a sliding base (m) over the motions without a collapse, at the
+    friction of goods at which it slips most; None on firm ground.
+    """
     of_base = runs.filter((pl.col("storey") == 1) & ~pl.col("collapsed")).drop_nulls("peak_base_slip")
     drifts = (
         of_base.filter(pl.col("model").is_in(SLIDING_ALL))
         .group_by("model", maintain_order=True)
         .agg(
             mean=pl.col("peak_base_slip").mean(),
+            median=pl.col("peak_base_slip").median(),
             p84=pl.col("peak_base_slip").quantile(0.84, "linear"),
             most=pl.col("peak_base_slip").max(),
             motions=pl.len(),
         )
         .sort("p84", descending=True)
     )
-    if not drifts.height:
+    return drifts.row(0, named=True) if drifts.height else None
+
+
+def base_advice(runs: pl.DataFrame, units: Units) -> list[str]:
+    """Return how far a sliding base slips, or nothing."""
+    row = slip_of_base(runs)
+    if row is None:
         return []
-    row = drifts.row(0, named=True)
+    mean, p84, most = (units.text("slip", row[name]) for name in ("mean", "p84", "most"))
     return [
-        f"The base slips {1e3 * row['mean']:.0f} mm in the mean of {row['motions']} motions, up to "
-        f"{1e3 * row['p84']:.0f} mm under 84 % of them and {1e3 * row['most']:.0f} mm at most ({NAMES[row['model']]}): "
-        "what crosses the joint must follow."
+        f"The base slips {mean} in the mean of {row['motions']} motions, up to {p84} under 84 % of them and {most} at "
+        f"most ({NAMES[row['model']]}): what crosses the joint must follow."
     ]
 
 
@@ -87,9 +95,12 @@ def support_remarks(building: OwnBuilding) -> list[str]:
             how = (
                 f"elastic with a period of {CONTACT_PERIOD:g} s (none was stated)"
                 if kind.stops.stiffness is None
-                else f"{1e-3 * kind.stops.stiffness:g} kN/m"
+                else building.shown.text("stiffness", kind.stops.stiffness, ".4g")
             )
-            lines.append(f"Stops: {what} meet them after {1e3 * kind.stops.clearance:g} mm of slip, {how}.")
+            lines.append(
+                f"Stops: {what} meet them after {building.shown.text('slip', kind.stops.clearance, '.4g')} of "
+                f"slip, {how}."
+            )
     if building.walls is not None:
         lines.append(
             f"Walls: {building.walls_stated}; elastic, and in the damping of every mode. Beside them storeys have no "
@@ -98,12 +109,12 @@ def support_remarks(building: OwnBuilding) -> list[str]:
     if building.base is not None:
         base = building.base
         slab = base.slab_mass(Building(building.mass, building.stiffness, yield_shear=np.inf))
-        surface = "flat" if base.radius is None else f"a pendulum of R = {base.radius:g} m"
+        surface = "flat" if base.radius is None else f"a pendulum of R = {building.shown.text('height', base.radius)}"
         lines.append(
             f"Base: slides on the ground with mu_s = {base.mu_s:g} and mu_k = {base.mu_k:g} as stated, without bounds, "
-            f"{surface}, slab of {1e-3 * slab:.3g} t; it sticks exactly, and damping is that of the "
-            "building fixed at it. Its friction is that of the whole weight in every model. Period and scaling are of "
-            "the building fixed at its base unless stated."
+            f"{surface}, slab of {building.shown.text('mass', slab, '.3g')}; it sticks exactly, and damping is that of "
+            "the building fixed at it. Its friction is that of the whole weight in every model. Period and scaling are "
+            "of the building fixed at its base unless stated."
         )
     return lines
 
@@ -124,7 +135,7 @@ def force_ratios(scene: Scene, motions: list[Any]) -> FloatArray:
         response = simulate(scene, getattr(motion, "motion", motion), histories=True, events=False)
         forces = response.floor_velocity @ matrix.T
         damping = np.cumsum(forces[:, ::-1], axis=1)[:, ::-1]
-        springs = response.storey_force
+        springs = response.storey_shear
         spring = np.abs(springs).max(axis=0)
         both = np.abs(springs + damping).max(axis=0)
         ratios.append(np.divide(both, spring, out=np.ones(len(spring)), where=spring > 0.0))

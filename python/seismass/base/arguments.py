@@ -77,7 +77,7 @@ def as_word(
     if is_one_of(value, words):
         return value
     known = list(words)
-    requirement = " or ".join(known) if len(known) < 3 else f"one of {', '.join(known)}"
+    requirement = " or ".join(known) if len(known) == 2 else f"one of {', '.join(known)}"
     raise refusal(kind, parameter, owner, requirement + did_you_mean(value, known), brief(value))
 
 

@@ -23,10 +23,7 @@ __all__ = [
 _SMALLEST: Final = 1e-150
 """Smallest standard deviation whose square is not zero."""
 
-
-def __dir__() -> list[str]:
-    """Return the public names, for completion."""
-    return list(__all__)
+__dir__ = __all__.copy  # for completion
 
 
 @runtime_checkable

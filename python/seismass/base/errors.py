@@ -22,10 +22,7 @@ __all__ = [
     "SimulationError",
 ]
 
-
-def __dir__() -> list[str]:
-    """Return the public names, for completion."""
-    return list(__all__)
+__dir__ = __all__.copy  # for completion
 
 
 class SeismassError(Exception):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 import re
@@ -30,7 +31,8 @@ def load_table(source: Path, what: str, kind: type[SeismassError]) -> Table:
     if suffix not in (".toml", ".json"):
         raise refusal(kind, "suffix", f"{what} {source.name}", ".toml or .json", brief(suffix))
     try:
-        text = read_file(source, MOST_TOML if suffix == ".toml" else MOST_BYTES).decode("utf-8-sig")
+        content = read_file(source, MOST_TOML if suffix == ".toml" else MOST_BYTES)
+        text = content.decode("utf-8-sig")
         loaded = _toml(text) if suffix == ".toml" else json.loads(text, object_pairs_hook=_without_repeats)
     except OSError as error:
         raise kind(f"{what} must be a file that can be read; got {source} ({error.strerror or error})") from error
@@ -41,7 +43,9 @@ def load_table(source: Path, what: str, kind: type[SeismassError]) -> Table:
         raise refusal(kind, short(str(error)), source.name, "given once", "it twice") from None
     if not isinstance(loaded, dict):
         raise refusal(kind, "content", source.name, "a table of keys", brief(loaded))
-    return Table(loaded, "", source.name, kind)
+    table = Table(loaded, "", source.name, kind)
+    table.sha256 = hashlib.sha256(content).hexdigest()
+    return table
 
 
 def _toml(text: str) -> dict[str, Any]:
@@ -87,6 +91,7 @@ class Table:
         allowed = set(nullable)
         self.values = {key: value for key, value in values.items() if value is not None or key in allowed}
         self._all_keys = tuple(values)
+        self.sha256 = ""  # of a whole file
         self.place = place
         self.file = file
         self._kind = kind

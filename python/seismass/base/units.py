@@ -1,8 +1,9 @@
-"""Standard gravity and the units in which accelerations come from files."""
+"""Standard gravity, the systems of units in which results are shown, and the units of accelerations in files."""
 
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from typing import Any, Final
 
 from seismass import _kernel
@@ -20,6 +21,59 @@ POUND: Final = 0.45359237
 """Pound (kg), exact."""
 KIP: Final = 1e3 * POUND * STANDARD_GRAVITY
 """Kip (N): the weight of 1000 lb."""
+
+_QUANTITIES: Final = {
+    "height": ("m", 1.0, ".4g", "ft", FOOT, ".4g"),
+    "area": ("m\N{SUPERSCRIPT TWO}", 1.0, ".6g", "ft\N{SUPERSCRIPT TWO}", FOOT**2, ".6g"),
+    "load": ("kPa", 1e3, ".3g", "psf", 1e-3 * KIP / FOOT**2, ".3g"),
+    "force": ("kN", 1e3, ".0f", "kip", KIP, ".0f"),
+    "stiffness": ("kN/mm", 1e6, ".1f", "kip/in", KIP / INCH, ".0f"),
+    "mass": ("t", 1e3, ".1f", "kip s\N{SUPERSCRIPT TWO}/ft", KIP / FOOT, ".2f"),
+    "slip": ("mm", 1e-3, ".0f", "in", INCH, ".1f"),
+    "drift": ("mm", 1e-3, ".2f", "in", INCH, ".3f"),
+    "velocity": ("m/s", 1.0, ".2f", "in/s", INCH, ".1f"),
+    "displacement": ("m", 1.0, ".2f", "in", INCH, ".1f"),
+}
+"""Of each quantity its unit, that in SI units, and the form of a number, in SI and in US units."""
+
+
+@dataclass(frozen=True)
+class Units:
+    """A system of units in which results are shown: "si" or "us"."""
+
+    name: str
+
+    def of(self, quantity: str) -> tuple[str, float, str]:
+        """Return the unit of a quantity, that in SI units, and the form of a number."""
+        row = _QUANTITIES[quantity]
+        return row[:3] if self.name == "si" else row[3:]
+
+    def unit(self, quantity: str) -> str:
+        """Return the unit of a quantity."""
+        return self.of(quantity)[0]
+
+    def number(self, quantity: str, value: float, form: str = "") -> str:
+        """Return a value in SI units as a number; with its own digits where no form is asked for."""
+        _, size, usual = self.of(quantity)
+        return f"{value / size:{form or usual}}"
+
+    def text(self, quantity: str, value: float, form: str = "") -> str:
+        """Return a value in SI units as a number with its unit."""
+        return f"{self.number(quantity, value, form)} {self.unit(quantity)}"
+
+    def drifts(self, *, ratio: bool) -> tuple[float, str]:
+        """Return by what a drift is multiplied and the unit that it then has: per cent of a ratio, or a length."""
+        unit, size, _ = self.of("drift")
+        return (1e2, "%") if ratio else (1.0 / size, unit)
+
+    def both(self, quantity: str, value: float) -> str:
+        """Return a value in SI units in this system, and in brackets in the other."""
+        other = UNITS["si" if self.name == "us" else "us"]
+        return f"{self.text(quantity, value)} ({other.text(quantity, value)})"
+
+
+UNITS: Final = {name: Units(name) for name in ("si", "us")}
+"""The systems that `units` of a building file names."""
 
 ACCELERATION_UNITS: Final = {
     "g": STANDARD_GRAVITY,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -56,6 +57,8 @@ def options(parser: argparse.ArgumentParser) -> None:
     add_drift_cap_option(choices)
     # A folder of its own for each building, so that a second never replaces the first.
     add_answer_options(parser, "the name of FILE", lambda args: None if args.file is None else Path(args.file.stem))
+    show_help = "units of page, figures, text and analysis.csv (those of FILE)"
+    parser.add_argument("--show", choices=("si", "us"), help=show_help)
     add_opensees_option(parser, "the building, with goods that slide and of both analyses")
     back = parser.add_argument_group("into another program")
     lines = "write the mass sources of both analyses as lines of ETABS (.e2k) or SAP2000 (.s2k)"
@@ -82,6 +85,7 @@ def run(args: argparse.Namespace) -> int:
     if args.mass_source is None:
         refuse_options(args, ("live_pattern",), "building", "where --mass-source is not given")
     building = read_building(args.file)
+    building = replace(building, units=args.show or building.units)
     code, target = read_code(args, "building"), read_site(args, "building")
     in_plane = building.other is not None
     if in_plane and args.opensees is not None:
@@ -149,6 +153,7 @@ building warehouse.toml --records my_records/ --out warehouse
 building warehouse.toml --opensees warehouse_models
 building warehouse.toml --mass-source warehouse.e2k --live-pattern Storage
 building warehouse.toml --sds 0.8 --sd1 0.5
+building warehouse.toml --show us
 building warehouse.toml --target ec8:1:C:0.3 --code ec8
 building warehouse.toml --mu-factors 1 1 --json > answer.json
 building --codes

@@ -94,6 +94,8 @@ def run(args: argparse.Namespace) -> int:
             **arguments(args, "measure", "estimator", "extrapolate", "seed", "code_share", "design_rate"),
             **arguments(args, period="measure_period", shares="share", other_limits="other_limit", threads="jobs"),
         )
+    if building is not None and building.present_share > 0.0:  # shares of codes are of the design live load
+        result.metadata["present_share"] = building.present_share
     result, doubtful = with_doubts(result, doubts)
     head = f"{doubtful}suite                {suite.name}\nscaling              each motion to each intensity\n"
     give_answer(args, result, suite, head=head, indent=21, answer="risk-targeted share")

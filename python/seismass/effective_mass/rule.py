@@ -25,7 +25,7 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.statistics import quantile
-from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.units import STANDARD_GRAVITY, UNITS, Units
 from seismass.base.values import FloatArray
 from seismass.effective_mass.models import building_of, frame_mass, friction, full_weight, goods_mass
 from seismass.model.building import Building
@@ -165,15 +165,19 @@ class ByHand:
 
     @property
     def words(self) -> str:
-        """The rule in letters and numbers, in one sentence."""
+        """The rule in letters and numbers, in one sentence, in SI units."""
+        return self.words_in(UNITS["si"])
+
+    def words_in(self, units: Units) -> str:
+        """Return the rule in letters and numbers, in one sentence, in a system of units."""
         if not np.isfinite(self.friction):
             return "1, as all goods are fixed"
         source = "target spectrum" if self.of_target else "mean spectrum of the motions"
         if self.yield_shear is None:
             strength = "R_y = 1, as no strength limits the base shear"
         else:
-            forces = 1e-3 * self.weight, 1e-3 * self.yield_shear
-            weight, force = (f"{value:.{0 if value >= 1e3 else 4}f} kN" for value in forces)
+            forces = (self.weight, self.yield_shear)
+            weight, force = (units.text("force", value, "" if value >= 1e6 else ".4f") for value in forces)
             strength = f"R_y = S_a W_g/V_y = {self.yield_reduction:.2f}, W_g = {weight}, V_y = {force}"
         why = f"; - {SMALL_OFFSET:.2f}: {', '.join(self.exceptions)}" if self.exceptions else ""
         return (

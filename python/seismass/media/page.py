@@ -126,6 +126,7 @@ def _is_number(value: Any) -> bool:
 
 
 _SCRIPT: Final = re.compile(r"<script\b[^>]*>(.*?)</script>", re.DOTALL)
+_NOT_PLAIN: Final = re.compile(r"[^\w ,.;:-]")
 _NOT_IN_ID: Final = re.compile(r"[^a-z0-9]+")
 
 
@@ -178,21 +179,39 @@ def page_html(
     description: str = "",
     lead: Iterable[str] = (),
     runs_kernel: bool = False,
+    running: Mapping[str, str] | None = None,
 ) -> str:
-    """Return a whole page. Its Content-Security-Policy allows no request and only the page's scripts, by their digests;
-    `runs_kernel` adds WebAssembly, also in a worker. `lead` stands before the table of contents.
+    """Return a whole page that makes no request and runs its own scripts alone; `runs_kernel` adds WebAssembly, also in
+    a worker. `lead` stands before the contents, `running` in the margins of printed sheets by their place ("top-left").
     """
     placed = _placed(sections, 2, set())
     page: str = (
         templates()
         .get_template("base.html.jinja")
-        .render(title=title, subtitle=subtitle, description=description, lead=lead, sections=placed, icon=_icon())
+        .render(
+            title=title,
+            subtitle=subtitle,
+            description=description,
+            lead=lead,
+            sections=placed,
+            icon=_icon(),
+            margins=_margins(running or {}),
+        )
     )
     digests = (hashlib.sha256(script.encode()).digest() for script in _SCRIPT.findall(page))
     allowed = dict.fromkeys(f"'sha256-{base64.b64encode(digest).decode()}'" for digest in digests)
     sources = [*allowed, *(("'wasm-unsafe-eval'", "; worker-src", "blob:") if runs_kernel else ())]
     # The template leaves one place for it, ahead of anything that a caller gave.
     return page.replace("SCRIPT-DIGESTS", " ".join(sources).replace(" ;", ";"), 1)
+
+
+def _margins(running: Mapping[str, str]) -> Markup:
+    """Margin boxes of sheets; every letter of a text is an escape of CSS unless it is plain."""
+    boxes = "".join(
+        f'@{place} {{ content: "{_NOT_PLAIN.sub(lambda letter: chr(92) + format(ord(letter[0]), "06x"), text)}"; }} '
+        for place, text in running.items()
+    )
+    return Markup('{}@bottom-right {{ content: counter(page) " / " counter(pages); }}').format(Markup(boxes))
 
 
 @cache

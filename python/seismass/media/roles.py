@@ -46,6 +46,11 @@ class Role:
         """Colour and marker without a line, likewise."""
         return {"color": self.colour, "marker": self.marker, "linestyle": ""}
 
+    @property
+    def band(self) -> dict[str, Any]:
+        """A paler area, for a bar of matplotlib."""
+        return {"color": self.colour, "alpha": 0.3, "linewidth": 0.0}
+
 
 SLIDE: Final = Role("goods slide", BLUE, "#0072b2", "#62b6f0")
 CODE: Final = Role("code", VERMILION, "#b34700", "#ff9a5c", (0, (5, 2)), "s")
@@ -61,8 +66,8 @@ SPECTRUM: Final = Role("mean of the motions", BLUE, "#0072b2", "#62b6f0")
 TARGET: Final = Role("target", VERMILION, "#b34700", "#ff9a5c", (0, (5, 2)), "s")
 YIELDS: Final = Role("yields", MAGENTA, "#a4276f", "#ff8ac6")
 
-BLOCK_COLOURS: Final = (BLUE, VERMILION, GREEN, INK, PURPLE, ORANGE)
-"""Colours of block 1, 2, 3 and on, and of floors and storeys where each has its own."""
+BLOCK_COLOURS: Final = (BLUE, "#6BB5E3", DEEP_BLUE, "#3489BF", "#94CDEF", "#00527F")
+"""Colours of block 1, 2, 3 and on, of floors and of storeys where each has its own: shades of that of sliding goods."""
 CSS_NAMES: Final = {
     "--slide": SLIDE,
     "--code": CODE,

@@ -35,11 +35,7 @@ __all__ = [
     "code_table",
 ]
 
-
-def __dir__() -> list[str]:
-    """Return the public names, for completion."""
-    return list(__all__)
-
+__dir__ = __all__.copy  # for completion
 
 Use: TypeAlias = Literal["storage", "archive", "assembly", "shop", "ordinary", "garage", "roof", "important"]
 """Use of goods or of a floor: storage and warehouses, archives and libraries, assembly (schools, theatres), shops,

@@ -24,11 +24,7 @@ __all__ = [
     "friction_table",
 ]
 
-
-def __dir__() -> list[str]:
-    """Return the public names, for completion."""
-    return list(__all__)
-
+__dir__ = __all__.copy  # for completion
 
 BOUND_FACTORS: Final = (0.67, 1.5)
 """Factors of mu for its lower and upper bound, as EN 16681 has them by second-hand text: slip, and drift of racks."""

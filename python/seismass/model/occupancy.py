@@ -29,10 +29,7 @@ __all__ = [
     "surveyed_load",
 ]
 
-
-def __dir__() -> list[str]:
-    """Return the public names, for completion."""
-    return list(__all__)
+__dir__ = __all__.copy  # for completion
 
 
 @dataclass(frozen=True)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import json
-from typing import TYPE_CHECKING, Any, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -14,6 +13,15 @@ from seismass.base.views import Card, view
 from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
 from seismass.motions.motion import Motion, MotionLike, as_motion
+from seismass.runs.quantities import (
+    QUANTITIES,
+    Numbers,
+    Values,
+    events_of,
+    floor_displacement,
+    ground_motion,
+    names_read_by,
+)
 from seismass.runs.response import EVENT_KINDS
 
 if TYPE_CHECKING:
@@ -21,26 +29,8 @@ if TYPE_CHECKING:
 
     from seismass.motions.records import Pair
 
-_PEAKS: Final = (
-    "peak_drift",
-    "peak_slip",
-    "peak_floor_acceleration",
-    "peak_storey_shear",
-    "peak_base_shear",
-    "peak_rack_drift",
-    "peak_rack_acceleration",
-    "peak_rack_shear",
-)
-_PAIRS: Final = (
-    "residual_drift",
-    "residual_slip",
-    "residual_rack_drift",
-    "peak_contact_force",
-    "peak_contact_velocity",
-)
 
-
-class PlaneResponse(Card):
+class PlaneResponse(Numbers, Card):
     """What a run in two horizontal directions gives back. SI units; index 0 is storey 1, or block 1.
 
     Peaks are true extremes over continuous time, by direction and of the length of the vector: their last axis is
@@ -76,6 +66,16 @@ class PlaneResponse(Card):
             self._known[name] = frozen(np.stack(parts, axis=-1))
         return self._known[name]
 
+    def _history(self, name: str) -> FloatArray:
+        return self._pair(QUANTITIES[name].stored or name)
+
+    def _displacement(self, name: str) -> FloatArray:
+        return floor_displacement(self.drift, None)
+
+    def _ground(self, name: str) -> FloatArray:
+        rows, every = len(self.drift), self._directions[0].every or 1
+        return frozen(np.stack([ground_motion(each, name, rows, every) for each in self.motions], axis=-1))
+
     @property
     def remarks(self) -> tuple[str, ...]:
         """What is unlikely about scene and motions, in sentences."""
@@ -96,70 +96,32 @@ class PlaneResponse(Card):
         """Storey whose drift vector reached the collapse drift, counted from 1; None if none did."""
         return self._directions[0].collapsed_storey
 
-    @property
-    def peak_drift(self) -> FloatArray:
-        """Peak drift of each storey (m), shape (storeys, 3)."""
-        return self._peak("peak_drift")
-
-    @property
-    def peak_slip(self) -> FloatArray:
-        """Peak slip of each block (m), shape (blocks, 3)."""
-        return self._peak("peak_slip")
-
-    @property
-    def peak_floor_acceleration(self) -> FloatArray:
-        """Peak absolute acceleration of each floor (m/s2), shape (storeys, 3)."""
-        return self._peak("peak_floor_acceleration")
-
-    @property
-    def peak_storey_shear(self) -> FloatArray:
-        """Peak spring force of each storey (N), shape (storeys, 3)."""
-        return self._peak("peak_storey_shear")
-
-    @property
-    def peak_base_shear(self) -> FloatArray:
-        """Peak base shear with the share of stiffness matrices (N), shape (3,); NaN without a building."""
-        return self._peak("peak_base_shear")
-
-    @property
-    def peak_rack_drift(self) -> FloatArray:
-        """Peak drift of the levels of all racks, rack by rack (m), shape (levels, 3)."""
-        return self._peak("peak_rack_drift")
-
-    @property
-    def peak_rack_acceleration(self) -> FloatArray:
-        """Peak absolute acceleration of rack levels (m/s2), shape (levels, 3)."""
-        return self._peak("peak_rack_acceleration")
-
-    @property
-    def peak_rack_shear(self) -> FloatArray:
-        """Peak spring force of rack levels (N), shape (levels, 3)."""
-        return self._peak("peak_rack_shear")
-
-    @property
-    def peak_contact_force(self) -> FloatArray:
-        """Peak force of each block on its stops across x and across y (N), shape (blocks, 2)."""
-        return self._pair("peak_contact_force")
-
-    @property
-    def peak_contact_velocity(self) -> FloatArray:
-        """Peak relative velocity at which each block comes to its stops (m/s), shape (blocks, 2)."""
-        return self._pair("peak_contact_velocity")
-
-    @property
-    def residual_drift(self) -> FloatArray:
-        """Drift of each storey at the end (m), shape (storeys, 2)."""
-        return self._pair("residual_drift")
-
-    @property
-    def residual_slip(self) -> FloatArray:
-        """Slip of each block at the end (m), shape (blocks, 2)."""
-        return self._pair("residual_slip")
-
-    @property
-    def residual_rack_drift(self) -> FloatArray:
-        """Drift of rack levels at the end (m), shape (levels, 2)."""
-        return self._pair("residual_rack_drift")
+    peak_drift = Values[FloatArray]("_peak", after="3")
+    peak_slip = Values[FloatArray]("_peak", after="3")
+    peak_floor_acceleration = Values[FloatArray]("_peak", after="3")
+    peak_storey_shear = Values[FloatArray]("_peak", after="3")
+    peak_base_shear = Values[FloatArray]("_peak", after="3")
+    peak_rack_drift = Values[FloatArray]("_peak", after="3")
+    peak_rack_acceleration = Values[FloatArray]("_peak", after="3")
+    peak_rack_shear = Values[FloatArray]("_peak", after="3")
+    residual_drift = Values[FloatArray]("_pair", after="2")
+    residual_slip = Values[FloatArray]("_pair", after="2")
+    residual_rack_drift = Values[FloatArray]("_pair", after="2")
+    peak_contact_force = Values[FloatArray]("_pair", after="2")
+    peak_contact_velocity = Values[FloatArray]("_pair", after="2")
+    drift = Values[FloatArray]("_history", "rows", "2")
+    slip = Values[FloatArray]("_history", "rows", "2")
+    floor_velocity = Values[FloatArray]("_history", "rows", "2")
+    floor_acceleration = Values[FloatArray]("_history", "rows", "2")
+    storey_shear = Values[FloatArray]("_history", "rows", "2")
+    block_velocity = Values[FloatArray]("_history", "rows", "2")
+    rack_drift = Values[FloatArray]("_history", "rows", "2")
+    rack_velocity = Values[FloatArray]("_history", "rows", "2")
+    rack_acceleration = Values[FloatArray]("_history", "rows", "2")
+    floor_displacement = Values[FloatArray]("_displacement", "rows", "2")
+    ground_acceleration = Values[FloatArray]("_ground", "rows", "2")
+    ground_velocity = Values[FloatArray]("_ground", "rows", "2")
+    ground_displacement = Values[FloatArray]("_ground", "rows", "2")
 
     @property
     def slip_path(self) -> FloatArray:
@@ -171,51 +133,6 @@ class PlaneResponse(Card):
         """Times of the rows of the histories (s), shape (rows,)."""
         rows, every = len(self.drift), self._directions[0].every or 1
         return frozen(np.arange(rows) * every * self.motions[0].dt)
-
-    @property
-    def drift(self) -> FloatArray:
-        """Storey drift (m), shape (rows, storeys, 2); NaN after a collapse, as in every history."""
-        return self._pair("drift")
-
-    @property
-    def slip(self) -> FloatArray:
-        """Slip (m), shape (rows, blocks, 2)."""
-        return self._pair("slip")
-
-    @property
-    def floor_velocity(self) -> FloatArray:
-        """Floor velocity relative to the ground (m/s), shape (rows, storeys, 2)."""
-        return self._pair("floor_velocity")
-
-    @property
-    def block_velocity(self) -> FloatArray:
-        """Block velocity relative to the ground (m/s), shape (rows, blocks, 2)."""
-        return self._pair("block_velocity")
-
-    @property
-    def floor_acceleration(self) -> FloatArray:
-        """Absolute floor acceleration (m/s2), shape (rows, storeys, 2)."""
-        return self._pair("floor_acceleration")
-
-    @property
-    def storey_force(self) -> FloatArray:
-        """Spring force of each storey (N), shape (rows, storeys, 2)."""
-        return self._pair("storey_force")
-
-    @property
-    def rack_drift(self) -> FloatArray:
-        """Drift of rack levels (m), shape (rows, levels, 2)."""
-        return self._pair("rack_drift")
-
-    @property
-    def rack_velocity(self) -> FloatArray:
-        """Velocity of rack levels relative to the ground (m/s), shape (rows, levels, 2)."""
-        return self._pair("rack_velocity")
-
-    @property
-    def rack_acceleration(self) -> FloatArray:
-        """Absolute acceleration of rack levels (m/s2), shape (rows, levels, 2)."""
-        return self._pair("rack_acceleration")
 
     @property
     def events(self) -> pl.DataFrame:
@@ -279,16 +196,13 @@ class PlaneResponse(Card):
             "end_time": self.end_time,
             "dt": self.motions[0].dt,
             "remarks": list(self.remarks),
-            **{name: self._peak(name).tolist() for name in _PEAKS},
-            **{name: self._pair(name).tolist() for name in _PAIRS},
+            **{name: self._peak(name).tolist() for name in names_read_by(PlaneResponse, "_peak")},
+            **{name: self._pair(name).tolist() for name in names_read_by(PlaneResponse, "_pair")},
             "slip_path": self.slip_path.tolist(),
             "counts": {kind: count for kind, count in self.counts.items() if count},
         }
         if self._run.event_time is not None:
-            result["events"] = [
-                {key: value for key, value in event.items() if value is not None}
-                for event in self.events.iter_rows(named=True)
-            ]
+            result["events"] = events_of(self)
         if self._run.energy is not None:
             result |= {"energy": self.energy, "energy_by_direction": list(self.energy_by_direction)}
         result["statistics"] = self.statistics
@@ -296,10 +210,6 @@ class PlaneResponse(Card):
 
         finite: dict[str, Any] = finite_values(result)
         return finite
-
-    def to_json(self) -> str:
-        """Return `to_dict` as JSON."""
-        return json.dumps(self.to_dict(), indent=2, allow_nan=False)
 
     @property
     @view

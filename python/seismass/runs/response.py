@@ -4,20 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, Protocol, TypedDict, cast
+from typing import TYPE_CHECKING, Any, Final, Protocol, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seismass import _kernel
-from seismass.base.errors import InvalidOption
+from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.fork_check import require_polars
 from seismass.base.values import FloatArray, frozen, read_only, refusal
 from seismass.base.views import Views, view
 from seismass.model.plausibility import motion_remarks
-from seismass.model.scene import Scene
+from seismass.model.scene import Scene, goods_names
 from seismass.motions.motion import Motion
-from seismass.runs.response_parts import BaseResults, RackResults, ResponseDocument
+from seismass.runs.quantities import (
+    QUANTITIES,
+    Numbers,
+    Statistics,
+    Values,
+    events_of,
+    floor_displacement,
+    ground_motion,
+    names_read_by,
+)
 
 if TYPE_CHECKING:
     import polars as pl
@@ -170,38 +179,23 @@ _EVENT: Final = np.dtype(
 )
 
 
-class Statistics(TypedDict):
-    """The work that a run took, and what it could leave out; the same for any number of threads."""
-
-    intervals: int
-    """Sample intervals solved."""
-    substeps: int
-    """Equal parts that each of them was solved in: more than one where the building is stiff."""
-    plain_steps: int
-    """Steps by a propagator that were proved free of events by bounds alone."""
-    series_steps: int
-    """Steps for which a Taylor series was formed, plain steps inside which a peak is beaten among them."""
-    guards_isolated: int
-    """Guards and peaks looked at with Bernstein polynomials."""
-    events: int
-    """Events of all kinds."""
-    regimes: int
-    """Different regimes entered."""
-    regime_hits: int
-    """Changes into a regime that the run already knew."""
-    skipped_elastic_storeys: int
-    """Storeys that cannot yield."""
-    skipped_bare_floors: int
-    """Floors without a block."""
-    skipped_head_samples: int
-    """Samples at the head that are zero, with everything at rest."""
-    skipped_tail_samples: int
-    """Samples at the tail where no peak could be beaten."""
-    instructions: str
-    """Instruction set in use, as `instruction_set` names it."""
+_LISTS: Final = (
+    "peak_drift",
+    "peak_drift_time",
+    "peak_slip",
+    "peak_slip_time",
+    "peak_floor_acceleration",
+    "peak_floor_acceleration_time",
+    "peak_storey_shear",
+    "peak_storey_shear_time",
+    "residual_drift",
+    "residual_slip",
+    "slip_path",
+)
+"""Arrays that are given whole."""
 
 
-class Response(RackResults, BaseResults, ResponseDocument):
+class Response(Numbers):
     """What a run gives back. Index 0 is storey 1 (or block 1); drifts and slips are in m, times in s.
 
     Peaks are true extremes over continuous time, not over samples. Arrays are read-only. Histories are known where
@@ -271,15 +265,44 @@ class Response(RackResults, BaseResults, ResponseDocument):
         storey: int | None = self._get("collapsed_storey")
         return storey
 
-    @property
-    def peak_drift(self) -> FloatArray:
-        """Largest absolute drift of each storey (m), shape (storeys,)."""
-        return self._array("peak_drift")
-
-    @property
-    def peak_drift_time(self) -> FloatArray:
-        """When it was first reached, shape (storeys,)."""
-        return self._array("peak_drift_time")
+    peak_drift = Values[FloatArray]("_array")
+    peak_drift_time = Values[FloatArray]("_array")
+    residual_drift = Values[FloatArray]("_array")
+    peak_floor_acceleration = Values[FloatArray]("_array")
+    peak_floor_acceleration_time = Values[FloatArray]("_array")
+    peak_storey_shear = Values[FloatArray]("_array")
+    peak_storey_shear_time = Values[FloatArray]("_array")
+    peak_slip = Values[FloatArray]("_array")
+    peak_slip_time = Values[FloatArray]("_array")
+    residual_slip = Values[FloatArray]("_array")
+    slip_path = Values[FloatArray]("_array")
+    peak_contact_force = Values[FloatArray]("_of_stops")
+    peak_contact_velocity = Values[FloatArray]("_of_stops")
+    peak_rack_drift = Values[tuple[FloatArray, ...]]("_of_racks")
+    peak_rack_drift_time = Values[tuple[FloatArray, ...]]("_of_racks")
+    peak_rack_acceleration = Values[tuple[FloatArray, ...]]("_of_racks")
+    peak_rack_shear = Values[tuple[FloatArray, ...]]("_of_racks")
+    residual_rack_drift = Values[tuple[FloatArray, ...]]("_of_racks")
+    peak_base_slip = Values[float]("_of_base")
+    peak_base_slip_time = Values[float]("_of_base")
+    residual_base_slip = Values[float]("_of_base")
+    base_slip_path = Values[float]("_of_base")
+    peak_base_acceleration = Values[float]("_of_base")
+    drift = Values[FloatArray]("_history", "rows")
+    slip = Values[FloatArray]("_history", "rows")
+    floor_velocity = Values[FloatArray]("_history", "rows")
+    floor_acceleration = Values[FloatArray]("_history", "rows")
+    storey_shear = Values[FloatArray]("_history", "rows")
+    block_velocity = Values[FloatArray]("_history", "rows")
+    base_slip = Values[FloatArray]("_history", "rows")
+    rack_drift = Values[tuple[FloatArray, ...]]("_histories_of_racks", "rows")
+    rack_velocity = Values[tuple[FloatArray, ...]]("_histories_of_racks", "rows")
+    rack_acceleration = Values[tuple[FloatArray, ...]]("_histories_of_racks", "rows")
+    rack_shear = Values[tuple[FloatArray, ...]]("_histories_of_racks", "rows")
+    floor_displacement = Values[FloatArray]("_displacement", "rows")
+    ground_acceleration = Values[FloatArray]("_ground", "rows")
+    ground_velocity = Values[FloatArray]("_ground", "rows")
+    ground_displacement = Values[FloatArray]("_ground", "rows")
 
     @property
     def peak_drift_ratio(self) -> FloatArray | None:
@@ -287,34 +310,9 @@ class Response(RackResults, BaseResults, ResponseDocument):
         return None if self._heights is None else frozen(self.peak_drift / self._heights)
 
     @property
-    def residual_drift(self) -> FloatArray:
-        """Drift of each storey at the end (m), shape (storeys,)."""
-        return self._array("residual_drift")
-
-    @property
     def residual_drift_ratio(self) -> FloatArray | None:
         """Residual drift over storey height, shape (storeys,); None where heights are not known."""
         return None if self._heights is None else frozen(self.residual_drift / self._heights)
-
-    @property
-    def peak_floor_acceleration(self) -> FloatArray:
-        """Largest absolute acceleration of each floor (m/s2), that of the ground included, shape (storeys,)."""
-        return self._array("peak_floor_acceleration")
-
-    @property
-    def peak_floor_acceleration_time(self) -> FloatArray:
-        """When it was first reached, shape (storeys,)."""
-        return self._array("peak_floor_acceleration_time")
-
-    @property
-    def peak_storey_shear(self) -> FloatArray:
-        """Largest absolute spring force of each storey, without damping and P-Delta (N), shape (storeys,)."""
-        return self._array("peak_storey_shear")
-
-    @property
-    def peak_storey_shear_time(self) -> FloatArray:
-        """When it was first reached, shape (storeys,)."""
-        return self._array("peak_storey_shear_time")
 
     @property
     def peak_base_shear(self) -> float:
@@ -325,29 +323,6 @@ class Response(RackResults, BaseResults, ResponseDocument):
         return float(shear[0]) if len(shear) else float("nan")
 
     @property
-    def peak_slip(self) -> FloatArray:
-        """Largest absolute slip of each block (m), shape (blocks,)."""
-        return self._array("peak_slip")
-
-    @property
-    def peak_slip_time(self) -> FloatArray:
-        """When it was first reached, shape (blocks,)."""
-        return self._array("peak_slip_time")
-
-    @property
-    def residual_slip(self) -> FloatArray:
-        """Slip of each block at the end (m), where it may still slide, shape (blocks,)."""
-        return self._array("residual_slip")
-
-    @property
-    def slip_path(self) -> FloatArray:
-        """Path slipped by each block (m), shape (blocks,).
-
-        Airborne motion is included; in scenes of the general engine it is not.
-        """
-        return self._array("slip_path")
-
-    @property
     def time(self) -> FloatArray:
         """Times of the rows of the histories, shape (rows,)."""
         if "time" not in self._known:
@@ -356,39 +331,9 @@ class Response(RackResults, BaseResults, ResponseDocument):
         return self._array("time")
 
     @property
-    def drift(self) -> FloatArray:
-        """Storey drift (m), shape (rows, storeys); NaN after a collapse, as in every history."""
-        return self._history("drift")
-
-    @property
     def drift_ratio(self) -> FloatArray | None:
         """Storey drift over storey height, shape (rows, storeys); None where heights are not known."""
         return None if self._heights is None else frozen(self.drift / self._heights)
-
-    @property
-    def slip(self) -> FloatArray:
-        """Slip, block displacement minus floor displacement (m), shape (rows, blocks)."""
-        return self._history("slip")
-
-    @property
-    def floor_velocity(self) -> FloatArray:
-        """Floor velocity relative to the ground (m/s), shape (rows, storeys)."""
-        return self._history("floor_velocity")
-
-    @property
-    def block_velocity(self) -> FloatArray:
-        """Block velocity relative to the ground (m/s), shape (rows, blocks)."""
-        return self._history("block_velocity")
-
-    @property
-    def floor_acceleration(self) -> FloatArray:
-        """Absolute floor acceleration (m/s2), shape (rows, storeys)."""
-        return self._history("floor_acceleration")
-
-    @property
-    def storey_force(self) -> FloatArray:
-        """Spring force of each storey (N), shape (rows, storeys)."""
-        return self._history("storey_force")
 
     @property
     def events(self) -> pl.DataFrame:
@@ -504,12 +449,88 @@ class Response(RackResults, BaseResults, ResponseDocument):
         array: FloatArray = self._get(name)
         return array
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return peaks, residuals, counts, events, energy and work in SI units, null for non-finite values.
+
+        Events and energies are there where `simulate` was asked for them. Histories are left out. In scenes of the
+        general engine `goods` says where each block stands, in the order of slips; racks have a list for each, of its
+        levels; and events of stops have the velocity at the contact.
+        """
+        scene, building = self.scene, self.scene.building
+        result: dict[str, Any] = {
+            "name": scene.name,
+            "status": self.status,
+            "collapsed_storey": self.collapsed_storey,
+            "end_time": self.end_time,
+            "dt": self.motion.dt,
+            "remarks": list(self.remarks),
+            **{name: getattr(self, name).tolist() for name in _LISTS},
+            "peak_base_shear": self.peak_base_shear,
+        }
+        if scene.engine == "general":
+            result["goods"] = list(goods_names(scene))
+            of_racks = ("peak_rack_drift", "peak_rack_drift_time", "peak_rack_acceleration", "peak_rack_shear")
+            for name in (*of_racks, "residual_rack_drift"):
+                result[name] = [levels.tolist() for levels in getattr(self, name)]
+            result |= {name: getattr(self, name).tolist() for name in ("peak_contact_force", "peak_contact_velocity")}
+            if scene.base is not None:
+                result |= {name: getattr(self, name) for name in names_read_by(Response, "_of_base")}
+        for name in ("peak_drift_ratio", "residual_drift_ratio"):
+            if getattr(self, name) is not None:
+                result[name] = getattr(self, name).tolist()
+        if building is not None:
+            result["mass_stated"] = building.mass_is_stated
+            result["peak_shear_over_weight"] = (self.peak_storey_shear / building.weight).tolist()
+        result["counts"] = {kind: count for kind, count in self.counts.items() if count}
+        if self.has_events:
+            result["events"] = events_of(self)
+        if self.has_energy:
+            result["energy"] = self.energy
+        if building is not None:
+            result["damping_matrix"] = building.damping_matrix.tolist()
+        result["statistics"] = self.statistics
+        from seismass.media.result import finite_values
+
+        finite: dict[str, Any] = finite_values(result)
+        return finite
+
     def _history(self, name: str) -> FloatArray:
+        stored = QUANTITIES[name].stored or name
+        if name == "base_slip":
+            self._needed(name)
         displacement = name in ("drift", "slip", "rack_drift", "base_slip")
-        if not displacement and self._get(name) is None and self._get("drift") is not None:
+        if not displacement and self._get(stored) is None and self._get("drift") is not None:
             raise refusal(InvalidOption, "displacements_only", "simulate", f"False, if {name} is wanted", "True")
-        array: FloatArray = self._asked(name, "histories")
+        array: FloatArray = self._asked(name, "histories", stored)
         return array
+
+    def _of_racks(self, name: str, axis: int = 0) -> tuple[FloatArray, ...]:
+        """Values of all levels, one array for each rack; none without racks."""
+        if self.scene.engine != "general" or not self.scene.racks:
+            return ()
+        ends = np.cumsum(self._get("rack_levels"))[:-1]
+        values = self._array(name) if axis == 0 else self._history(name)
+        return tuple(frozen(part) for part in np.split(values, ends, axis=axis))
+
+    def _histories_of_racks(self, name: str) -> tuple[FloatArray, ...]:
+        return self._of_racks(name, axis=1)
+
+    def _of_stops(self, name: str) -> FloatArray:
+        return self._array(name) if self.scene.engine == "general" else frozen(np.zeros(len(self.peak_slip)))
+
+    def _needed(self, name: str) -> None:
+        if self.scene.base is None:
+            raise refusal(InvalidScene, "base", "scene", f"given, if {name} is wanted", "none")
+
+    def _of_base(self, name: str) -> float:
+        self._needed(name)
+        return float(self._get(name))
+
+    def _displacement(self, name: str) -> FloatArray:
+        return floor_displacement(self.drift, None if self.scene.base is None else self.base_slip)
+
+    def _ground(self, name: str) -> FloatArray:
+        return ground_motion(self.motion, name, len(self.drift), self._get("every"))
 
     def _everything(self) -> dict[str, Any]:
         return {name: self._get(name) for name in _KERNEL_VALUES[self.scene.engine]}

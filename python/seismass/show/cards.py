@@ -11,8 +11,6 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 import polars as pl
 
-from seismass.assessment.answer import PAIR
-from seismass.assessment.models import SLIDING
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, brief, counted
 from seismass.base.views import Card
@@ -21,6 +19,7 @@ from seismass.media.result import COLOUR, SECOND, Result, card, curve, history, 
 from seismass.media.text_table import column_texts
 from seismass.model.scene import floor_name, goods_names, spring_names
 from seismass.motions.records.measures import drift_remarks
+from seismass.show.assessment.text import storey_bars
 from seismass.show.response_text import base_line
 
 if TYPE_CHECKING:
@@ -35,6 +34,8 @@ if TYPE_CHECKING:
     from seismass.runs.response import Response
 
 
+MOST_BARS: Final = 16
+"""Most lines of the drifts of an assessment."""
 MOST_ROWS: Final = 12
 """Most storeys that are listed, from the ground."""
 
@@ -42,33 +43,18 @@ MOST_ROWS: Final = 12
 def assessment_html(result: Assessment) -> str:
     """Return a card of an assessment."""
     answer = result.answer
-    pair = [line(f"{one.number}  {words}") for one, words in zip(answer.analyses, answer.pair, strict=True)]
-    pair = [line(PAIR), *pair, *map(line, answer.goods[1:])] if pair else []
+    pair = [line(f"{number}  {words}") for number, words in enumerate(answer.pair, start=1)]
+    pair = [line(answer.opening), *pair, *map(line, answer.goods[1:])] if pair else []
     facts = [("tables", ", ".join(result.tables)), ("figures", ", ".join(result.figure_names))]
     lines = [answer.why and f"why: {answer.why}", answer.motions and f"motions: {answer.motions}"]
     return card(
         result.building.name or "Assessment",
         answer.headline,
         *pair,
-        _drifts(result),
+        pre("\n".join(storey_bars(result)), most=MOST_BARS),
         facts=facts,
         notes=[*(sentence for sentence in lines if sentence), *result.remarks],
     )
-
-
-def _drifts(result: Assessment) -> str:
-    """Capped mean drifts of each storey: of both analyses, of goods that slide, and the one that governs."""
-    table = result.governing.head(MOST_ROWS)
-    scale, unit = (1e3, " mm") if result.building.heights is None else (1e2, " %")
-    names = {"advised": "analysis 1", "bare": "analysis 2", SLIDING: "goods slide", "governing": "governs"}
-    shown = {name: title for name, title in names.items() if table[name].is_not_null().any()}
-    # One quantity in all columns: the same decimals in all of them.
-    texts = column_texts([value for name in shown for value in table[name].to_list()], scale=scale, unit=unit)
-    drifts = [texts[place * table.height : (place + 1) * table.height] for place in range(len(shown))]
-    labels = [f"storey {number} {name}".rstrip() for number, name in table.select("storey", "name").iter_rows()]
-    left_out = result.building.storeys - table.height
-    more = line(f"and {left_out} storeys above") if left_out > 0 else ""
-    return rows(("capped mean drift", *shown.values()), list(zip(labels, *drifts, strict=True))) + more
 
 
 BUILDING_WIDTH: Final = 420.0

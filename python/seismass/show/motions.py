@@ -417,7 +417,11 @@ def scaling_figure(
         axes.set_xlim(periods[0], periods[-1])
         axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     upper.set_ylim(0.0, None)
-    lower.set_ylim(0.0, 1.1 * max(1.0, float(np.max(mean / wanted))))
+    inside = (periods >= scaling.periods[0]) & (periods <= scaling.periods[-1])
+    ends = (mean / wanted)[inside] if inside.any() else mean / wanted
+    lower.set_ylim(0.9 * min(1.0, float(ends.min())), 1.1 * max(1.0, float(ends.max())))
+    words = f"mean is at least {scaling.least_ratio:.2f} of the target, at {scaling.governing_period:.3g} s"
+    upper.set_title(f"From {scaling.periods[0]:.3g} to {scaling.periods[-1]:.3g} s the {words}", fontsize=9.5)
     ticks = [tick for tick in PERIOD_TICKS if periods[0] * 0.9999 <= tick <= periods[-1] * 1.0001]
     if len(ticks) < 2:
         ticks = [float(f"{tick:.2g}") for tick in np.geomspace(periods[0], periods[-1], 3)]

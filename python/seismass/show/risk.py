@@ -50,31 +50,34 @@ def risk_figure(
     """Return `RiskTargetedShare.plot`."""
     named_figure(result, name)
     figure = Figure(figsize=(_WIDTH, 5.0), layout="constrained")
-    left, right = figure.subplots(1, 2)
-    _hazard(left, result)
-    marks = STORAGE_CODES if codes is None else codes
-    _rates(right, result, marks)
+    panels = figure.subplot_mosaic([["hazard", "rates"], ["fragility", "rates"]])
+    _hazard(panels["hazard"], panels["fragility"], result)
+    present = result.metadata.get("present_share", 1.0)
+    shares = {name: share / present for name, share in STORAGE_CODES.items()}
+    marks = {name: share for name, share in shares.items() if share <= 1.0} if codes is None else codes
+    _rates(panels["rates"], result, marks)
     caption = textwrap.fill(_caption(result), int(CAPTION_CHARACTERS * _WIDTH))
     figure.supxlabel(f"{caption}{marked_legend(marks)}", fontsize=7.5)
     return figure
 
 
-def _hazard(axes: Axes, result: RiskTargetedShare) -> None:
-    """Hazard on one axis, fragilities of the building and of the models on the other."""
+def _hazard(axes: Axes, other: Axes, result: RiskTargetedShare) -> None:
+    """Hazard, and below it the fragilities of the building and of the models, where they rise."""
     from scipy.special import ndtr  # slow to import
 
     hazard = result.hazard
-    axes.plot(
-        hazard.sa_g, hazard.annual_rate, color=HAZARD.colour, linewidth=1.6, marker=HAZARD.marker, label=HAZARD.name
-    )
+    axes.plot(hazard.sa_g, hazard.annual_rate, color=HAZARD.colour, linewidth=1.6, marker=HAZARD.marker)
     axes.set_xscale("log")
     axes.set_yscale("log")
     label = result.measure.label
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.set_xlabel(f"{label} (g)")
-    axes.set_ylabel("annual rate of exceedance (1/year)")
+    other.set_xlabel(f"{label} (g)")
+    axes.set_ylabel("annual rate (1/year)")
+    axes.set_title("Hazard", loc="left")
     grid_lines(axes)
-    other = axes.twinx()
+    grid_lines(other)
+    other.set_xscale("log")
+    other.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     sa_g = np.geomspace(hazard.sa_g[0], hazard.sa_g[-1], 401)
     for model, share, role, name in (
         ("real", None, SLIDE, SLIDE.name),
@@ -91,10 +94,13 @@ def _hazard(axes: Axes, result: RiskTargetedShare) -> None:
         levels: FloatArray = (np.arange(len(capacities)) + 0.5) / len(capacities)
         other.plot(capacities, levels, color=role.colour, linestyle="", marker=role.marker, markersize=3.5)
     other.set_ylim(0.0, 1.0)
-    other.set_xlim(hazard.sa_g[0], hazard.sa_g[-1])
-    other.set_ylabel(f"probability of {result.limit.text}")
-    handles = [*axes.get_legend_handles_labels()[0], *other.get_legend_handles_labels()[0]]
-    axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False)
+    known = result.capacities["capacity"].to_numpy()
+    for panel in (axes, other):
+        panel.xaxis.set_minor_formatter(NullFormatter())
+        panel.set_xlim(max(hazard.sa_g[0], 0.5 * known.min()), min(hazard.sa_g[-1], 1.5 * known.max()))
+    other.set_ylabel("probability")
+    other.set_title(f"Probability of {result.limit.text}", loc="left")
+    other.legend(frameon=False, fontsize=8.0)
 
 
 def _rates(axes: Axes, result: RiskTargetedShare, codes: Mapping[str, float]) -> None:
@@ -135,12 +141,13 @@ def _rates(axes: Axes, result: RiskTargetedShare, codes: Mapping[str, float]) ->
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     mark_codes(axes, codes)
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=1, frameon=False)
+    axes.figure.suptitle(f"{result.value:.2f} of the goods attached: {KIND_TEXTS[result.kind]}", fontsize=9.5)
 
 
 def _caption(result: RiskTargetedShare) -> str:
     metadata = result.metadata
     hazard = result.hazard.label or "hazard as given"
-    tail = "hazard extrapolated beyond its ends" if metadata["extrapolate"] else "hazard cut at its ends"
+    tail = "extrapolated beyond its ends" if metadata["extrapolate"] else "cut at its ends"
     damping = "C of the building" if metadata["damping"] == "same" else "ratio in the model's own modes"
     return plain(
         f"{metadata['motions']} motions, scaled to all intensities; {result.estimator} fragilities; {hazard}, {tail}; "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import textwrap
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Final
@@ -32,10 +33,9 @@ _HEIGHT = 4.6
 def slip_demand_figure(result: SlipDemand, name: str | None = None) -> Figure:
     """Return `SlipDemand.plot`."""
     named_figure(result, name)
-    rows = 2 if result.fragilities else 1
-    width = 8.4
-    figure = Figure(figsize=(width, _HEIGHT * (0.85 * rows + 0.15)), layout="constrained")
-    axes = figure.subplots(rows, 2, squeeze=False).ravel()
+    width, panels = 8.4, [["blocks", "acceleration"], *([["fragilities"] * 2] if result.fragilities else [])]
+    figure = Figure(figsize=(width, _HEIGHT * (0.85 * len(panels) + 0.15)), layout="constrained")
+    axes = list(figure.subplot_mosaic(panels).values())
     _by_block(axes[0], result)
     _against_acceleration(axes[1], result)
     if result.fragilities:
@@ -64,11 +64,12 @@ def slip_demand_figure(result: SlipDemand, name: str | None = None) -> Figure:
     ]
     if result.exceedance.height:
         handles.append(Line2D([], [], color=LIMIT.colour, linestyle=LIMIT.line, linewidth=1.2, label="clearance"))
-    if result.fragilities:
-        axes[3].set_axis_off()
-        axes[3].legend(handles=handles, loc="center", frameon=False)
-    else:
-        figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
+    figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
+    worst = result.blocks.sort("p84", nulls_last=True, descending=True).row(0, named=True)
+    place = "the ground" if worst["floor"] == 0 else f"floor {worst['floor']}"
+    known = worst["p84"] is not None and math.isfinite(worst["p84"])
+    words = f"{1e3 * worst['p84']:.0f} mm of slip at 84 % of the motions" if known else "runs that collapse"
+    axes[0].set_title(f"Block {worst['block']} on {place}: {words}", loc="left")
     figure.supxlabel(textwrap.fill(_caption(result), int(CAPTION_CHARACTERS * width)), fontsize=7.5)
     return figure
 
@@ -125,7 +126,8 @@ def _against_acceleration(axes: Axes, result: SlipDemand) -> None:
         axes.plot(runs["mu_over_attached"], 1e3 * runs["peak_slip"].to_numpy(), **look, markersize=4.5, alpha=0.8)
         handles.append(Line2D([], [], **look, markersize=5.0, label=f"block {row['block']}"))
     axes.axvline(1.0, color=INK, linewidth=0.8)
-    axes.set_xlim(0.0, max(1.1, axes.get_xlim()[1]))
+    values = result.runs.filter(collapsed=False)["mu_over_attached"].drop_nulls().to_numpy()
+    axes.set_xlim(0.8 * float(np.min(values, initial=1.0)), 1.1 * float(np.max(values, initial=1.0)))
     slides = bool((result.runs["peak_slip"] > 0.0).any())
     axes.set_ylim(0.0, None if slides else 1.0)
     if not slides:

@@ -5,7 +5,4 @@ from seismass.motions.matching.result import MatchedRecord, MatchedSuite, Misfit
 
 __all__ = ["MatchedRecord", "MatchedSuite", "Misfit", "match_spectrum", "match_suite"]
 
-
-def __dir__() -> list[str]:
-    """Return the public names, for completion."""
-    return list(__all__)
+__dir__ = __all__.copy  # for completion

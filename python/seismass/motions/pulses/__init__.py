@@ -18,7 +18,4 @@ __all__ = [
     "shahi_baker2014",
 ]
 
-
-def __dir__() -> list[str]:
-    """Return the public names, for completion."""
-    return list(__all__)
+__dir__ = __all__.copy  # for completion

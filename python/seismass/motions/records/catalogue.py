@@ -13,6 +13,7 @@ from typing import Any, Final, Literal
 
 import polars as pl
 
+from seismass.base.files import stored_rows
 from seismass.base.values import printable, short_repr
 from seismass.base.views import Card
 
@@ -92,171 +93,60 @@ class Recording:
     substitute: bool = False
 
 
-# Points, steps and peaks are those of the NGA-West2 files; those of record 7 were not at hand.
-RECORDINGS: Final = (
-    Recording(
-        1,
-        1787,
-        "Hector Mine",
-        "Hector",
-        1999,
-        re.compile(r"HECTOR\s*MINE"),
-        re.compile(r"^(HECTOR|HEC)\b"),
-        (
-            Component("RSN1787_HECTOR_HEC000.AT2", 0.0, 4531, 0.01, 0.265466, 600, -0.88433),
-            Component("RSN1787_HECTOR_HEC090.AT2", 90.0, 4531, 0.01, 0.328187, 844, -0.96416),
-            Component("RSN1787_HECTOR_HECVER.AT2", None, 4531, 0.01, -0.14873, 599, -0.90677),
-        ),
-    ),
-    Recording(
-        2,
-        767,
-        "Loma Prieta",
-        "Gilroy Array #3",
-        1989,
-        re.compile(r"LOMA\s*PRIETA"),
-        re.compile(r"\bGILROY\b.*(#|NO\.?|\s)\s*0?3\b"),
-        (
-            Component("RSN767_LOMAP_G03000.AT2", 0.0, 7997, 0.005, -0.559123, 1025, -0.96558),
-            Component("RSN767_LOMAP_G03090.AT2", 90.0, 7998, 0.005, 0.368226, 1276, -0.77360),
-            Component("RSN767_LOMAP_G03-UP.AT2", None, 7998, 0.005, -0.341692, 624, -0.84164),
-        ),
-    ),
-    Recording(
-        3,
-        161,
-        "Imperial Valley-06",
-        "Brawley Airport",
-        1979,
-        re.compile(r"IMPERIAL\s*VALLEY"),
-        re.compile(r"\bBRAWLEY\b"),
-        (
-            Component("RSN161_IMPVALL.H_H-BRA225.AT2", 225.0, 7576, 0.005, 0.162605, 1293, -0.80495),
-            Component("RSN161_IMPVALL.H_H-BRA315.AT2", 315.0, 7575, 0.005, -0.219521, 1526, -0.86657),
-            Component("RSN161_IMPVALL.H_H-BRA-UP.AT2", None, 7572, 0.005, 0.152812, 925, -0.97210),
-        ),
-    ),
-    Recording(
-        4,
-        1612,
-        "Duzce Turkey",
-        "Lamont 1059",
-        1999,
-        re.compile(r"DUZCE"),
-        re.compile(r"\b1059\b"),
-        (
-            Component("RSN1612_DUZCE_1059-N.AT2", 0.0, 4067, 0.01, -0.152353, 2496, -0.90683),
-            Component("RSN1612_DUZCE_1059-E.AT2", 90.0, 4067, 0.01, -0.136654, 1725, -0.78488),
-            Component("RSN1612_DUZCE_1059-V.AT2", None, 4067, 0.01, -0.100987, 1738, -0.84018),
-        ),
-    ),
-    Recording(
-        5,
-        821,
-        "Erzican Turkey",
-        "Erzincan",
-        1992,
-        re.compile(r"ERZIN?[CK]AN"),
-        re.compile(r"ERZIN?[CK]AN"),
-        (
-            Component("RSN821_ERZINCAN_ERZ-NS.AT2", 0.0, 4262, 0.005, 0.386713, 579, -0.63803),
-            Component("RSN821_ERZINCAN_ERZ-EW.AT2", 90.0, 4156, 0.005, -0.496185, 693, -0.76138),
-            Component("RSN821_ERZINCAN_ERZ-UP.AT2", None, 3977, 0.005, 0.234538, 600, -0.71609),
-        ),
-    ),
-    Recording(
-        6,
-        6,
-        "Imperial Valley-02",
-        "El Centro Array #9",
-        1940,
-        re.compile(r"IMPERIAL\s*VALLEY|EL\s*CENTRO"),
-        re.compile(r"\bEL\s*CENTRO\b.*(#|NO\.?|\s)\s*0?9\b"),
-        (
-            Component("RSN6_IMPVALL.I_I-ELC180.AT2", 180.0, 5372, 0.01, -0.280795, 219, -0.90490),
-            Component("RSN6_IMPVALL.I_I-ELC270.AT2", 270.0, 5346, 0.01, -0.210743, 1152, -0.71289),
-            Component("RSN6_IMPVALL.I_I-ELC-UP.AT2", None, 5378, 0.01, -0.178137, 338, -0.59494),
-        ),
-    ),
-    Recording(
-        7,
-        1108,
-        "Kobe Japan",
-        "Kobe University",
-        1995,
-        re.compile(r"\bKOBE\b|HYOGO"),
-        re.compile(r"\bKOBE\s*UNIV"),
-        (
-            Component("RSN1108_KOBE_KBU000.AT2", 0.0),
-            Component("RSN1108_KOBE_KBU090.AT2", 90.0),
-            Component("RSN1108_KOBE_KBU-UP.AT2", None),
-        ),
-    ),
-)
+_NUMBERS: Final[dict[str, type]] = {
+    **dict.fromkeys(("samples", "peak_sample"), int),
+    **dict.fromkeys(("azimuth", "dt", "peak_g", "opposite", "magnitude", "distance_km", "pulse_period"), float),
+    **dict.fromkeys(("nga_magnitude", "nga_distance_km", "nga_vs30"), float),
+}
 
-SUBSTITUTES: Final = (
-    Recording(
-        7,
-        1106,
-        "Kobe Japan",
-        "KJMA",
-        1995,
-        re.compile(r"\bKOBE\b|HYOGO"),
-        re.compile(r"\bKJMA\b|\bKOBE\s*(JMA|J\.M\.A)"),
-        (
-            Component("RSN1106_KOBE_KJM000.AT2", 0.0, 7500, 0.02, -0.834229, 427, -0.70774),
-            Component("RSN1106_KOBE_KJM090.AT2", 90.0),
-            Component("RSN1106_KOBE_KJM-UP.AT2", None),
-        ),
-        substitute=True,
-    ),
-    Recording(
-        7,
-        1111,
-        "Kobe Japan",
-        "Nishi-Akashi",
-        1995,
-        re.compile(r"\bKOBE\b|HYOGO"),
-        re.compile(r"\bNISHI-?\s*AKASHI\b"),
-        (
-            Component("RSN1111_KOBE_NIS000.AT2", 0.0, 4096, 0.01, -0.483225, 725, -0.99109),
-            Component("RSN1111_KOBE_NIS090.AT2", 90.0, 4096, 0.01, -0.464318, 708, -0.63877),
-            Component("RSN1111_KOBE_NIS-UP.AT2", None),
-        ),
-        substitute=True,
-    ),
-)
 
-# Table 1 as printed: event, magnitude, distance (km), pulse period (s).
-_PAPER: Final = (
-    ("1999 Hector Mine", "Hector", 7.1, 12.0, None),
-    ("1989 Loma Prieta", "Gilroy 03", 6.9, 13.0, 2.6),
-    ("1979 Imperial Valley", "Brawley", 6.5, 10.0, 4.2),
-    ("1999 Duzce", "Lamont 1059", 7.1, 4.0, None),
-    ("1992 Erzinkan", "Erzinkan", 6.7, 4.0, None),
-    ("1940 Imperial Valley", "El Centro", 7.0, 6.0, 2.6),
-    ("1995 Kobe", "Kobe University", 6.9, 1.0, None),
-)
-# Flatfile of NGA-West2: magnitude, closest distance (km), Vs30 (m/s), for the rows that were at hand.
-_FLATFILE: Final = {1787: (7.13, 11.66, 726.0), 767: (6.93, 12.82, 349.85), 161: (6.53, 10.42, 208.71)}
-_ODD: Final = (
-    "",
-    "the two horizontals have 7997 and 7998 points",
-    "the table's pulse period is that of the fault-normal component (4.22 s by Baker, 2007, at the flatfile's strike "
-    "of 323 degrees); the pair has 4.40 s. The two horizontals have 7576 and 7575 points",
-    "RSN1612; its neighbour RSN1611 is Lamont 1058",
-    "the table has no pulse, but every component has one, of 2.66 s for the pair: the 2.6 s of the row below fits "
-    "here. The table writes Erzinkan, NGA-West2 Erzican; the horizontals have 4262 and 4156 points",
-    "the table's pulse of 2.6 s is in no component of the recording; it fits Erzincan, one row up. The horizontals "
-    "have 5372 and 5346 points",
-    "often not at hand: KJMA (RSN1106) and Nishi-Akashi (RSN1111), other stations of the event, are substitutes",
-)
+def _row(row: dict[str, str]) -> dict[str, Any]:
+    """A row of a table with its numbers; what is not known is None."""
+    return {name: (_NUMBERS[name](text) if text else None) if name in _NUMBERS else text for name, text in row.items()}
+
+
+# Components: points, steps and peaks of the NGA-West2 files, where those were at hand. Recordings: how headers call
+# them; event to pulse period are Table 1 as printed, and `nga_` the flatfile's magnitude, closest distance and Vs30.
+_COMPONENTS: Final = [_row(row) for row in stored_rows("components")]
+_ROWS: Final = [_row(row) for row in stored_rows("recordings")]
+
+
+def _recording(row: dict[str, Any]) -> Recording:
+    parts = [{name: part[name] for name in part if name != "rsn"} for part in _COMPONENTS if part["rsn"] == row["rsn"]]
+    patterns = re.compile(row["event_pattern"]), re.compile(row["station_pattern"])
+    names = row["nga_event"], row["nga_station"], int(row["year"])
+    components = tuple(Component(**part) for part in parts)
+    return Recording(int(row["number"]), int(row["rsn"]), *names, *patterns, components, not row["event"])
+
+
+RECORDINGS: Final = tuple(_recording(row) for row in _ROWS if row["event"])
+SUBSTITUTES: Final = tuple(_recording(row) for row in _ROWS if not row["event"])
 
 
 def how_to_get(recording: Recording) -> str:
     """Return how to get a recording, in one sentence."""
     files = ", ".join(one.file for one in recording.components)
     return f"{DATABASE}: search for RSN {recording.rsn}, unscaled, and download {files}"
+
+
+_SCHEMA: Final[dict[str, Any]] = {
+    "number": pl.UInt32,
+    "event": pl.String,
+    "station": pl.String,
+    "year": pl.UInt32,
+    "magnitude": pl.Float64,
+    "distance_km": pl.Float64,
+    "pulse_period": pl.Float64,
+    "rsn": pl.UInt32,
+    "nga_event": pl.String,
+    "nga_station": pl.String,
+    "nga_magnitude": pl.Float64,
+    "nga_distance_km": pl.Float64,
+    "nga_vs30": pl.Float64,
+    "files": pl.List(pl.String),
+    "remark": pl.String,
+    "how_to_get": pl.String,
+}
 
 
 def catalogue() -> pl.DataFrame:
@@ -281,49 +171,13 @@ def catalogue() -> pl.DataFrame:
     >>> catalogue().select("number", "rsn", "event", "pulse_period").row(2)
     (3, 161, '1979 Imperial Valley', 4.2)
     """
-    rows = []
-    for recording, paper, odd in zip(RECORDINGS, _PAPER, _ODD, strict=True):
-        event, station, magnitude, distance, period = paper
-        nga_magnitude, nga_distance, vs30 = _FLATFILE.get(recording.rsn, (None, None, None))
-        rows.append(
-            {
-                "number": recording.number,
-                "event": event,
-                "station": station,
-                "year": recording.year,
-                "magnitude": magnitude,
-                "distance_km": distance,
-                "pulse_period": period,
-                "rsn": recording.rsn,
-                "nga_event": recording.event,
-                "nga_station": recording.station,
-                "nga_magnitude": nga_magnitude,
-                "nga_distance_km": nga_distance,
-                "nga_vs30": vs30,
-                "files": [one.file for one in recording.components],
-                "remark": odd,
-                "how_to_get": how_to_get(recording),
-            }
-        )
-    schema: dict[str, Any] = {
-        "number": pl.UInt32,
-        "event": pl.String,
-        "station": pl.String,
-        "year": pl.UInt32,
-        "magnitude": pl.Float64,
-        "distance_km": pl.Float64,
-        "pulse_period": pl.Float64,
-        "rsn": pl.UInt32,
-        "nga_event": pl.String,
-        "nga_station": pl.String,
-        "nga_magnitude": pl.Float64,
-        "nga_distance_km": pl.Float64,
-        "nga_vs30": pl.Float64,
-        "files": pl.List(pl.String),
-        "remark": pl.String,
-        "how_to_get": pl.String,
-    }
-    return pl.DataFrame(rows, schema=schema)
+    rows = [
+        {name: value for name, value in row.items() if name in _SCHEMA}
+        | {"number": recording.number, "year": recording.year, "rsn": recording.rsn}
+        | {"files": [one.file for one in recording.components], "how_to_get": how_to_get(recording)}
+        for row, recording in zip(_ROWS, RECORDINGS, strict=False)
+    ]
+    return pl.DataFrame(rows, schema=_SCHEMA)
 
 
 Judged = Literal["header and content", "header", "content", "name"]

@@ -10,7 +10,4 @@ from seismass.show.animation.animation import Animation, PlaneAnimation, animate
 
 __all__ = ["Animation", "PlaneAnimation", "animate", "animate_plane"]
 
-
-def __dir__() -> list[str]:
-    """Return the public names, for completion."""
-    return list(__all__)
+__dir__ = __all__.copy  # for completion

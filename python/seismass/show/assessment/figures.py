@@ -1,4 +1,4 @@
-"""Figures of an assessment: real over model drift against lambda, drift by storey and model, slip by floor."""
+"""Figures of an assessment: what each storey uses of its limit, real over model drift against lambda, spectra."""
 
 from __future__ import annotations
 
@@ -7,66 +7,78 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 import polars as pl
-from markupsafe import Markup, escape
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
-from seismass.assessment.answer import PAIR
-from seismass.assessment.models import ADVISED, ATTACHED, BARE, CODE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
+from seismass.assessment.models import ATTACHED, CODE, SLIDING, SLIDING_HIGH, SLIDING_LOW
 from seismass.assessment.result import Assessment, shown_figures
+from seismass.assessment.structure import slip_of_base
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, counted
 from seismass.media.result import named_figure
 from seismass.media.roles import ADVISED as ADVISED_ROLE
 from seismass.media.roles import BARE as BARE_ROLE
+from seismass.media.roles import CODE as CODE_ROLE
 from seismass.media.roles import (
     EFFECTIVE,
     GREY,
     INK,
-    LAMBDA,
     LIMIT,
     MODELS,
     MU,
     OVER_MODEL,
+    PAPER,
     SHARE,
     SLIDE,
     SPECTRUM,
     TARGET,
-    apart,
-    sentence_html,
+    lettered,
 )
-from seismass.media.style import PERIOD_TICKS, drawing, plain, shortened
+from seismass.media.style import PERIOD_TICKS, drawing, plain
 from seismass.model.codes import AS_STATED, MARK, NOT_CHECKED, VERIFIED
-from seismass.show.assessment.tables import AssessmentTables, Fraction, assessment_tables
+from seismass.show.assessment.tables import (
+    AssessmentTables,
+    Fraction,
+    StoreyDrifts,
+    assessment_tables,
+    most_slip,
+    storey_drifts,
+)
 from seismass.show.effective_mass import STORAGE_CODES, marked_legend
 
 FRICTION_NAMES: Final = {SLIDING: "as stated", SLIDING_HIGH: "upper bound", SLIDING_LOW: "lower bound"}
 """What each friction is called, in the order of drawing."""
-DRAWN_MODELS: Final = (SLIDING, ADVISED, CODE, ATTACHED, BARE)
-"""Models of the figure of drifts, in the order of drawing."""
 
 
 class Size(NamedTuple):
-    """Width of a figure (inches), and characters of a line of a label and of the caption and of the name of a storey;
-    columns of the legend.
+    """Width of a figure (inches), characters of a line of a label, of the caption, of the name of a storey and of a
+    title, columns of the legend (panels stand side by side where there are two), and height of a row (inches).
     """
 
     width: float
     label: int
     caption: int
     name: int
+    title: int
     columns: int
+    row: float
 
 
-PAPER_SIZE: Final = Size(6.8, 88, 110, 24, 2)
-PHONE_SIZE: Final = Size(3.4, 44, 54, 12, 1)
+PAPER_SIZE: Final = Size(7.6, 88, 110, 16, 60, 2, 0.5)
+MOST_ROWS: Final = 10
+"""Rows of the figure of the first sheet that are as high as asked for; twice as many elsewhere."""
+PHONE_SIZE: Final = Size(3.4, 44, 54, 10, 34, 1, 0.5)
+SHEET_SIZE: Final = Size(4.6, 60, 0, 0, 29, 2, 0.36)
 
 
 def assessment_figures(result: AssessmentTables, size: Size = PAPER_SIZE) -> dict[str, Figure]:
     """Return the figures of an assessment that have something to show, by name."""
     fractions = any(np.isfinite(one.value) for one in result.effective.values())
-    return {name: _drawn(result, name, size) for name in shown_figures(fractions, result.storeys, result.slip)}
+    return {name: _drawn(result, name, size) for name in shown_figures(fractions and result.answer is not None)}
+
+
+def sheet_figure(result: AssessmentTables) -> Figure:
+    """Return the figure of drifts and slips as the first sheet has it."""
+    return _drawn(result, "drift", SHEET_SIZE)
 
 
 def assessment_figure(result: Assessment, name: str | None = None) -> Figure:
@@ -77,9 +89,8 @@ def assessment_figure(result: Assessment, name: str | None = None) -> Figure:
 @drawing()
 def _drawn(result: AssessmentTables, name: str, size: Size) -> Figure:
     draw = {
-        "effective_fraction": fraction_figure,
         "drift": drift_figure,
-        "slip": slip_figure,
+        "effective_fraction": fraction_figure,
         "spectrum": spectrum_figure,
     }
     figure = draw[name](result, size)
@@ -153,123 +164,153 @@ def _mark_shares(axes: Axes, result: AssessmentTables, size: Size) -> None:
 
 
 def drift_figure(result: AssessmentTables, size: Size) -> Figure:
-    """Capped mean drift of each storey by model, with 16 and 84 % over the motions, beside the limit."""
-    storeys, limit, names = result.storeys, result.drift_limit, result.storey_names
-    scale = 1e3 if limit is None else 1e2
-    models = [model for model in DRAWN_MODELS if model in set(storeys["model"])]
-    figure = Figure(figsize=(size.width, 2.2 + 0.85 * len(names)), layout="constrained")
-    axes = figure.add_subplot()
-    spacing = 0.15
-    handles = []
-    for number, model in enumerate(models):
-        role = MODELS[model]
-        colour, line, marker = role.colour, role.line, role.marker
-        rows = storeys.filter(pl.col("model") == model).sort("storey")
-        mean, low, high = (scale * rows[name].cast(pl.Float64).to_numpy() for name in ("mean", "p16", "p84"))
-        height = rows["storey"].to_numpy() + spacing * (0.5 * (len(models) - 1) - number)
-        axes.hlines(height, low, high, color=colour, linewidth=1.3, alpha=0.85)
-        for end in (low, high):
-            axes.plot(end, height, color=colour, linestyle="", marker="|", markersize=5.0)
-        axes.plot(mean, height, color=colour, linestyle=line, linewidth=1.2)
-        axes.plot(
-            mean,
-            height,
-            color=colour,
-            linestyle="",
-            marker=marker,
-            markersize=5.5,
-            markeredgecolor="white",
-            markeredgewidth=0.5,
-        )
-        handles.append(
-            Line2D(
-                [],
-                [],
-                color=colour,
-                linestyle=line,
-                linewidth=1.2,
-                marker=marker,
-                markersize=5.5,
-                label=_wrapped(_model_label(result, model), size),
+    """What each storey uses of its drift limit, and beside it the slip of its floor, ground at the bottom."""
+    rows, slips = storey_drifts(result.storeys, result.governing), most_slip(result.slip)
+    tall = 0.6 + size.row * min(len(rows), MOST_ROWS * (1 if size.caption == 0 else 2))
+    stacked, count = size.columns == 1, 2 if slips else 1
+    figure = Figure(figsize=(size.width, (tall + 0.35) * (count if stacked else 1) + 0.65), layout="constrained")
+    figure.set_layout_engine("constrained", rect=(0.0, 0.0, 0.98, 1.0))
+    shape = (count, 1) if stacked else (1, count)
+    ratios = {} if stacked or not slips else {"width_ratios": (1.5, 1.0)}
+    panels = figure.subplots(*shape, sharey=not stacked, squeeze=False, **ratios).flat
+    base = slip_of_base(result.runs)
+    labels = {} if base is None else {0: "base"}
+    labels |= {row.storey: f"{row.storey} {row.name * bool(size.name)}".rstrip() for row in rows}
+    for axes in panels:
+        axes.set_ylim(0.5 if base is None else -0.5, len(rows) + 0.5)
+        axes.set_yticks(list(labels), [plain(textwrap.fill(label, size.name or 9)) for label in labels.values()])
+        axes.grid(axis="x", color=GREY, alpha=0.25, linewidth=0.5)
+        for edge in np.arange(1.5, len(rows)):
+            axes.axhline(edge, color=GREY, alpha=0.35, linewidth=0.6)
+    _drift_panel(panels[0], result, rows, size)
+    if slips:
+        _slip_panel(panels[1], result, slips, base, size)
+    if size.caption:
+        figure.supxlabel(_caption(result, size), fontsize=7.5)
+    return figure
+
+
+def _title(axes: Axes, text: str, characters: int) -> None:
+    """What a panel says, above it."""
+    words = plain(textwrap.fill(lettered(text), characters))
+    axes.set_title(words, loc="left", fontsize=9.0, fontweight="bold", pad=15.0)
+
+
+def _below(axes: Axes, text: str, characters: int) -> None:
+    """What an axis is, below it."""
+    axes.set_xlabel(textwrap.fill(text, characters), fontsize=7.5)
+
+
+def _at_edge(axes: Axes, height: float, text: str, colour: str = INK) -> None:
+    """A value of a row, at the right of its panel."""
+    axes.text(1.02, height, text, transform=axes.get_yaxis_transform(), va="center", fontsize=7.5, color=colour)
+
+
+def _drift_panel(axes: Axes, result: AssessmentTables, rows: list[StoreyDrifts], size: Size) -> None:
+    """Drifts over the limit: goods that slide as a band, analyses as their numbers, the code's model as a tick."""
+    limit, answer = result.drift_limit, result.answer is not None
+    scale, unit = result.units.drifts(ratio=False) if limit is None else (1e2, "%")
+    known = [value for row in rows for value in (row.largest, row.code or 0.0, *(row.scatter or ()))]
+    right = 1.08 * scale * max(*known, 0.0 if limit is None else 1.0)
+    axes.set_xlim(0.0, right)
+    near = 0.16 * right / (size.width if size.columns == 1 else 0.55 * size.width)
+    for row in rows:
+        if row.sliding is not None:
+            low, high = (scale * end for end in row.sliding)
+            axes.barh(row.storey, max(high - low, 0.004 * right), left=low, height=0.3, **SLIDE.band)
+        if row.scatter is not None:
+            axes.hlines(row.storey, *(scale * end for end in row.scatter), color=SLIDE.colour, linewidth=1.0)
+        if row.code is not None:
+            axes.vlines(scale * row.code, row.storey - 0.3, row.storey + 0.3, color=CODE_ROLE.colour, linewidth=2.2)
+        places = [scale * value for value in row.analyses.values()]
+        apart_by = 0.17 if len(places) > 1 and abs(places[0] - places[1]) < near else 0.0
+        for number, (digit, place) in enumerate(zip(row.analyses, places, strict=True)):
+            height, is_first = row.storey + (apart_by, -apart_by)[number], digit == "1"
+            axes.plot(
+                place, height, "o", markersize=9.5, color=INK, markerfacecolor=INK if is_first else PAPER, zorder=4
             )
-        )
+            colour = PAPER if is_first else INK
+            axes.annotate(
+                digit, (place, height), color=colour, fontsize=7.0, ha="center", va="center_baseline", zorder=5
+            )
+        text = f"{scale * row.largest:.0f} %" if limit is not None else f"{scale * row.largest:.2f} {unit}"
+        model = _short(row.model) if answer else ""
+        _at_edge(axes, row.storey, lettered("\n".join(part for part in (text, model) if part)))
     if limit is not None:
-        axes.axvline(scale * limit, **LIMIT.look, linewidth=1.4)
-        handles.append(Line2D([], [], **LIMIT.look, linewidth=1.4, label=f"{LIMIT.name}, {scale * limit:g} %"))
-    axes.set_xlim(0.0, None)
-    axes.set_ylim(0.5, len(names) + 0.5)
-    labels = [f"{number} {name}".strip() for number, name in enumerate(names, start=1)]
-    axes.set_yticks(range(1, len(names) + 1), [shortened(plain(label), size.name) for label in labels])
+        axes.axvline(scale, color=LIMIT.colour, linewidth=1.4)
+        words = f"limit, {100.0 * limit:g} % of the height "
+        at_left = scale < 0.5 * right
+        axes.text(scale, len(rows) + 0.53, words, ha="left" if at_left else "right", va="bottom", fontsize=7.5)
+    _label_marks(axes, rows, scale, near)
     axes.set_ylabel("storey")
-    unit = "mm" if limit is None else "% of the height"
-    axes.set_xlabel(f"peak storey drift, {unit}\n(capped mean over the motions, and from 16 to 84 % of them)")
-    axes.grid(axis="x", color=GREY, alpha=0.25, linewidth=0.5)
-    for edge in np.arange(1.5, len(names)):
-        axes.axhline(edge, color=GREY, alpha=0.35, linewidth=0.6)
-    figure.legend(handles=handles, loc="outside upper center", ncols=size.columns, frameon=False)
-    figure.supxlabel(_caption(result, size), fontsize=7.5)
-    return figure
+    over = "of the limit, %" if limit is not None else unit
+    _below(axes, f"capped mean drift, {over}; thin line: 16 to 84 % of the motions", size.title)
+    row = max(rows, key=lambda one: one.largest)
+    used = f"drifts most, {scale * row.largest:.2f} {unit}"
+    if limit is not None:
+        used = f"uses {scale * row.largest:.0f} % of its drift limit"
+    why = f": {row.model}" if answer else "; no answer" if result.effective else ", without goods"
+    _title(axes, f"Storey {row.storey} {used}{why}", size.title)
 
 
-def slip_figure(result: AssessmentTables, size: Size) -> Figure:
-    """Peak and residual slip of the goods of each floor, by friction, with their scatter over the motions."""
-    slip = result.slip
-    kinds = list(dict.fromkeys(slip.sort("floor", maintain_order=True).select("floor", "goods").iter_rows()))
-    models = [model for model in FRICTION_NAMES if model in set(slip["model"])]
-    figure = Figure(figsize=(size.width, 2.1 + 0.75 * len(kinds)), layout="constrained")
-    axes = figure.add_subplot()
-    places = {kind: number for number, kind in enumerate(kinds, start=1)}
-    handles = []
-    for number, model in enumerate(models):
-        role, name = MODELS[model], FRICTION_NAMES[model]
-        colour, marker = role.colour, role.marker
-        rows = slip.filter(pl.col("model") == model).sort("floor", maintain_order=True)
-        offset = 0.22 * (0.5 * (len(models) - 1) - number)
-        height = np.array([places[kind] + offset for kind in rows.select("floor", "goods").iter_rows()])
+def _short(model: str) -> str:
+    """What governs, at the edge of a row."""
+    return model.replace("goods slide, ", "slide, ").replace("the analysis", "").replace("as stated", "").strip()
 
-        def column(key: str, table: pl.DataFrame = rows) -> FloatArray:
-            values: FloatArray = 1e3 * table[key].cast(pl.Float64).to_numpy()
-            return values
 
-        axes.hlines(height, column("peak_p16"), column("peak_p84"), color=colour, linewidth=1.5)
-        for end in ("peak_p16", "peak_p84"):
-            axes.plot(column(end), height, color=colour, linestyle="", marker="|", markersize=6.0)
-        axes.plot(column("peak_mean"), height, color=colour, linestyle="", marker=marker, markersize=6.0)
-        axes.plot(column("peak_max"), height, color=colour, linestyle="", marker="x", markersize=4.5)
-        axes.plot(
-            column("residual_mean"),
-            height,
-            color=colour,
-            linestyle="",
-            marker=marker,
-            markersize=6.0,
-            markerfacecolor="white",
+def _label_marks(axes: Axes, rows: list[StoreyDrifts], scale: float, near: float) -> None:
+    """Name the band and the tick once, where they are widest and farthest from other marks; beside crowded marks."""
+    slides = [row for row in rows if row.sliding is not None]
+    if not slides:
+        return
+    free = [min((abs(value - (one.code or 0.0)) for value in one.analyses.values()), default=1.0) for one in slides]
+    widths = [one.sliding[1] - one.sliding[0] if one.sliding else 0.0 for one in slides]
+    names = (
+        (slides[int(np.argmax(widths))], -0.2, "top", SLIDE, max(widths)),
+        (slides[int(np.argmax(free))], 0.28, "bottom", CODE_ROLE, max(free)),
+    )
+    for row, shift, side, role, room in names:
+        place, ends = row.code or 0.0, row.sliding or (0.0, 0.0)
+        marks = (*row.analyses.values(), *ends, place, *(row.scatter or ()))
+        middle = scale * (place if role is CODE_ROLE else 0.5 * sum(ends))
+        crowded = scale * room < 2.0 * near
+        axes.text(
+            scale * max(marks) + 0.6 * near if crowded else max(middle, 0.5 * near),
+            row.storey + (0.5 * shift if crowded else shift),
+            role.name,
+            va=("top" if shift < 0.0 else "bottom") if crowded else side,
+            ha="left" if crowded else "center",
+            color=role.text,
+            fontsize=7.5,
         )
-        mu = rows["mu_s"].unique().to_list()
-        value = f", {MU}_s = {mu[0]:.3g}" if len(mu) == 1 else ""
-        handles.append(Line2D([], [], color=colour, linewidth=1.5, marker=marker, label=f"friction {name}{value}"))
-    handles += [
-        Line2D([], [], color=GREY, linewidth=1.5, marker="o", label="peak: mean, and 16 to 84 % of the motions"),
-        Line2D([], [], color=GREY, linestyle="", marker="x", markersize=4.5, label="peak: largest"),
-        Line2D([], [], color=GREY, linestyle="", marker="o", markerfacecolor="white", label="residual: mean"),
-    ]
-    names = result.storey_names
-    labels = [" ".join(part for part in (str(floor), names[floor - 1], text) if part) for floor, text in kinds]
-    axes.set_yticks(range(1, len(kinds) + 1), [shortened(plain(label), size.name) for label in labels])
-    axes.set_ylim(0.5, len(kinds) + 0.5)
-    axes.set_xlim(left=0.0)
-    if not slip["peak_max"].max():
-        axes.set_xlim(0.0, 1.0)
-        axes.text(0.5, 0.5, "no goods slide", transform=axes.transAxes, ha="center", va="center")
-    axes.margins(x=0.05)
-    axes.set_ylabel("floor")
-    axes.set_xlabel("slip of the goods (mm)")
-    axes.grid(axis="x", color=GREY, alpha=0.25, linewidth=0.5)
-    for edge in np.arange(1.5, len(kinds)):
-        axes.axhline(edge, color=GREY, alpha=0.35, linewidth=0.6)
-    figure.legend(handles=handles, loc="outside upper center", ncols=size.columns, frameon=False)
-    figure.supxlabel(_caption(result, size), fontsize=7.5)
-    return figure
+
+
+def _slip_panel(
+    axes: Axes, result: AssessmentTables, slips: dict[int, dict[str, Any]], base: dict[str, Any] | None, size: Size
+) -> None:
+    """Slip at 84 % of the motions as a bar, its median as a tick, the clearance as a line, the largest as a number."""
+    units = result.units
+    clear = {kind["floor"]: kind["stops"]["clearance"] for kind in result.document["input"]["goods"] if kind["stops"]}
+    shown = dict(slips)
+    if base is not None:
+        shown[0] = {"peak_p84": base["p84"], "peak_median": base["median"], "peak_max": base["most"], "goods": ""}
+    for floor, row in shown.items():
+        allowed, median = (row[name] / units.of("slip")[1] for name in ("peak_p84", "peak_median"))
+        axes.barh(floor, allowed, height=0.3, **SLIDE.band)
+        axes.vlines(median, floor - 0.15, floor + 0.15, color=SLIDE.colour, linewidth=1.6)
+        words = [units.text("slip", row["peak_p84"]), f"largest {units.number('slip', row['peak_max'])}"]
+        _at_edge(axes, floor, "\n".join([words[0], words[1]] if allowed else ["none"]))
+        if floor in clear:
+            place = clear[floor] / units.of("slip")[1]
+            axes.vlines(place, floor - 0.4, floor + 0.4, color=INK, linewidth=1.4)
+            words_of = f" clearance {units.number('slip', clear[floor], '.4g')}"
+            axes.text(place, floor + 0.4, words_of, fontsize=7.5, va="top")
+    most = max([row["peak_p84"] for row in shown.values()] + list(clear.values())) / units.of("slip")[1]
+    axes.set_xlim(0.0, 1.3 * most or 1.0)
+    _below(axes, f"slip, {units.unit('slip')}: bar 84 % of the motions, tick median", int(0.7 * size.title))
+    floor = max(slips, key=lambda one: slips[one]["peak_p84"])
+    text = f"Allow for {units.text('slip', slips[floor]['peak_p84'])} of slip on floor {floor}"
+    _title(axes, text if slips[floor]["peak_max"] else "No goods slide", int(0.7 * size.title))
 
 
 def spectrum_figure(result: AssessmentTables, size: Size) -> Figure:
@@ -313,16 +354,6 @@ def _unchecked(code: dict[str, Any]) -> str:
     return "" if code["status"] in (VERIFIED, AS_STATED) else f" {MARK} {NOT_CHECKED}"
 
 
-def _model_label(result: AssessmentTables, model: str) -> str:
-    if model == ADVISED and result.advised is not None:
-        return f"{ADVISED_ROLE.name} (analysis 1): {LAMBDA} = {result.advised:.2f} of the goods"
-    if model == CODE:
-        code = result.code
-        return f"{plain(code['code'])}, {code['share_of_design_live_load']:.3g} of the live load{_unchecked(code)}"
-    added = {SLIDING: ", friction as stated", BARE: " (analysis 2)"}.get(model, "")
-    return f"{NAMES[model]}{added}"
-
-
 def _wrapped(text: str, size: Size) -> str:
     return textwrap.fill(text, size.label)
 
@@ -335,177 +366,3 @@ def _caption(result: AssessmentTables, size: Size) -> str:
     if document["target"] is not None and result.scaling is not None:
         lines.append(f"scaled to {document['target']['label']}")
     return plain("\n".join(textwrap.fill(line, size.caption) for line in lines))
-
-
-WIDTH: Final = 430.0
-LEFT: Final = 118.0
-BAY: Final = 132.0
-"""Left edge and width of the building (px)."""
-LEAST_PITCH: Final = 15.0
-"""Least distance between lines of words (px)."""
-NAME: Final = 15
-"""Characters of the name of a storey."""
-
-
-def building_drawing(result: AssessmentTables) -> Markup:
-    """Return the drawing as SVG in the colour of the text; goods are as large as their mass over that of a floor."""
-    data = result.document["input"]
-    storeys: list[dict[str, Any]] = data["storeys"]
-    heights = np.array([1.0 if row["height"] is None else row["height"] for row in storeys])
-    tall = float(np.clip(58.0 * len(storeys), 90.0, 330.0))
-    levels = 34.0 + tall * (1.0 - np.append(0.0, np.cumsum(heights)) / heights.sum())
-    every = max(1, int(np.ceil(LEAST_PITCH * len(storeys) / tall)))
-    parts = [_line(LEFT - 22.0, levels[0], LEFT + BAY + 22.0, levels[0], 2.5)]
-    hatching = np.arange(LEFT - 16.0, LEFT + BAY + 24.0, 10.0)
-    parts += [_line(x, levels[0] + 5.0, x - 5.0, levels[0] + 10.0, 1.0) for x in hatching]
-    for number, row in enumerate(storeys):
-        bottom, top = levels[number], levels[number + 1]
-        parts += [_line(x, bottom, x, top, 1.6) for x in (LEFT + 6.0, LEFT + BAY - 6.0)]
-        parts.append(_line(LEFT, top, LEFT + BAY, top, min(4.0, 0.25 * (bottom - top))))
-        if number % every:
-            continue
-        name = apart(shortened(row["name"], NAME))
-        parts.append(_text(LEFT - 8.0, top + 4.0, f"{row['storey']} {name}".rstrip(), "end"))
-        if row["height"] is not None and every == 1:
-            parts.append(_text(LEFT + BAY + 10.0, 0.5 * (bottom + top) + 4.0, f"{row['height']:.3g} m", soft=True))
-    parts += _goods(result, levels, every)
-    if data["walls"]:
-        x = LEFT + BAY - 20.0
-        parts.append(
-            Markup(
-                '<rect x="{}" y="{:.1f}" width="7" height="{:.1f}" fill="currentColor" fill-opacity="0.35"/>'
-            ).format(x, levels[-1], levels[0] - levels[-1])
-        )
-    text = f"{counted(len(storeys), 'storey')}; {_goods_text(result)}"
-    return Markup(
-        '<svg class="adapts" viewBox="0 0 {:g} {:.0f}" width="{:g}" role="img"><title>{}</title>{}</svg>'
-    ).format(WIDTH, levels[0] + 14.0, WIDTH, text, Markup("").join(parts))
-
-
-def floor_words(result: AssessmentTables) -> dict[int, str]:
-    """Return the goods of each loaded floor in a few words: what is present of the design live load, and friction."""
-    rows = {row["storey"]: row for row in result.document["input"]["storeys"]}
-    kinds: dict[int, list[str]] = {}
-    for kind in result.document["input"]["goods"]:
-        area = rows[kind["floor"]]["area"]
-        present, load = (STANDARD_GRAVITY * kind[name] for name in ("mass", "live_load"))
-        amount = (
-            f"{1e-3 * present:.0f} of {1e-3 * load:.0f} kN"
-            if area is None
-            else (f"{1e-3 * present / area:.3g} of {1e-3 * load / area:.3g} kPa")
-        )
-        friction = f"{kind['mu_s']:.3g}" + (f"/{kind['mu_k']:.3g}" if kind["mu_k"] != kind["mu_s"] else "")
-        size = kind.get("size")
-        ratio = np.inf if size is None else size["width"] / size["height"]
-        contact = f"b/h {ratio:.3g}" if ratio < kind["mu_s"] else f"{MU} {friction}"
-        how = "bolted" if kind["attached"] else contact if kind["mass"] > 0.0 else "none present"
-        kinds.setdefault(kind["floor"], []).append(f"{amount}, {how}")
-    return {floor: words[0] if len(words) == 1 else f"{words[0]} +{len(words) - 1}" for floor, words in kinds.items()}
-
-
-def _goods_text(result: AssessmentTables) -> str:
-    words = floor_words(result)
-    return "; ".join(f"floor {floor}: goods {what}" for floor, what in words.items()) or "no goods"
-
-
-def _goods(result: AssessmentTables, levels: np.ndarray[Any, np.dtype[np.float64]], every: int) -> list[Markup]:
-    """Goods of each floor as boxes, and their words beside the floor."""
-    data = result.document["input"]
-    mass = {row["storey"]: row["mass"] for row in data["storeys"]}
-    parts = []
-    for floor in sorted({kind["floor"] for kind in data["goods"]}):
-        kinds = [kind for kind in data["goods"] if kind["floor"] == floor and kind["mass"] > 0.0]
-        above = levels[floor] - levels[floor + 1] if floor + 1 < len(levels) else 34.0
-        room = BAY - 34.0
-        for place, kind in enumerate(kinds):
-            side = float(np.sqrt(min(kind["mass"] / mass[floor], 2.0) / 2.0))
-            high, wide = max(0.7 * above * side, 2.0), max(room / len(kinds) * side - 5.0, 4.0)
-            middle = LEFT + 17.0 + room * (place + 0.5) / len(kinds)
-            role = BARE_ROLE if kind["attached"] else SLIDE
-            parts.append(
-                Markup(
-                    '<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="{}" fill-opacity="0.5" '
-                    'stroke="{}"/>'
-                ).format(middle - 0.5 * wide, levels[floor] - high - 2.0, wide, high, role.colour, role.colour)
-            )
-    for floor, words in floor_words(result).items():
-        if (floor - 1) % every == 0:
-            parts.append(_text(LEFT + BAY + 10.0, levels[floor] + 4.0, words))
-    return parts
-
-
-def _line(x1: float, y1: float, x2: float, y2: float, width: float) -> Markup:
-    return Markup('<path d="M{:.1f} {:.1f}L{:.1f} {:.1f}" stroke="currentColor" stroke-width="{:.3g}"/>').format(
-        x1, y1, x2, y2, width
-    )
-
-
-def _text(x: float, y: float, words: str, anchor: str = "start", *, soft: bool = False) -> Markup:
-    return Markup(
-        '<text x="{:.1f}" y="{:.1f}" text-anchor="{}" font-size="11.5" fill="currentColor"{}>{}</text>'
-    ).format(x, y, anchor, Markup(' fill-opacity="0.75"') if soft else "", escape(words))
-
-
-def box_class(result: AssessmentTables) -> str:
-    """Return the class of the box: green only with an answer, without doubts, and with all checks met."""
-    met = result.checks["met"].eq_missing(True).all()
-    return "answer" if result.answer is not None and met and not result.document["doubts"] else "answer bad"
-
-
-def answer_lines(result: AssessmentTables) -> list[Markup]:
-    """Return the lines of the box."""
-    document, answer = result.document, result.answer
-    names = result.storey_names
-    lines = [Markup('<strong class="warn">{}</strong>').format(doubt) for doubt in document["doubt_lines"]]
-    lines.append(Markup("<strong>{}</strong>").format(sentence_html(document["statement"], names)))
-    if answer is not None:
-        lines.append(sentence_html(_sentence(PAIR)))
-        pair = zip(answer["analyses"], answer["pair"], strict=True)
-        lines += [
-            Markup("<strong>{}</strong>").format(sentence_html(f"Analysis {one['number']}: {words}."))
-            for one, words in pair
-        ]
-        present, *amounts = answer["goods"]
-        parts = [f"Governs: {'; '.join(answer['governs'])}.", f"Goods present: {present}.", *map(_sentence, amounts)]
-        parts += [f"Why: {answer['why']}.", *map(_sentence, answer["sensitivity"]), answer["design"]]
-        lines += [sentence_html(line, names) for line in parts]
-    lines.append(sentence_html(_sentence(document["on_motions"])))
-    if result.effective:
-        lines.append(sentence_html(_code_sentence(result)))
-    lines.append(_verdicts(result))
-    return lines
-
-
-def _sentence(text: str) -> str:
-    return f"{text[0].upper()}{text[1:]}."
-
-
-def _code_sentence(result: AssessmentTables) -> str:
-    """The code's fraction on the base of the shares, with its own in brackets."""
-    code = result.code
-    unchecked = "" if code["status"] in (VERIFIED, AS_STATED) else f"; {NOT_CHECKED}"
-    return (
-        f"{code['code']}: {code['share_of_design_live_load'] / result.present_share:.2f} of the goods present "
-        f"({code['share_of_design_live_load']:.3g} of the design live load{unchecked})."
-    )
-
-
-def _single_motions(result: AssessmentTables) -> str:
-    """Under how many motions a drift is above the limit all the same."""
-    above = result.storeys["motions_above_limit"].drop_nulls().to_numpy()
-    motions = len(result.document["suite"]["motions"])
-    return f"; under up to {above.max()} of {motions} a drift is above the limit" if above.size and above.max() else ""
-
-
-def _verdicts(result: AssessmentTables) -> Markup:
-    """How many checks are met; those without a value are counted apart."""
-    count = result.checks.height
-    failed = result.checks.filter(met=False).height
-    missing = result.checks["met"].null_count()
-    if not failed + missing:
-        return Markup('<span class="good">All {} checks are met, in the capped mean over the motions{}.</span>').format(
-            count, _single_motions(result)
-        )
-    sentences = [f"{failed} of {count} checks are not met"] * bool(failed)
-    sentences += [f"{missing} of {count} have no value"] * bool(missing)
-    return Markup('<span class="warn">{}.</span>').format("; ".join(sentences))

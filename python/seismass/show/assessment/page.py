@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Final
 import polars as pl
 from markupsafe import Markup
 
-from seismass.assessment.models import ADVISED, BARE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
+from seismass.assessment.answer import ANALYSIS_UNITS
+from seismass.assessment.models import NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
 from seismass.base.arguments import ProgressLike
 from seismass.base.files import write_file
 from seismass.base.folders import as_written, read_folder
-from seismass.base.statistics import CAPPED_MEAN
 from seismass.effective_mass.result import KIND_TEXTS
 from seismass.effective_mass.rule import RULE_IN_WORDS
 from seismass.media.page import (
@@ -30,7 +30,7 @@ from seismass.media.page import (
 from seismass.media.roles import EFFECTIVE, LAMBDA, MU, OMEGA, OVER_MODEL, lettered, sentence_html
 from seismass.media.text_table import number_text
 from seismass.show.assessment.page_input import Pictures, in_motion_html, input_html, motions_html, names_of
-from seismass.show.assessment.sheet import NOT_COVERED, sheet_html, signed_percent
+from seismass.show.assessment.sheet import NOT_COVERED, running, sheet_html, storeys_html
 from seismass.show.assessment.tables import (
     ANIMATION,
     DOCUMENT,
@@ -53,19 +53,6 @@ LIMITS: Final = (
     "the engineer who signs it.",
 )
 """What the page does not cover."""
-METHOD: Final = (
-    "Model: a shear building with a trilinear spring in each storey; goods are rigid blocks that stick and slide with "
-    "Coulomb friction. Runs go exactly from event to event (yielding, sliding, sticking), without a time step.",
-    "Motions: scaled so that the mean of their 5 % spectra is not below that of the site from 0.2 T to 1.5 T.",
-    f"Share: models with a share {LAMBDA} of the goods attached as mass are solved under the same motions. The "
-    f"{EFFECTIVE} is that share at which the capped mean of the largest storey drift is that with goods that slide; at "
-    "friction as stated and at its bounds.",
-    f"Capped mean: {CAPPED_MEAN}; peaks of a run that collapses are those until then.",
-    f"Answer: {LAMBDA} is the largest of these fractions, rounded up to a multiple of 0.01. A second analysis has no "
-    "goods. The larger drift of each storey counts.",
-    "Checks: the capped mean drift of each storey, and P d/(V h) at mean peaks, beside their limits.",
-)
-"""How the numbers came about."""
 
 
 def building_page(
@@ -86,11 +73,10 @@ def building_page(
 
     sections = [
         Section("Input as understood", input_html(result)),
-        Section("Method", [bullets_html(METHOD)]),
         Section("Effective fraction", _fractions(result, pictures)),
         Section("Drifts", _drifts(result, pictures)),
-        *([Section("Slip of the goods", _slip(result, pictures))] if result.slip.height else []),
-        Section("In an analysis", [listed(document["advice"]), *_analysis(result)]),
+        *([Section("Slip of the goods", _slip(result))] if result.slip.height else []),
+        Section("In an analysis", [listed([*document["advice"], *_further(result)]), *_analysis(result)]),
         Section("Checks", [_checks(result)]),
         Section("Motions", motions_html(result, pictures)),
         Section("The building in motion", in_motion_html(result)),
@@ -103,9 +89,8 @@ def building_page(
     subtitle = "; ".join(part for part in (document["note"], version) if part)
     title = document["name"] or "Building"
     description = f"{title}: how much of its live load acts as mass in an earthquake, drifts, stability and slips."
-    return page_html(
-        title, sections, subtitle=subtitle, description=description, lead=[*edited_html(edited), sheet_html(result)]
-    )
+    lead = [*edited_html(edited), sheet_html(result, pictures.sheet)]
+    return page_html(title, sections, subtitle=subtitle, description=description, lead=lead, running=running(result))
 
 
 def _number(value: float | None, digits: int = 2) -> str:
@@ -118,14 +103,18 @@ def _interval(fraction: Fraction) -> str:
     return f"{_number(fraction.interval[0])} to {_number(fraction.interval[1])}"
 
 
+def _further(result: AssessmentTables) -> list[str]:
+    """What governs which storeys, and by how much single motions and the drift cap change the answer."""
+    answer = result.answer or {"governs": [], "sensitivity": []}
+    return [f"{text[0].upper()}{text[1:]}." for text in (*answer["governs"], *answer["sensitivity"])]
+
+
 def _checks(result: AssessmentTables) -> Markup:
     rows = []
     for row in result.checks.iter_rows(named=True):
         in_percent = "drift ratio" in row["check"]
         scale, form, unit = (1e2, ".2f", " %") if in_percent else (1.0, ".3g", "")
-        margin = "\N{EN DASH}"
-        if row["value"] is not None and row["limit"]:
-            margin = signed_percent(100.0 * (1.0 - row["value"] / row["limit"]))
+        known = row["value"] is not None and row["limit"]
         rows.append(
             {
                 "check": row["check"],
@@ -133,8 +122,8 @@ def _checks(result: AssessmentTables) -> Markup:
                 "storey": row["storey"],
                 "value": None if row["value"] is None else f"{scale * row['value']:{form}}{unit}",
                 "limit": f"{scale * row['limit']:g}{unit}",
-                "margin": margin,
-                "met": {True: "met", False: "not met", None: "no value"}[row["met"]],
+                "use": f"{100.0 * row['value'] / row['limit']:.0f} %" if known else "\N{EN DASH}",
+                "met": {True: "met", False: "not met", None: f"no value: {row['reason']}"}[row["met"]],
                 "source": row["source"],
             }
         )
@@ -142,7 +131,7 @@ def _checks(result: AssessmentTables) -> Markup:
     return table_html(
         pl.DataFrame(rows, schema_overrides=schema),
         "Largest value over the storeys beside its limit. Drift and stability are those of the means over the motions.",
-        headers={"met": "verdict", "source": "limit by"},
+        headers={"use": "use of the limit", "met": "verdict", "source": "limit by"},
         formats={"met": _verdict, "source": long_html},
     )
 
@@ -155,6 +144,8 @@ def _verdict(text: str) -> Markup:
 def _fractions(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     if not result.effective:
         return [text_html("There are no goods on the floors.")]
+    if result.answer is None:
+        return [text_html(f"There is none, because {lettered(result.document['reason'])}.")]
     low, high = result.mu_factors
     words = {SLIDING: "as stated", SLIDING_HIGH: f"{high:g} times", SLIDING_LOW: f"{low:g} times"}
     rows = [
@@ -179,9 +170,9 @@ def _fractions(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
         ),
         table_html(
             pl.DataFrame(rows),
-            f"Effective fraction of the goods present by friction, and the rule by hand, without a run: "
-            f"{lettered(rule.words)}. {lettered(RULE_IN_WORDS)}. In the runs the mean peak base shear with all goods "
-            f"attached is {share.base_shear_coefficient:.4f} of the weight.",
+            "Effective fraction of the goods present by friction, and the rule by hand, without a run: "
+            f"{lettered(f'{rule.words_in(result.units)}. {RULE_IN_WORDS}')}. In the runs the mean peak base shear with "
+            f"all goods attached is {share.base_shear_coefficient:.4f} of the weight.",
             headers={
                 "value": EFFECTIVE,
                 "kind": "what that is",
@@ -195,7 +186,7 @@ def _fractions(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
 
 def _drifts(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     ratio = result.drift_limit is not None
-    scale, unit = (1e2, "%") if ratio else (1e3, "mm")
+    scale, unit = result.units.drifts(ratio=ratio)
     names = {name: f"{name} ({unit})" for name in ("mean", "p16", "median", "p84", "max")}
     names |= {"mean": f"capped mean ({unit})", "p16": f"16 % ({unit})", "p84": f"84 % ({unit})"}
     further = ["motions_above_limit", "theta"] if ratio else []
@@ -207,19 +198,21 @@ def _drifts(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     headers = {**names, "collapsed": "collapsed runs"}
     if ratio:
         headers |= {"motions_above_limit": "motions above the limit", "theta": "stability coefficient"}
-    row = result.storeys.sort("mean", descending=True).row(0, named=True)
-    note = f"The largest is {scale * row['mean']:.2f} {unit}, storey {row['storey']}, {NAMES[row['model']]}."
+    row = result.governing.sort("governing", descending=True).row(0, named=True)
+    note = f"The largest is {scale * row['governing']:.2f} {unit}, storey {row['storey']}, {row['governed_by']}."
     return [
-        *([_governing(result, scale, unit)] if result.answer is not None else []),
+        *(storeys_html(result, len(result.storey_names)) if result.answer is not None else []),
         pictures.figure(
             "drift",
-            "Capped mean drift of each storey by model, with 16 to 84 % of the motions"
-            + (", beside the limit." if ratio else "."),
+            "What each storey uses of its drift limit, ground at the bottom: analyses by their numbers, goods that "
+            "slide over the three frictions as a band; and the slip of its floor at the friction with the most."
+            if ratio
+            else "Drift of each storey, and the slip of its floor.",
             note,
         ),
         table_html(
             table,
-            f"Peak drift of each storey ({'% of the height' if ratio else 'mm'}) by model over the motions.",
+            f"Peak drift of each storey ({'% of the height' if ratio else unit}) by model over the motions.",
             headers=headers,
             formats={
                 **dict.fromkeys(names, lambda value: f"{scale * value:.2f}"),
@@ -229,86 +222,51 @@ def _drifts(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     ]
 
 
-def _governing(result: AssessmentTables, scale: float, unit: str) -> Markup:
-    """Both analyses and all frictions, storey by storey."""
-    low, high = result.mu_factors
-    headers = {
-        ADVISED: f"analysis 1 ({unit})",
-        BARE: f"analysis 2 ({unit})",
-        SLIDING: f"goods slide, {MU} as stated ({unit})",
-        SLIDING_HIGH: f"{high:g} {MU} ({unit})",
-        SLIDING_LOW: f"{low:g} {MU} ({unit})",
-        "governing": f"governs ({unit})",
-        "limit": f"limit ({unit})",
-        "governed_by": "governed by",
-    }
-    shown = [name for name in headers if result.governing[name].null_count() < result.governing.height]
-    table = result.governing.select("storey", "name", *shown)
-    if not any(table["name"]):
-        table = table.drop("name")
-    drifts = [name for name in shown if name != "governed_by"]
-    return table_html(
-        table,
-        "Capped mean drift of each storey in both analyses and with goods that slide; the largest governs.",
-        headers={name: headers[name] for name in shown},
-        formats={
-            **dict.fromkeys(drifts, lambda value: f"{scale * value:.2f}"),
-            **({"governed_by": sentence_html} if "governed_by" in shown else {}),
-        },
-    )
-
-
 def _analysis(result: AssessmentTables) -> list[Markup]:
     """What to type into another program."""
     if result.answer is None:
         return []
-    table = result.analysis
+    table, units = result.analysis, result.units
+    of_mass, of_weight = ANALYSIS_UNITS[units.name]
     if not any(table["name"]):
         table = table.drop("name")
+    headers, formats = {}, {}
+    numbers = ("2",) if len(result.called) == 1 else ("1", "2")
+    for number, called in zip(numbers, result.called.values(), strict=True):
+        names = [f"mass_{number}_{of_mass}", f"weight_{number}_{of_weight}", f"multiplier_{number}"]
+        words = (
+            f"{called}: mass ({units.unit('mass')})",
+            f"weight ({units.unit('force')})",
+            "multiplier of the live load",
+        )
+        headers |= dict(zip(names, words, strict=True))
+        formats |= dict(zip(names, (units.of("mass")[2], ".0f", ".2f"), strict=True))
     return [
         table_html(
-            table,
-            "Mass of each floor in both analyses, for another program, and the multiplier of the design live load in "
-            "its mass source.",
-            headers={
-                "mass_1_t": "analysis 1: mass (t)",
-                "weight_1_kn": "weight (kN)",
-                "multiplier_1": "multiplier of the live load",
-                "mass_2_t": "analysis 2: mass (t)",
-                "weight_2_kn": "weight (kN)",
-                "multiplier_2": "multiplier",
-            },
-            formats={
-                **dict.fromkeys(("mass_1_t", "mass_2_t"), ".1f"),
-                **dict.fromkeys(("weight_1_kn", "weight_2_kn"), ".0f"),
-                "multiplier_1": ".2f",
-                "multiplier_2": ".2f",
-            },
+            table.select(name for name in table.columns if name in (*headers, "floor", "name")),
+            "Mass of each floor for another program, and the multiplier of the design live load in its mass source.",
+            headers=headers,
+            formats=formats,
         )
     ]
 
 
-def _slip(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
+def _slip(result: AssessmentTables) -> list[Markup]:
+    unit = result.units.unit("slip")
     names = {
-        "peak_mean": "peak, mean (mm)",
-        "peak_median": "median (mm)",
-        "peak_p84": "84 % (mm)",
-        "peak_p84_low": "its interval, from (mm)",
-        "peak_p84_high": "to (mm)",
-        "peak_max": "largest (mm)",
-        "residual_mean": "residual, mean (mm)",
-        "residual_p84": "84 % (mm)",
+        "peak_mean": f"peak, mean ({unit})",
+        "peak_median": f"median ({unit})",
+        "peak_p84": f"84 % ({unit})",
+        "peak_p84_low": f"its interval, from ({unit})",
+        "peak_p84_high": f"to ({unit})",
+        "peak_max": f"largest ({unit})",
+        "residual_mean": f"residual, mean ({unit})",
+        "residual_p84": f"84 % ({unit})",
     }
-    largest = result.slip["peak_max"].drop_nulls().to_numpy()
     confidence = 100.0 * result.document["metadata"]["confidence"]
     table = result.slip.select("friction", "floor", "name", "goods", "mu_s", "mu_k", "motions_that_slide", *names)
     table = table.drop([name for name in ("name", "goods") if not any(table[name])])
     return [
-        pictures.figure(
-            "slip",
-            "Slip of the goods of each floor by friction: what aisles and edges must allow for.",
-            f"The largest slip of any motion is {1e3 * float(largest.max()) if largest.size else 0.0:.0f} mm.",
-        ),
         table_html(
             table,
             f"Peak and residual slip over the motions; the interval is that of {confidence:g} % of the peak at 84 %.",
@@ -318,7 +276,11 @@ def _slip(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
                 "mu_s": f"{MU}_s",
                 "mu_k": f"{MU}_k",
             },
-            formats={**dict.fromkeys(names, lambda value: f"{1e3 * value:.1f}"), "mu_s": ".3g", "mu_k": ".3g"},
+            formats={
+                **dict.fromkeys(names, lambda value: result.units.number("slip", value, ".1f")),
+                "mu_s": ".3g",
+                "mu_k": ".3g",
+            },
         ),
     ]
 
@@ -371,6 +333,7 @@ def drawn_figures(tables: AssessmentTables, progress: ProgressLike = None) -> tu
 def page_with(tables: AssessmentTables, drawings: dict[str, str], edited: tuple[str, ...] = ()) -> str:
     """Return the page with the SVG texts of its figures; those for phones are drawn."""
     from seismass.media.svg import figure_svgs
-    from seismass.show.assessment.figures import PHONE_SIZE, assessment_figures
+    from seismass.show.assessment.figures import PHONE_SIZE, assessment_figures, sheet_figure
 
-    return building_page(tables, drawings, figure_svgs(assessment_figures(tables, PHONE_SIZE)), edited)
+    for_phones = figure_svgs(assessment_figures(tables, PHONE_SIZE) | {"sheet": sheet_figure(tables)})
+    return building_page(tables, drawings, for_phones, edited)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 import polars as pl
 from markupsafe import Markup
 
-from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.errors import MissingPackage
+from seismass.base.units import STANDARD_GRAVITY, UNITS, Units
 from seismass.media.page import (
     DIFFERENCES,
     MOST_STOREYS,
@@ -29,8 +31,10 @@ from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
 from seismass.motions.records.builtin import builtin_suite
 from seismass.show.animation.html import element_html
 from seismass.show.assessment.tables import AssessmentTables
+from seismass.show.explore import kernel_file
 from seismass.show.explore.page import site_factors
 
+SPRINGS: Final = f"Springs: {OMEGA}, r2, r3"
 LEFT_OUT: Final = ("pgv", "pgd", "fraction", "governing")
 """Columns of the table `left_out` that stand beside factors."""
 MOST_MOTIONS: Final = 12
@@ -39,22 +43,24 @@ MOST_MOTIONS: Final = 12
 
 def input_html(result: AssessmentTables) -> list[Markup]:
     """Return facts of the whole building, the table of its storeys and that of its goods."""
-    return [facts_html(_facts(result)), _storeys(result), *_goods(result)]
+    return [facts_html(facts(result)), _storeys(result), *_goods(result)]
 
 
-def _facts(result: AssessmentTables) -> dict[str, str]:
+def facts(result: AssessmentTables) -> dict[str, str]:
+    """Return facts of the whole building by their names."""
     data, code, document = result.document["input"], result.code, result.document
-    facts: dict[str, str] = {}
+    units = result.units
+    known: dict[str, str] = {}
     if data["file"]:
-        facts["File"] = isolated(data["file"])
-    facts |= {
-        "Weight without loose goods": f"{1e-3 * data['weight']:.0f} kN",
-        "Weight of the goods present": f"{1e-3 * data['weight_of_goods']:.0f} kN, "
+        known["File"] = isolated(data["file"])
+    known |= {
+        "Weight without loose goods": units.both("force", data["weight"]),
+        "Weight of the goods present": f"{units.both('force', data['weight_of_goods'])}, "
         f"{100.0 * result.present_share:.0f} % of the design live load",
         "First period": f"{data['period_bare']:.3f} s without goods, {data['period_attached']:.3f} s with all",
         "Stiffness": _with_source(_stiffness_words(data), data, "stiffness", "period"),
         "Strength": _with_source(_strength_words(data), data, "strength", "design", "reduction"),
-        f"Springs: {OMEGA}, r2, r3": _with_source(
+        SPRINGS: _with_source(
             "; ".join(_values(data["storeys"], name) for name in ("overstrength", "second_slope", "third_slope"))
             + " (second yield over the first, slopes after both over the initial one)",
             data,
@@ -85,7 +91,7 @@ def _facts(result: AssessmentTables) -> dict[str, str]:
         ),
         "Motions": _motions(document["suite"]),
     }
-    return facts
+    return known
 
 
 def _motions(suite: dict[str, Any]) -> Markup:
@@ -98,19 +104,22 @@ def _motions(suite: dict[str, Any]) -> Markup:
 def _further(data: dict[str, Any]) -> dict[str, str]:
     """What few buildings have: another direction, a sliding base."""
     facts: dict[str, str] = {}
-    other, base = data["other_direction"], data["base"]
+    other, base, units = data["other_direction"], data["base"], UNITS[data["units"]]
     if other is not None:
         rule = "as stated" if other["R"] is None else f"by design with R = {other['R']:g}"
-        strength = [1e-3 * value for value in other["yield_shear"] if value is not None]
-        tail = f", V_y {min(strength):.0f} to {max(strength):.0f} kN" if strength else ", elastic"
-        stiffness = [1e-6 * value for value in other["stiffness"]]
+        strength = [value for value in other["yield_shear"] if value is not None]
+        ends = [units.text("force", end) for end in (min(strength), max(strength))] if strength else []
+        tail = f", V_y {' to '.join(ends)}" if strength else ", elastic"
+        stiffness = " to ".join(
+            units.text("stiffness", end) for end in (min(other["stiffness"]), max(other["stiffness"]))
+        )
         facts["Other direction, y"] = (
             f"first period {other['period_bare']:.3f} s without goods, {other['period_attached']:.3f} s with all; "
-            f"stiffness {min(stiffness):.1f} to {max(stiffness):.1f} kN/mm; strengths {rule}{tail}; the table of "
+            f"stiffness {stiffness}; strengths {rule}{tail}; the table of "
             "storeys is that of x"
         )
     if base is not None:
-        pendulum = "" if base["radius"] is None else f", pendulum of radius {base['radius']:g} m"
+        pendulum = "" if base["radius"] is None else f", pendulum of radius {units.text('height', base['radius'])}"
         facts["Sliding base"] = f"{MU}_s {base['mu_s']:g}, {MU}_k {base['mu_k']:g}{pendulum}"
     return facts
 
@@ -156,24 +165,23 @@ def _values(storeys: list[dict[str, Any]], name: str) -> str:
 
 def _storeys(result: AssessmentTables) -> Markup:
     data = result.document["input"]
-    rows, sources = data["storeys"], data["sources"]
+    rows, sources, units = data["storeys"], data["sources"], result.units
     table = pl.DataFrame(rows, infer_schema_length=None).with_columns(
-        dead_load=1e-3 * STANDARD_GRAVITY * (pl.col("mass") - pl.col("bolted")) / pl.col("area").cast(pl.Float64),
-        load=1e-3
-        * STANDARD_GRAVITY
+        dead_load=STANDARD_GRAVITY * (pl.col("mass") - pl.col("bolted")) / pl.col("area").cast(pl.Float64),
+        load=STANDARD_GRAVITY
         * (pl.col("live_load") + pl.Series([_bolted_load(result, row["storey"]) for row in rows], dtype=pl.Float64))
         / pl.col("area").cast(pl.Float64),
     )
     names = {
         "storey": "storey",
         "name": "name",
-        "height": "height (m)",
-        "area": "area (m\N{SUPERSCRIPT TWO})",
-        "dead_load": "dead load (kPa)",
-        "load": "design live load (kPa)",
-        "mass": "mass (t)",
-        "stiffness": "stiffness (kN/mm)",
-        "yield_shear": "V_y (kN)",
+        "height": f"height ({units.unit('height')})",
+        "area": f"area ({units.unit('area')})",
+        "dead_load": f"dead load ({units.unit('load')})",
+        "load": f"design live load ({units.unit('load')})",
+        "mass": f"mass ({units.unit('mass')})",
+        "stiffness": f"stiffness ({units.unit('stiffness')})",
+        "yield_shear": f"V_y ({units.unit('force')})",
         "use": "use",
         "code_fraction": "code's fraction",
         "code_exception": "why",
@@ -181,13 +189,9 @@ def _storeys(result: AssessmentTables) -> Markup:
     unused = [name for name in ("name", "code_exception") if not any(table[name])]
     unused += [name for name in ("height", "area", "dead_load", "load") if table[name].null_count() == table.height]
     shown = [name for name in names if name not in unused]
-    thousandth = dict.fromkeys(("mass", "yield_shear"), thousandth_text)
-    formats: dict[str, Any] = {
-        **thousandth,
-        "stiffness": lambda value: f"{1e-6 * value:.1f}",
-        "area": lambda value: f"{value:g}",
-        **dict.fromkeys(("dead_load", "load"), ".3g"),
-    }
+    quantities = {name: name for name in ("height", "area", "mass", "stiffness")}
+    quantities |= {"dead_load": "load", "load": "load", "yield_shear": "force"}
+    formats = {name: partial(units.number, quantity) for name, quantity in quantities.items()}
     known = {"height": "height", "area": "area", "dead_load": "dead load", "live_load": "live load"}
     notes = "; ".join(f"{words}: {sources[name]}" for name, words in known.items() if name in sources)
     caption = (
@@ -212,7 +216,7 @@ def _bolted_load(result: AssessmentTables, storey: int) -> float:
 
 def _goods(result: AssessmentTables) -> list[Markup]:
     """Goods of each kind on each floor."""
-    rows = result.document["input"]["goods"]
+    rows, units = result.document["input"]["goods"], result.units
     if not rows:
         return []
     area = {row["storey"]: row["area"] for row in result.document["input"]["storeys"]}
@@ -220,13 +224,13 @@ def _goods(result: AssessmentTables) -> list[Markup]:
     table = pl.DataFrame(rows, infer_schema_length=None).with_columns(
         pl.Series("area", [np.nan if area[row["floor"]] is None else area[row["floor"]] for row in rows]),
         contact=pl.when("attached").then(pl.lit("bolted")).otherwise("contact"),
-        size=pl.Series([_size(row.get("size")) for row in rows], dtype=pl.String),
+        size=pl.Series([_size(units, row.get("size")) for row in rows], dtype=pl.String),
     )
     table_of_goods = table.select(
         "floor",
         "name",
-        load=1e-3 * STANDARD_GRAVITY * pl.col("live_load") / pl.col("area"),
-        weight=1e-3 * STANDARD_GRAVITY * pl.col("live_load"),
+        load=STANDARD_GRAVITY * pl.col("live_load") / pl.col("area"),
+        weight=STANDARD_GRAVITY * pl.col("live_load"),
         occupied="occupied",
         presence="presence",
         contact="contact",
@@ -238,13 +242,13 @@ def _goods(result: AssessmentTables) -> list[Markup]:
     unused += ["load"] if table_of_goods["load"].null_count() == table_of_goods.height else []
     headers = {
         "name": "goods",
-        "load": "design live load (kPa)",
-        "weight": "of the floor (kN)",
+        "load": f"design live load ({units.unit('load')})",
+        "weight": f"of the floor ({units.unit('force')})",
         "occupied": "present",
         "presence": "how that is known",
         "mu_s": f"{MU}_s",
         "mu_k": f"{MU}_k",
-        "size": "size of one (m)",
+        "size": f"size of one ({units.unit('height')})",
     }
     parts = "".join(
         f" {words}: {sources[name]}."
@@ -257,8 +261,8 @@ def _goods(result: AssessmentTables) -> list[Markup]:
             f"Goods, kind by kind. Bolted ones are part of the mass of their floor.{parts}",
             headers={name: words for name, words in headers.items() if name not in unused},
             formats={
-                **({} if "load" in unused else {"load": ".3g"}),
-                "weight": ".0f",
+                **({} if "load" in unused else {"load": partial(units.number, "load")}),
+                "weight": partial(units.number, "force"),
                 "occupied": ".2f",
                 "presence": long_html,
                 "mu_s": ".3g",
@@ -268,13 +272,8 @@ def _goods(result: AssessmentTables) -> list[Markup]:
     ]
 
 
-def _size(size: dict[str, float] | None) -> str:
-    return "" if size is None else f"{size['width']:g} x {size['height']:g}"
-
-
-def thousandth_text(value: float) -> str:
-    """Return a value in SI units as thousands of them: kN, t."""
-    return f"{1e-3 * value:.0f}"
+def _size(units: Units, size: dict[str, float] | None) -> str:
+    return "" if size is None else " x ".join(units.number("height", size[name]) for name in ("width", "height"))
 
 
 class Outcome(NamedTuple):
@@ -388,6 +387,13 @@ class Pictures:
     def __init__(self, drawings: Mapping[str, str], for_phones: Mapping[str, str]) -> None:
         self._drawings, self._for_phones = drawings, for_phones
 
+    @property
+    def sheet(self) -> Markup:
+        """The figure of drifts and slips of the first sheet."""
+        words = "What each storey uses of its drift limit, and the slip of its floor; the table below has the numbers."
+        drawn = self._for_phones.get("sheet")
+        return Markup("") if drawn is None else figure_html(short_svg(drawn), "", words)
+
     def figure(self, name: str, caption: str, alt: str) -> Markup:
         """Return one figure; nothing where there is no such drawing."""
         if name not in self._drawings:
@@ -405,7 +411,7 @@ def names_of(result: AssessmentTables) -> list[str]:
 
 def motions_html(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     """Return on which motions the answer stands, their spectra, and their factors."""
-    data, target = result.document["input"], result.document["target"]
+    data, target, units = result.document["input"], result.document["target"], result.units
     site = "" if target is None else " beside the site spectrum"
     parts = [
         text_html(sentence_html(f"The answer stands {result.document['on_motions']}.")),
@@ -428,10 +434,14 @@ def motions_html(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
                     "record": "motion",
                     "individual_factor": "own factor",
                     "common_factor": "common factor",
-                    "pgv": "PGV (m/s)",
-                    "pgd": "PGD (m)",
+                    "pgv": f"PGV ({units.unit('velocity')})",
+                    "pgd": f"PGD ({units.unit('displacement')})",
                 },
-                formats=dict.fromkeys(("individual_factor", "common_factor", "factor", *LEFT_OUT), ".4f"),
+                formats={
+                    **dict.fromkeys(("individual_factor", "common_factor", "factor", *LEFT_OUT[2:]), ".4f"),
+                    "pgv": partial(units.number, "velocity"),
+                    "pgd": partial(units.number, "displacement"),
+                },
             )
         )
     return parts
@@ -463,8 +473,11 @@ def _live(result: AssessmentTables) -> list[Markup]:
     case, reasons, differences = live_case(result)
     if case is None:
         return [text_html(f"The live page cannot show this building: {'; '.join(reasons)}.")]
+    try:
+        kernel_file()
+    except MissingPackage:
+        return [text_html("There is no live page beside this one: the package has no kernel for browsers.")]
     link = Markup(
-        '<a class="live" href="{page}#{address}">Open it in the live page</a> ({page} in the folder of this page, '
-        "which <code>seismass building</code> writes where the package carries the kernel for browsers). There:"
-    ).format(page=LIVE_PAGE, address=case.address)
-    return [text_html(link), bullets_html(f"{lettered(line)}." for line in differences)]
+        'The live page, {page} in the folder of this page, <a href="{page}#{address}">shows this building</a>{differs}'
+    ).format(page=LIVE_PAGE, address=case.address, differs=". What differs there:" if differences else ".")
+    return [text_html(link), *([bullets_html(f"{lettered(line)}." for line in differences)] if differences else [])]

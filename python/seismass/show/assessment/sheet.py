@@ -1,184 +1,118 @@
-"""The first sheet of an assessment's page, for the file: head, drawing, answer, what was checked, motions, limits."""
+"""The first sheet of an assessment's page: head, input, result, checks, method, check by hand, references."""
 
 from __future__ import annotations
 
+import math
 from typing import Any, Final
 
+import numpy as np
 import polars as pl
 from markupsafe import Markup
 
 from seismass.assessment.advice import slip_ends
 from seismass.assessment.checks import CAPPED_DRIFT
-from seismass.assessment.models import ADVISED, BARE, NAMES
-from seismass.media.page import table_html, text_html, whole_html
+from seismass.assessment.models import NAMES, SLIDING, SLIDING_ALL
+from seismass.assessment.structure import slip_of_base
+from seismass.effective_mass.rule import RULE_UNKNOWN
+from seismass.media.page import facts_html, table_html, text_html
 from seismass.media.roles import apart, isolated, sentence_html
 from seismass.model.codes import FROM_MEMORY, MARK, SECOND_HAND
-from seismass.show.assessment.figures import answer_lines, box_class, building_drawing
-from seismass.show.assessment.tables import AssessmentTables, quantity_text
+from seismass.show.assessment.drawing import building_drawing
+from seismass.show.assessment.page_input import SPRINGS, facts
+from seismass.show.assessment.tables import AssessmentTables, most_slip, quantity_text
 
-HEAD: Final = {"name": "Project", "number": "Number", "author": "Author", "checker": "Checked by", "date": "Date"}
+HEAD: Final = {
+    "name": "Project",
+    "number": "Number",
+    "client": "Client",
+    "revision": "Revision",
+    "date": "Date",
+    "author": "Made by",
+    "checker": "Checked by",
+}
 """Entries of the head of the sheet; what the file does not say is left to be filled in by hand."""
+TITLE: Final = "Live load that acts as seismic mass"
+"""Title of the calculation."""
 NOT_COVERED: Final = (
     "Not covered: part floors, mezzanines, and roofs and canopies on columns of their own, which need models of their "
     "own; torsion, flexible floors and foundations; goods that rock, topple or strike each other."
 )
 ON_SHEET: Final = ("W", "T_1", "T", "I", "C_s", "V", "V_y/(C_s W)", "V_y/W")
 """Quantities of the design on the sheet, beside V_y of each storey."""
+GIVEN: Final = (
+    *("Weight without loose goods", "Weight of the goods present", "First period", "Stiffness", SPRINGS, "Damping"),
+    *("P-Delta", "Code", "Site spectrum"),
+)
+"""Facts of the input on the sheet."""
 MOST_STOREYS: Final = 8
 """Storeys of the table of the sheet."""
-MOST_MOTIONS: Final = 12
-"""Motions that the sheet names; the others are in their table."""
-CHECKS: Final = {CAPPED_DRIFT: "storey drift, capped mean", "stability coefficient": "stability coefficient P d/(V h)"}
+DIGEST: Final = 16
+"""Digits of the digest of the file that stand on every sheet."""
+CHECKS: Final = {CAPPED_DRIFT: "storey drift", "stability coefficient": "stability P d/(V h)"}
 """Checks whose largest value stands on the sheet, with their words."""
 
 
-def sheet_html(result: AssessmentTables) -> Markup:
-    """Return the sheet: one side of A4 on paper."""
+def running(result: AssessmentTables) -> dict[str, str]:
+    """Return what stands in the margins of every sheet, by their place."""
+    project, version = result.document["project"], result.document["metadata"]["package_version"]
+    head = (project["name"] or result.document["name"], project["number"], TITLE)
+    return {
+        "top-left": ", ".join(part for part in head if part),
+        "top-right": f"Revision {project['revision'] or '____'}",
+        "bottom-left": f"seismass {version}; {_file(result)}",
+    }
+
+
+def _file(result: AssessmentTables) -> str:
+    """The file and its digest; that of the inputs where there is none."""
+    data = result.document["input"]
+    if not data["file_sha256"]:
+        return f"inputs SHA-256 {result.document['metadata']['inputs_sha256'][:DIGEST]}"
+    return f"{data['file']}, SHA-256 {data['file_sha256'][:DIGEST]}"
+
+
+def sheet_html(result: AssessmentTables, figure: str = "") -> Markup:
+    """Return the sheet: one side of A4 on paper; `figure` is that of drifts and slips."""
     return Markup(
-        '<div class="sheet">{head}<div class="sheet-body"><figure class="building">{drawing}<figcaption>{caption}'
-        '</figcaption></figure><div class="{kind}">{answer}</div></div><div class="sheet-tables">{tables}</div>'
-        "{motions}</div>"
+        '<div class="sheet">{head}<div class="sheet-body"><div><figure class="building">{drawing}<figcaption>{caption}'
+        '</figcaption></figure>{quantities}{storeys}</div><div><div class="{kind}">{answer}</div>{figure}{checks}</div>'
+        "</div>{notes}{signatures}</div>"
     ).format(
-        head=_head(result.document["project"]),
+        head=_head(result),
         drawing=building_drawing(result),
         caption=_drawing_caption(result),
+        quantities=facts_html({name: text for name, text in facts(result).items() if name in GIVEN})
+        + text_html(_design(result)),
         kind=box_class(result),
         answer=text_html(*answer_lines(result)),
-        tables=Markup("").join([_verdicts(result), *_storeys(result)]),
-        motions=text_html(
-            _design(result), _motions(result), Markup('<small class="limits">{}</small>').format(NOT_COVERED)
-        ),
+        figure=figure,
+        storeys=Markup("").join(_collapses(result) if result.answer is None else storeys_html(result, MOST_STOREYS)),
+        checks=_verdicts(result),
+        notes=text_html(*_method(result), Markup('<small class="limits">{}</small>').format(NOT_COVERED)),
+        signatures=_entries({f"{words}, date and signature": "" for words in ("Made", "Checked")}, " signatures"),
     )
 
 
-def _head(project: dict[str, str]) -> Markup:
-    rows = (
-        Markup("<div><dt>{}</dt><dd>{}</dd></div>").format(words, isolated(project[key])) for key, words in HEAD.items()
-    )
-    return Markup('<dl class="head">{}</dl>').format(Markup("").join(rows))
+def _head(result: AssessmentTables) -> Markup:
+    stated = {words: result.document["project"][key] for key, words in HEAD.items()}
+    return _entries({**stated, "Calculation": TITLE, "File": _file(result)})
+
+
+def _entries(rows: dict[str, str], kind: str = "") -> Markup:
+    entry = Markup("<div><dt>{}</dt><dd>{}</dd></div>")
+    cells = Markup("").join(entry.format(words, isolated(text)) for words, text in rows.items())
+    return Markup('<dl class="head{}">{}</dl>').format(kind, cells)
 
 
 def _drawing_caption(result: AssessmentTables) -> str:
-    if not result.document["input"]["goods"]:
-        return "The building; there are no goods."
-    bolted = any(kind["attached"] for kind in result.document["input"]["goods"])
-    racks = any(kind["rack"] is not None for kind in result.document["input"]["goods"])
-    parts = {"b/h: they tip first": result.document.get("tipping"), "grey: bolted": bolted, "on racks": racks}
-    return (
-        "The building with its goods: what is present of the design live load, and friction, static/kinetic"
-        f"{''.join(f'; {words}' for words, holds in parts.items() if holds)}{_support(result)}."
-    )
-
-
-def _support(result: AssessmentTables) -> str:
     data = result.document["input"]
-    base = "; it stands on a sliding base" if data["base"] is not None else ""
-    return base + ("; it moves in two directions" if data["other_direction"] is not None else "")
-
-
-def _verdicts(result: AssessmentTables) -> Markup:
-    """Largest value of each check with its limit and its margin."""
-    rows: list[dict[str, Any]] = []
-    runs = result.checks.filter(check="collapsed runs")
-    motions = len(result.document["suite"]["motions"])
-    worst = runs.sort("value", descending=True).row(0, named=True)
-    rows.append(
-        {
-            "what": "collapsed runs",
-            "value": f"{worst['value']:.0f} of {motions}",
-            "limit": "0",
-            "margin": "none" if worst["value"] else "\N{EN DASH}",
-            "where": NAMES.get(worst["model"], worst["model"]) if worst["value"] else "all models",
-        }
-    )
-    for check, words in CHECKS.items():
-        rows_of_check = result.checks.filter(check=check)
-        if not rows_of_check.height:
-            continue
-        known = rows_of_check.drop_nulls("value").sort("value", descending=True)
-        scale, form, unit = (1e2, ".2f", " %") if check == CAPPED_DRIFT else (1.0, ".3f", "")
-        row = known.row(0, named=True) if known.height else rows_of_check.row(0, named=True)
-        limit = f"{scale * row['limit']:g}{unit}"
-        if known.height < rows_of_check.height:
-            rows.append({"what": words, "value": "no value", "limit": limit, "margin": "none", "where": "beside walls"})
-            continue
-        margin = 100.0 * (1.0 - row["value"] / row["limit"])
-        rows.append(
-            {
-                "what": words,
-                "value": f"{scale * row['value']:{form}}{unit}",
-                "limit": limit,
-                "margin": signed_percent(margin),
-                "where": f"storey {row['storey']}, {_model_words(row['model'])}",
-            }
-        )
-    slip = result.slip.drop_nulls("peak_p84").sort("peak_p84", descending=True)
-    if slip.height and slip["peak_max"].max():
-        row = slip.row(0, named=True)
-        rows.append(
-            {
-                "what": "slip each way, 84 % of the motions",
-                "value": f"{1e3 * row['peak_p84']:.0f}{slip_ends(row)} mm",
-                "limit": "\N{EN DASH}",
-                "margin": "\N{EN DASH}",
-                "where": f"floor {row['floor']}, {NAMES[row['model']]}",
-            }
-        )
-    return table_html(
-        pl.DataFrame(rows),
-        "Largest value of both analyses and of goods that slide, at all frictions, with its limit and its margin.",
-        headers={"what": "check"},
-        formats={"margin": _margin},
-    )
-
-
-def signed_percent(value: float) -> str:
-    """Return a percentage with a true minus."""
-    return f"{value:.0f} %".replace("-", "\N{MINUS SIGN}")
-
-
-def _margin(text: str) -> Markup:
-    bad = text == "none" or text.startswith("\N{MINUS SIGN}")
-    good = text[:1].isdigit()
-    return Markup('<span class="{}">{}</span>').format("warn" if bad else "good" if good else "", text)
-
-
-def _model_words(model: str) -> str:
-    return {ADVISED: "analysis 1", BARE: "analysis 2"}.get(model, NAMES[model])
-
-
-def _storeys(result: AssessmentTables) -> list[Markup]:
-    """What governs each storey, with its margin; of a tall building those with the least."""
-    table = result.governing
-    if result.answer is None or table["governing"].null_count():
-        return []
-    ratio = result.drift_limit is not None
-    scale, unit = (1e2, "%") if ratio else (1e3, "mm")
-    caption = "What governs each storey."
-    if table.height > MOST_STOREYS:
-        shown = table.sort("governing", descending=True).head(MOST_STOREYS).sort("storey")
-        caption = f"What governs the {MOST_STOREYS} storeys that drift most; the others are in the table of drifts."
-    else:
-        shown = table
-    shown = shown.sort("storey", descending=True)
-    rows = []
-    for row in shown.iter_rows(named=True):
-        cells: dict[str, Any] = {"storey": f"{row['storey']} {apart(row['name'] or '')}".rstrip()}
-        for name, words in ((ADVISED, "analysis 1"), (BARE, "analysis 2"), ("sliding", "goods slide, worst mu")):
-            value = row.get(name)
-            cells[f"{words} ({unit})"] = None if value is None else f"{scale * value:.2f}"
-        cells["governs"] = row["governed_by"]
-        if ratio:
-            cells["margin"] = signed_percent(100.0 * (1.0 - row["governing_over_limit"]))
-        rows.append(cells)
-    formats = {"margin": _margin} if ratio else {}
-    return [
-        table_html(pl.DataFrame(rows), f"{caption} Capped mean drift.", formats={**formats, "governs": _model_name})
-    ]
-
-
-def _model_name(text: str) -> Markup:
-    return sentence_html(text)
+    heights = {row["height"] for row in data["storeys"]} - {None}
+    high = f"; storeys {result.units.text('height', heights.pop(), '.3g')} high" if len(heights) == 1 else ""
+    if not data["goods"]:
+        return f"The building; there are no goods{high}."
+    stays = any(kind["attached"] for kind in data["goods"]) or result.document["tipping"]
+    grey = "; grey: mass of the floor, bolted or staying" if stays else ""
+    return f"W of the floor, goods present of the design live load, friction (static/kinetic){high}{grey}."
 
 
 def _design(result: AssessmentTables) -> Markup:
@@ -189,11 +123,13 @@ def _design(result: AssessmentTables) -> Markup:
         numbers = [row for row in rows if row["direction"] == direction]
         strengths = [row for row in numbers if row["quantity"] == "V_y"]
         shown = [row for row in numbers if row["quantity"] in ON_SHEET]
-        words = [f"{row['quantity']} = {quantity_text(row['value'], row['unit'])}{_clause(row)}" for row in shown]
-        most = ", ".join(quantity_text(row["value"], "N").removesuffix(" kN") for row in strengths)
-        words.append(f"V_y = {most} kN from storey 1 up{_clause(strengths[0])}")
+        texts = [quantity_text(row["value"], row["unit"], result.units) for row in shown]
+        words = [f"{row['quantity']} = {text}{_clause(row)}" for row, text in zip(shown, texts, strict=True)]
+        most = ", ".join(result.units.number("force", row["value"]) for row in strengths)
+        words.append(f"V_y = {most} {result.units.unit('force')} from storey 1 up{_clause(strengths[0])}")
         sentences.append(f"{direction}: " * bool(direction) + ", ".join(words))
-    title = "Strengths as stated" if inputs["design"] is None else f"Design by {inputs['code_of_design']}"
+    rule = inputs["design"]
+    title = "Strengths as stated" if rule is None else f"Design by {inputs['code_of_design']}, R = {rule['R']:g}"
     return Markup("<strong>{}.</strong> {}.").format(title, "; ".join(sentences))
 
 
@@ -202,13 +138,209 @@ def _clause(row: dict[str, Any]) -> str:
     return f" ({row['clause']}{mark})" if row["clause"] else ""
 
 
-def _motions(result: AssessmentTables) -> Markup:
-    """Which motions, with their factors where they are few."""
-    suite = result.document["suite"]
-    names, factors = suite["motions"], result.document["factors"]
-    shown = [isolated(name) for name in names[:MOST_MOTIONS]]
-    if factors is not None:
-        times = Markup("{} \N{MULTIPLICATION SIGN} {:.2f}")
-        shown = [times.format(name, factor) for name, factor in zip(shown, factors, strict=False)]
-    more = f" and {len(names) - len(shown)} more, in the table of motions" if len(names) > len(shown) else ""
-    return Markup("<strong>Motions.</strong> {}: {}{}.").format(isolated(suite["name"]), whole_html(shown), more)
+def _verdicts(result: AssessmentTables) -> Markup:
+    """Largest value of each check with its limit, and its use in per cent of the limit."""
+    units, rows, references = result.units, [], _references(result)
+    motions = len(result.document["suite"]["motions"])
+    worst = result.checks.filter(check="collapsed runs").sort("value", descending=True).row(0, named=True)
+    where = _model_words(result, worst["model"]) if worst["value"] else "all models"
+    rows.append(("collapsed runs", f"{worst['value']:.0f} of {motions}", "0", "", where, ""))
+    for check, words in CHECKS.items():
+        worst, why = worst_of(result, check)
+        if worst is None:
+            continue
+        scale, form, unit = (1e2, ".2f", " %") if check == CAPPED_DRIFT else (1.0, ".3f", "")
+        limit, clause = f"{scale * worst['limit']:g}{unit}", f"[{1 + list(references).index(check)}]"
+        if why:
+            rows.append((words, "no value", limit, "", why, clause))
+            continue
+        where = f"storey {worst['storey']}, {_model_words(result, worst['model'])}"
+        use = f"{100.0 * worst['value'] / worst['limit']:.0f} %"
+        rows.append((words, f"{scale * worst['value']:{form}}{unit}", limit, use, where, clause))
+    clear = {kind["floor"]: kind["stops"]["clearance"] for kind in result.document["input"]["goods"] if kind["stops"]}
+    slips = [row for row in most_slip(result.slip).values() if row["peak_max"]]
+    for row in sorted(slips, key=lambda one: one["peak_p84"], reverse=True)[:1]:
+        value = f"{units.number('slip', row['peak_p84'])}{slip_ends(row, units)} {units.unit('slip')}"
+        limit = f"clearance {units.text('slip', clear[row['floor']], '.3g')}" if row["floor"] in clear else ""
+        rows.append(("slip, 84 % of the motions", value, limit, "", f"floor {row['floor']}, {NAMES[row['model']]}", ""))
+    base = slip_of_base(result.runs)
+    if base is not None:
+        most = f"largest {units.text('slip', base['most'])}, {NAMES[base['model']]}"
+        rows.append(("slip of the base, 84 %", units.text("slip", base["p84"]), "", "", most, ""))
+    names = ("check", "value", "limit", "use", "where", "clause")
+    return table_html(
+        pl.DataFrame([dict(zip(names, row, strict=True)) for row in rows]),
+        "Largest value of the analyses and of goods that slide, at all frictions.",
+        formats={"use": _use, "where": sentence_html},
+    )
+
+
+def worst_of(result: AssessmentTables, check: str) -> tuple[dict[str, Any] | None, str]:
+    """Return the model with the largest value of a check, and why some model has none; None without such a check."""
+    rows = result.checks.filter(check=check)
+    missing, known = rows.filter(pl.col("value").is_null()), rows.drop_nulls("value").sort("value", descending=True)
+    if missing.height:
+        return missing.row(0, named=True), str(missing["reason"][0])
+    return (known.row(0, named=True) if known.height else None), ""
+
+
+def _references(result: AssessmentTables) -> dict[str, str]:
+    """Clauses by what they are of, in their order on the sheet."""
+    code, rule = result.code, result.document["input"]["drift_limit_rule"]
+    known = {"share": ", ".join(part for part in (code["code"], code["clause"]) if part)}
+    if result.drift_limit is not None:
+        limit = "limit as stated" if rule is None else f"{rule['code']}, {rule['clause']}"
+        stable = str(result.checks.filter(check="stability coefficient")["source"][0]).partition(" (")[0]
+        known |= dict(zip(CHECKS, (f"drift: {limit}", f"stability: {stable}"), strict=True))
+    return known
+
+
+def _use(text: str) -> Markup:
+    """A use of a limit in its colour."""
+    looks = "" if not text else "good" if float(text.removesuffix(" %")) <= 100.0 else "warn"
+    return Markup('<span class="whole {}">{}</span>').format(looks, text)
+
+
+def _model_words(result: AssessmentTables, model: str) -> str:
+    return result.called.get(model, NAMES[model])
+
+
+def storeys_html(result: AssessmentTables, most: int) -> list[Markup]:
+    """Return what governs storeys and what they use of the limit, of a tall building those `most` that drift most."""
+    table = result.governing
+    ratio = result.drift_limit is not None
+    scale, unit = result.units.drifts(ratio=ratio)
+    caption = "What governs each storey: capped mean drift"
+    if table.height > most:
+        table = table.sort("governing", descending=True).head(most).sort("storey")
+        caption = f"The {most} storeys that drift most, the others behind: capped mean drift"
+    rows = []
+    for row in table.sort("storey", descending=True).iter_rows(named=True):
+        cells: dict[str, Any] = {"storey": f"{row['storey']} {apart(row['name'] or '')}".rstrip()}
+        for name, words in (*result.called.items(), ("sliding", "goods slide, most")):
+            cells[words] = None if row.get(name) is None else f"{scale * row[name]:.2f}"
+        cells["governs"] = row["governed_by"]
+        if ratio:
+            cells["use"] = f"{100.0 * row['governing_over_limit']:.0f} %"
+        rows.append(cells)
+    formats = {"use": _use} if ratio else {}
+    return [table_html(pl.DataFrame(rows), f"{caption}, {unit}.", formats={**formats, "governs": sentence_html})]
+
+
+def _collapses(result: AssessmentTables) -> list[Markup]:
+    """Of each model that collapses the motions, the storey with the largest drift in them, and the median drift."""
+    scale, unit = result.units.drifts(ratio=result.drift_limit is not None)
+    column = "peak_drift" if result.drift_limit is None else "peak_drift_ratio"
+    rows = []
+    for (model,), runs in result.runs.group_by("model", maintain_order=True):
+        fallen = runs.filter("collapsed").sort(column, descending=True)
+        if not fallen.height:
+            continue
+        places = fallen.unique("motion", keep="first", maintain_order=True)["storey"]
+        peak = pl.when(pl.col("collapsed").any()).then(math.inf).otherwise(pl.col(column).max())
+        median = float(np.median(runs.group_by("motion").agg(peak.alias("peak"))["peak"].to_numpy()))
+        rows.append(
+            {
+                "model": NAMES.get(str(model), str(model)),
+                "collapses under": f"{fallen['motion'].n_unique()} of {runs['motion'].n_unique()}",
+                "motions": ", ".join(str(number) for number in sorted(set(fallen["motion"]))),
+                "storey": ", ".join(str(storey) for storey in sorted(set(places))),
+                f"median drift ({unit})": "collapse" if math.isinf(median) else f"{scale * median:.2f}",
+            }
+        )
+    caption = "Which motions collapse, in which storey, and the median over the motions of the largest storey drift."
+    return [table_html(pl.DataFrame(rows), caption)] if rows else []
+
+
+def _method(result: AssessmentTables) -> list[Markup]:
+    """Method in four lines with formulas, the check by hand, and references."""
+    data, scaling = result.document["input"], result.document["scaling"]
+    low, high = result.mu_factors
+    limits = "none, since heights are not known"
+    if result.drift_limit is not None:
+        limits = f"d/h up to {result.drift_limit:g} [2], P d/(V h) up to {data['theta_limit']:g} [3]"
+    scaled = "taken as they are"
+    if scaling is not None:
+        first, last = scaling["periods"]
+        scaled = f"scaled so that their mean S_a is not below that of the site from {first:.3g} to {last:.3g} s"
+    lines = [
+        "1 Model: trilinear springs V of storeys; goods are blocks that stick up to mu_s m g and slide against mu_k m "
+        "g; runs go exactly from event to event.",
+        f"2 Motions: {scaled}.",
+        "3 Share: lambda is the smallest share for which d of the model with lambda m attached is at least d with "
+        f"goods that slide; d is the capped mean of the largest drift, at mu, {high:g} mu and {low:g} mu; the largest "
+        "lambda counts.",
+        f"4 Checks: {limits}.",
+    ]
+    made = [Markup("<strong>Method.</strong> {}").format(sentence_html(" ".join(lines)))]
+    if result.effective:
+        made.append(Markup("<strong>By hand.</strong> {}").format(sentence_html(_by_hand(result))))
+    numbered = "; ".join(f"[{number}] {text}" for number, text in enumerate(_references(result).values(), start=1))
+    return [*made, Markup("<strong>References.</strong> {}; strengths: clauses beside them.").format(numbered)]
+
+
+def _by_hand(result: AssessmentTables) -> str:
+    """The rule by hand in numbers beside what the runs give, or why it is not applied."""
+    unknown = [text for text in result.document["remarks"] if text.startswith(RULE_UNKNOWN)]
+    if unknown:
+        return f"Not applied: {'; '.join(unknown)}."
+    decisive = max(result.effective, key=lambda name: result.effective[name].value)
+    one = result.effective[decisive]
+    factor = dict(zip(SLIDING_ALL, (1.0, *result.mu_factors), strict=True))[decisive]
+    where = "mu as stated" if decisive == SLIDING else f"mu x {factor:g}"
+    runs = f" The runs give {one.value:.2f}." if result.answer is not None else " The runs give no answer."
+    return f"lambda = {one.by_hand.words_in(result.units)} ({where}).{runs}"
+
+
+def box_class(result: AssessmentTables) -> str:
+    """Return the class of the box: green only with an answer, without doubts, and with no check that fails."""
+    failed = result.checks.filter(met=False).height
+    return "answer" if result.answer is not None and not failed and not result.document["doubts"] else "answer bad"
+
+
+def answer_lines(result: AssessmentTables) -> list[Markup]:
+    """Return the lines of the box."""
+    document, answer = result.document, result.answer
+    names = result.storey_names
+    lines = [Markup('<strong class="warn">{}</strong>').format(doubt) for doubt in document["doubt_lines"]]
+    lines.append(Markup("<strong>{}</strong>").format(sentence_html(document["statement"], names)))
+    if answer is not None:
+        pair = zip(result.called.values(), answer["pair"], strict=True)
+        lines.append(sentence_html(_sentence(answer["opening"])))
+        lines += [
+            Markup("<strong>{}</strong>").format(sentence_html(_sentence(f"{called}: {words}")))
+            for called, words in pair
+        ]
+        present, *amounts = answer["goods"]
+        parts = [f"Goods present: {present}.", *map(_sentence, amounts), f"Why: {answer['why']}."]
+        lines += [sentence_html(line, names) for line in parts]
+    lines += [sentence_html(_sentence(document["on_motions"])), _checks_met(result)]
+    return lines
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}."
+
+
+def _checks_met(result: AssessmentTables) -> Markup:
+    """What drift and stability use of their limits, whether runs collapse, and what is not defined."""
+    parts, good = [], True
+    for check, words in CHECKS.items():
+        worst, why = worst_of(result, check)
+        if worst is None:
+            continue
+        if why:
+            parts.append(f"{words} has no value: {why}")
+            good = good and result.document["input"]["walls"]
+            continue
+        use = worst["value"] / worst["limit"]
+        good = good and use <= 1.0
+        parts.append(f"{words} uses {100.0 * use:.0f} % of its limit")
+    fallen = int(result.checks.filter(check="collapsed runs")["value"].max() or 0)  # type: ignore[arg-type]
+    motions = len(result.document["suite"]["motions"])
+    parts.append(f"runs collapse under up to {fallen} of {motions} motions" if fallen else "no run collapses")
+    above = result.storeys["motions_above_limit"].drop_nulls().to_numpy()
+    if above.size and above.max():
+        parts.append(f"under up to {above.max()} of {motions} a drift is above the limit")
+    look = "good" if good and not fallen else "warn"
+    return Markup('<span class="{}">{}</span>').format(look, _sentence("; ".join(parts)))

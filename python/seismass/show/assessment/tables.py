@@ -5,14 +5,16 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass, field
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import polars as pl
 
+from seismass.assessment.checks import ANALYSES, ONE_ANALYSIS
+from seismass.assessment.models import ADVISED, BARE, CODE, SLIDING, SLIDING_ALL
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.base.errors import InvalidOption
 from seismass.base.folders import ReadFolder
-from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.units import STANDARD_GRAVITY, UNITS, Units
 from seismass.base.values import brief, refusal
 from seismass.effective_mass import ByHand
 from seismass.effective_mass.share import Kind
@@ -23,8 +25,8 @@ DOCUMENT: Final = "assessment.json"
 NEEDED: Final = ("storeys", "governing", "analysis", "slip", "runs", "checks", "spectra")
 ANIMATION: Final = "animation.json"
 """File of what the animation shows."""
-FIGURES: Final = ("effective_fraction", "drift", "slip", "spectrum")
-"""Names of all figures; those of an earlier assessment that are not written again are removed."""
+FIGURES: Final = ("drift", "effective_fraction", "slip", "spectrum")
+"""Names of all figures, those of earlier versions too; what is not written again is removed."""
 TABLES: Final = ("storeys", "governing", "analysis", "slip", "runs", "checks", "spectra", "curve", "scaling")
 """Names of all tables, likewise."""
 
@@ -73,9 +75,20 @@ class AssessmentTables:
         return answer
 
     @property
+    def units(self) -> Units:
+        """Units in which the page is."""
+        return UNITS[self.document["input"]["units"]]
+
+    @property
     def advised(self) -> float | None:
         """Share of the goods present to attach in analysis 1; None where there is no answer."""
         return None if self.answer is None else float(self.answer["advised_share_of_goods_present"])
+
+    @property
+    def called(self) -> dict[str, str]:
+        """What the analyses are called by their models: a pair, or one where both are the same."""
+        single = self.answer is not None and len(self.answer["pair"]) == 1
+        return {BARE: ONE_ANALYSIS[BARE]} if single or not self.effective else ANALYSES
 
     @property
     def present_share(self) -> float:
@@ -104,6 +117,56 @@ class AssessmentTables:
     def storey_names(self) -> list[str]:
         """A name per storey, or empty texts."""
         return [row["name"] for row in self.document["input"]["storeys"]]
+
+
+class StoreyDrifts(NamedTuple):
+    """Drifts of a storey as figure and terminal draw them, over the limit or (without heights) in m: of analyses by
+    their numbers, range of goods that slide over the frictions, 16 and 84 % of the motions at the worst of these.
+    """
+
+    storey: int
+    name: str
+    analyses: dict[str, float]
+    sliding: tuple[float, float] | None
+    scatter: tuple[float, float] | None
+    code: float | None
+    largest: float
+    model: str
+
+
+def storey_drifts(storeys: pl.DataFrame, governing: pl.DataFrame) -> list[StoreyDrifts]:
+    """Return the drifts of each storey, storey 1 first."""
+    rows = []
+    first, second = (storeys.filter(model=name)["mean"] for name in (ADVISED, BARE))
+    numbers = {"1": ADVISED, "2": BARE} if first.len() and not first.equals(second) else {"1": BARE}
+    if first.len() == 0 and (storeys["model"] == SLIDING).any():
+        numbers = {"0": BARE}  # there is no answer
+    for row in governing.iter_rows(named=True):
+        of_storey = storeys.filter(storey=row["storey"])
+        unit = row["limit"] or 1.0
+        means = {name: mean / unit for name, mean in of_storey.select("model", "mean").iter_rows()}
+        slides = {name: means[name] for name in SLIDING_ALL if name in means}
+        worst = max(slides, key=lambda name: slides[name]) if slides else BARE
+        ends = [of_storey.filter(model=worst)[name][0] for name in ("p16", "p84")]
+        rows.append(
+            StoreyDrifts(
+                storey=row["storey"],
+                name=row["name"],
+                analyses={number: means[name] for number, name in numbers.items()},
+                sliding=(min(slides.values()), max(slides.values())) if slides else None,
+                scatter=None if None in ends else (ends[0] / unit, ends[1] / unit),
+                code=means.get(CODE),
+                largest=row["governing"] / unit,
+                model=row["governed_by"],
+            )
+        )
+    return rows
+
+
+def most_slip(slip: pl.DataFrame) -> dict[int, dict[str, Any]]:
+    """Return of each floor the row of slips with the largest at 84 % of the motions, over kinds and frictions."""
+    known = slip.drop_nulls("peak_p84").sort("peak_p84", descending=True)
+    return {row["floor"]: row for row in reversed(known.to_dicts())}
 
 
 def assessment_tables(result: Assessment, *, animated: bool = False) -> AssessmentTables:
@@ -192,8 +255,8 @@ def _fraction(values: dict[str, Any], curve: pl.DataFrame) -> Fraction:
     )
 
 
-def quantity_text(value: float, unit: str) -> str:
-    """Return a quantity of a design as offices write it: forces in kN."""
+def quantity_text(value: float, unit: str, units: Units) -> str:
+    """Return a quantity of a design as offices write it."""
     if unit == "N":
-        return f"{1e-3 * value:.0f} kN"
+        return units.text("force", value)
     return f"{value:.3f} s" if unit == "s" else f"{value:.4g}"

@@ -13,26 +13,37 @@ from typing import TYPE_CHECKING, Any, Final
 
 import polars as pl
 
-from seismass.assessment.advice import slip_ends
-from seismass.assessment.answer import PAIR, analysis_table, deciding
+from seismass.assessment.answer import analysis_table, deciding
 from seismass.assessment.checks import friction_words
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
 from seismass.assessment.result import Assessment
 from seismass.base.errors import InvalidOption
 from seismass.base.folders import check_out, write_folder
-from seismass.base.statistics import QUANTILES
 from seismass.base.values import as_path
 from seismass.effective_mass.rule import RULE_UNKNOWN
 from seismass.media.result import PAGE, result_files
-from seismass.media.text_table import number_text, text_table
+from seismass.media.text_table import text_table
 from seismass.model.codes import CODE_NAMES, FROM_MEMORY, MARK, NOT_CHECKED, SECOND_HAND
-from seismass.show.assessment.tables import ANIMATION, DOCUMENT, FIGURES, TABLES, assessment_tables, quantity_text
+from seismass.show.assessment.tables import (
+    ANIMATION,
+    DOCUMENT,
+    FIGURES,
+    TABLES,
+    assessment_tables,
+    most_slip,
+    quantity_text,
+    storey_drifts,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 WIDTH: Final = 108
 """Columns of the page."""
+BAR: Final = 36
+"""Columns of a bar of drifts."""
+LONGEST_NAME: Final = 28
+"""Letters of a name in a table."""
 _STABLE: Final = (ADVISED, BARE, SLIDING, SLIDING_HIGH, SLIDING_LOW, CODE)
 """Models whose drifts and stability coefficients are printed, in this order; that with all goods is in the tables."""
 
@@ -43,15 +54,11 @@ def assessment_text(result: Assessment) -> str:
     lines = [building.name]
     if building.note:
         lines.append(f"  {building.note}")
-    lines += ["", *_answer(result), "", *_drifts(result)]
-    if building.heights is not None:
-        lines += ["", *_stability(result)]
+    lines += ["", *_answer(result), "", *storey_bars(result), "", *_drifts(result)]
     if result.answer.analyses:
         lines += ["", *_analysis(result)]
     lines += ["", *_design(result)]
-    if result.slip.height:
-        lines += ["", *_slips(result)]
-    lines += ["", *_motions(result), "", "In an analysis", *_bullets(result.advice)]
+    lines += ["", _collapses(result), "", "In an analysis", *_bullets(result.advice)]
     if result.remarks:
         lines += ["", "Remarks", *_bullets(result.remarks)]
     lines += ["", "Assumptions", *_bullets(result.assumptions)]
@@ -68,9 +75,9 @@ def _answer(result: Assessment) -> list[str]:
     lines = [line for number, doubt in doubts for line in _paragraph("ANSWER" if number == 0 else "", doubt)]
     lines += _paragraph("" if lines else "ANSWER", answer.statement)
     if answer.analyses:
-        lines += _paragraph("", PAIR)
-    for one, words in zip(answer.analyses, answer.pair, strict=True):
-        lines += textwrap.wrap(f"{one.number}  {words}", WIDTH, initial_indent=" " * 10, subsequent_indent=" " * 13)
+        lines += _paragraph("", answer.opening)
+    for number, words in enumerate(answer.pair, start=1):
+        lines += textwrap.wrap(f"{number}  {words}", WIDTH, initial_indent=" " * 10, subsequent_indent=" " * 13)
     for number, sentence in enumerate(answer.governs):
         lines += _paragraph("governs" if number == 0 else "", sentence)
     for number, sentence in enumerate(answer.goods):
@@ -111,7 +118,10 @@ def _by_hand(result: Assessment) -> str:
     decisive, words = deciding(result.effective), friction_words(result.building)
     others = (f"{words[name]} {one.by_hand.estimate:.2f}" for name, one in result.effective.items() if name != decisive)
     rest = ", ".join(others)
-    return f"{words[decisive]}: {result.effective[decisive].by_hand.words}" + f"; with {rest}" * bool(rest)
+    return (
+        f"{words[decisive]}: {result.effective[decisive].by_hand.words_in(result.building.shown)}"
+        + f"; with {rest}" * bool(rest)
+    )
 
 
 def _label(result: Assessment, model: str) -> str:
@@ -119,7 +129,7 @@ def _label(result: Assessment, model: str) -> str:
     low, high = result.building.mu_factors
     return {
         ADVISED: "analysis 1",
-        BARE: "analysis 2" if result.answer.analyses else "no goods",
+        BARE: {0: "no goods", 1: "the analysis"}.get(len(result.answer.pair), "analysis 2"),
         CODE: f"code {result.building.code_share:.3g}{result.building.code.mark}",
         SLIDING: "slide, mu",
         SLIDING_HIGH: f"mu x {high:g}",
@@ -128,12 +138,57 @@ def _label(result: Assessment, model: str) -> str:
 
 
 def _models(result: Assessment) -> list[str]:
-    known = set(result.storeys["model"])
+    known = set(result.storeys["model"]) - ({ADVISED} if len(result.answer.pair) == 1 else set())
     return [model for model in _STABLE if model in known]
 
 
 def _storey_label(row: dict[str, Any]) -> str:
-    return f"{row['storey']} {row['name']}".rstrip()[:18]
+    return _named(row["storey"], row["name"])
+
+
+def _named(*parts: Any) -> str:
+    """A number with its names, cut between words where it is long."""
+    return textwrap.shorten(" ".join(str(part) for part in parts if part), LONGEST_NAME, placeholder=" ...")
+
+
+def storey_bars(result: Assessment) -> list[str]:
+    """What each storey uses of its limit, as the figure draws it, and the slip to allow for on its floor."""
+    rows, slips, units = storey_drifts(result.storeys, result.governing), most_slip(result.slip), result.building.shown
+    limit = result.building.heights is not None
+    scale, unit = (1e2, "%") if limit else units.drifts(ratio=False)
+    right = 1.05 * max([row.largest for row in rows] + [row.scatter[1] for row in rows if row.scatter] + [1.0] * limit)
+    clear = {kind.floor: kind.stops.clearance for kind in result.building.loose if kind.stops is not None}
+
+    def place(value: float) -> int:
+        return min(BAR - 1, int(value / right * BAR))
+
+    table = []
+    for row in reversed(rows):
+        cells = ["."] * BAR
+        for ends, sign in ((row.scatter, "-"), (row.sliding, "=")):
+            for cell in range(place(ends[0]), place(ends[1]) + 1) if ends is not None else ():
+                cells[cell] = sign
+        marks = {"c": row.code, "|": 1.0 if limit else None, **row.analyses}
+        for sign, value in marks.items():
+            if value is not None:
+                cells[place(value)] = sign
+        used = f"{scale * row.largest:.{0 if limit else 2}f} {unit}"
+        slip = slips.get(row.storey)
+        allowed = "" if slip is None else f"slip {units.text('slip', slip['peak_p84'])}"
+        allowed += f" of {units.text('slip', clear[row.storey], '.3g')}" if slip and row.storey in clear else ""
+        model = row.model if result.answer.analyses else ""
+        table.append([_named(row.storey, row.name), f"|{''.join(cells)}|", used, allowed, model])
+    words = {"1": "1 the analysis", "0": "0 no goods", "12": "1 and 2 analyses"}
+    parts = [words["".join(rows[0].analyses)]]
+    parts += ["= goods that slide, over the frictions", "c the model of the code"] * (rows[0].sliding is not None)
+    parts += ["- 16 to 84 % of the motions", *["| the limit"] * limit]
+    shown = [index for index in range(5) if any(row[index] for row in table)]
+    title = f"What each storey uses of its drift limit, {100.0 * result.building.drift_limit:g} % of the height"
+    return [
+        title if limit else f"Drift of each storey, {unit}",
+        *text_table([[row[index] for index in shown] for row in table], left=5),
+        *(f"  {line}" for line in textwrap.wrap("; ".join(parts), WIDTH)),
+    ]
 
 
 def _of(result: Assessment, storey: int, model: str) -> dict[str, Any]:
@@ -142,13 +197,13 @@ def _of(result: Assessment, storey: int, model: str) -> dict[str, Any]:
 
 def _drifts(result: Assessment) -> list[str]:
     building, models = result.building, _models(result)
-    scale, unit = (1e3, "mm") if building.heights is None else (1e2, "% of the height")
+    scale, unit = building.shown.drifts(ratio=building.heights is not None)
+    unit += " of the height" * (building.heights is not None)
     limit = "" if building.heights is None else f"; limit {100.0 * building.drift_limit:g} %"
     motions = len(result.suite["motions"])
     governed = bool(result.answer.analyses)
     lines = [f"Peak storey drift, {unit}: capped mean of {motions} motions{limit}"]
     rows = [["storey", *(_label(result, model) for model in models), *(["governs"] if governed else [])]]
-    scatter = [rows[0][: 1 + len(models)]]
     for row in result.governing.iter_rows(named=True):
         values = [_of(result, row["storey"], model) for model in models]
         label = _storey_label(row)
@@ -158,43 +213,30 @@ def _drifts(result: Assessment) -> list[str]:
             drift = _marked(row["governing"], row["governing_over_limit"], scale)
             cells.append(f"{drift} {model_words}".rstrip())
         rows.append([label, *cells])
-        scatter.append([label, *(_range(one, scale) for one in values)])
     if building.heights is not None:
         above = [f"{_above(result, model)} of {motions}" for model in models]
         rows.append(["motions above limit", *above, *([""] if governed else [])])
     lines += text_table(rows)
     marks = "".join("".join(row[1:]) for row in rows[1:])
     notes = [f"  * mean above the limit{limit.removeprefix('; limit')}"] * ("*" in marks)
-    return [*lines, *notes, f"Median (from 16 to 84 % of the motions), {unit}", *text_table(scatter)]
+    return [*lines, *notes]
 
 
 def _marked(mean: float, over_limit: float | None, scale: float) -> str:
     return f"{scale * mean:.2f}" + ("*" if over_limit is not None and over_limit > 1.0 else "")
 
 
-def _range(row: dict[str, Any], scale: float) -> str:
-    low, median, high = (row[name] for name in QUANTILES)
-    if low is None or median is None:
-        return "no value"
-    return f"{scale * median:.2f} ({scale * low:.2f}-{'' if high is None else f'{scale * high:.2f}'})"
-
-
 def _analysis(result: Assessment) -> list[str]:
     """What to type into another program, floor by floor."""
     lines = ["For another program: mass of each floor, and multiplier of the design live load in the mass source"]
-    rows = [["floor", "analysis 1: t", "kN", "multiplier", "analysis 2: t", "kN", "multiplier"]]
-    for row in analysis_table(result.answer, result.building).iter_rows(named=True):
-        rows.append(
-            [
-                f"{row['floor']} {row['name']}".rstrip()[:18],
-                f"{row['mass_1_t']:.1f}",
-                f"{row['weight_1_kn']:.0f}",
-                f"{row['multiplier_1']:.2f}",
-                f"{row['mass_2_t']:.1f}",
-                f"{row['weight_2_kn']:.0f}",
-                f"{row['multiplier_2']:.2f}",
-            ]
-        )
+    units = result.building.shown
+    mass, force = units.unit("mass"), units.unit("force")
+    head = [f"analysis 1: {mass}", force, "multiplier", f"analysis 2: {mass}", force, "multiplier"]
+    forms, single = 2 * (units.of("mass")[2], ".0f", ".2f"), len(result.answer.pair) == 1
+    rows = [["floor", *([mass, *head[1:3]] if single else head)]]
+    for floor, name, *values in analysis_table(result.answer, result.building).iter_rows():
+        texts = [f"{value:{form}}" for value, form in zip(values, forms, strict=True)]
+        rows.append([_named(floor, name), *texts[: len(rows[0]) - 1]])
     return lines + text_table(rows)
 
 
@@ -203,17 +245,6 @@ def _above(result: Assessment, model: str) -> int:
     rows = result.runs.filter(pl.col("model") == model)
     above_limit = rows.filter(pl.col("collapsed") | (pl.col("peak_drift_ratio") > result.building.drift_limit))
     return above_limit["motion"].n_unique()
-
-
-def _stability(result: Assessment) -> list[str]:
-    models = _models(result)
-    lines = [f"Stability coefficient P d/(V h) at mean peaks; limit {result.building.theta_limit:g}"]
-    rows = [["storey", *(_label(result, model) for model in models), "elastic P/(k h)"]]
-    for storey in range(1, result.building.storeys + 1):
-        cells = [_of(result, storey, model) for model in models]
-        values = [*(row["theta"] for row in cells), cells[0]["theta_elastic"]]
-        rows.append([_storey_label(cells[0]), *("no value" if value is None else f"{value:.3f}" for value in values)])
-    return lines + text_table(rows)
 
 
 def _design(result: Assessment) -> list[str]:
@@ -229,43 +260,17 @@ def _design(result: Assessment) -> list[str]:
             str(part) for part in (row["direction"], row["quantity"], row["storey"]) if part not in ("", None)
         )
         note = textwrap.shorten(row["note"], WIDTH - 60, placeholder=" ...")
-        rows.append([name, quantity_text(row["value"], row["unit"]), row["clause"] + mark, note])
+        rows.append([name, quantity_text(row["value"], row["unit"], result.building.shown), row["clause"] + mark, note])
     marked = any(MARK in row[2] for row in rows)
     return [*lines, *text_table(rows, left=4), *([f"  {MARK} {NOT_CHECKED}"] if marked else [])]
 
 
-def _slips(result: Assessment) -> list[str]:
-    lines = ["Slip of the goods, mm: what aisles and edges must allow for"]
-    rows = [["floor", "mu", "slides in", "peak mean", "median", "84 %", "largest", "residual mean", "residual 84 %"]]
-    names = ("peak_mean", "peak_median", "peak_p84", "peak_max", "residual_mean", "residual_p84")
-    motions = len(result.suite["motions"])
-    for model in (SLIDING, SLIDING_LOW):
-        for row in result.slip.filter(pl.col("model") == model).iter_rows(named=True):
-            rows.append(
-                [
-                    " ".join(part for part in (str(row["floor"]), row["name"], row["goods"]) if part)[:28],
-                    f"{row['mu_s']:.3g}" + (f"/{row['mu_k']:.3g}" if row["mu_k"] != row["mu_s"] else ""),
-                    f"{row['motions_that_slide']} of {motions}",
-                    *(
-                        number_text(row[name], ".1f", scale=1e3) + slip_ends(row) * (name == "peak_p84")
-                        for name in names
-                    ),
-                ]
-            )
-    return lines + text_table(rows)
-
-
-def _motions(result: Assessment) -> list[str]:
-    suite, runs = result.suite, result.runs.filter(pl.col("storey") == 1).height
+def _collapses(result: Assessment) -> str:
+    """Which models collapse, of how many runs."""
+    runs = result.runs.filter(pl.col("storey") == 1).height
     collapsed = {NAMES[model]: count for model, count in result.collapses.items() if count}
     text = ", ".join(f"{name} {count}" for name, count in collapsed.items()) or "none"
-    lines = [f"collapses {text} ({runs} runs of {len(result.collapses)} models)"]
-    names = ", ".join(suite["motions"])
-    if result.scaling is not None:
-        pairs = zip(suite["motions"], result.scaling.factors, strict=True)
-        names = ", ".join(f"{name} x {factor:.3f}" for name, factor in pairs)
-    wrapped = textwrap.wrap(f"{suite['name']}: {names}", WIDTH - 10)
-    return [*lines, *(f"{'motions' if number == 0 else '':10}{line}" for number, line in enumerate(wrapped))]
+    return f"collapses {text} ({runs} runs of {len(result.collapses)} models)"
 
 
 def _bullets(sentences: tuple[str, ...]) -> list[str]:

@@ -10,7 +10,4 @@ from seismass.show.explore.page import explorer_html, kernel_file
 
 __all__ = ["explorer_html", "kernel_file"]
 
-
-def __dir__() -> list[str]:
-    """Return the public names, for completion."""
-    return list(__all__)
+__dir__ = __all__.copy  # for completion

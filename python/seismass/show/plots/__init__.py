@@ -37,7 +37,4 @@ __all__ = [
     "slip_path",
 ]
 
-
-def __dir__() -> list[str]:
-    """Return the public names, for completion."""
-    return list(__all__)
+__dir__ = __all__.copy  # for completion

@@ -71,7 +71,7 @@ def loops(
     building = response.scene.building
     assert building is not None
     scale, unit = (1e-3, "kN") if building.mass_is_stated else (1.0 / building.weight, "V/W")
-    forces, drawn_kinds = scale * response.storey_force, set[str]()
+    forces, drawn_kinds = scale * response.storey_shear, set[str]()
     place = columns(ax, len(numbers_drawn), owner, width=2.6, height=3.2, most=_ROW)
     for number, axes in zip(numbers_drawn, place.axes, strict=True):
         drift, force = 1e3 * response.drift[:, number - 1], forces[:, number - 1]

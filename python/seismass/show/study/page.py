@@ -38,7 +38,7 @@ from seismass.show.study.tables import StudyTables, fractions_table, slip_table,
 from seismass.studies.study.run import motions_text
 from seismass.studies.validation.three_storeys import PEAK_G
 
-VERDICT_CLASSES: Final = {"reproduced": "good", "not reproduced": "warn", "depends": "warn"}
+VERDICT_CLASSES: Final = {"reproduced": "good", "not reproduced": "warn"}
 """How verdicts on claims stand out."""
 
 
@@ -234,11 +234,12 @@ def study_page(
     metadata = result.metadata
     page = Pictures(drawings, for_phones or {})
     first, *others = page.named("underestimation")
+    fraction = _fraction(result, page)
     sections = [
         Section("Findings", [text_html(*(Markup(lettered(paragraph)) for paragraph in answer(result)))]),
         Section("Underestimation", _underestimation(result, page, others)),
         Section("Drift demands", [text_html(_MODELS)], list(_drifts(result, page))),
-        Section("Effective fraction", _fraction(result, page)),
+        *([Section("Effective fraction", fraction)] if fraction else []),
         *([Section("Slip of the goods", _slip(result, page))] if page.named("slip") else []),
         *sensitivity_section(result, page),
         *example_section(result),
@@ -268,6 +269,8 @@ def study_page(
         f"seismass {metadata['package_version']}"
     )
     title = "How much of the live load acts as mass: a study"
+    if not result.fractions["effective"].drop_nulls().len():
+        title = "Drifts that the code's share of the live load underestimates: a study"
     return page_html(title, sections, subtitle=subtitle, description=line, lead=lead)
 
 

@@ -8,7 +8,4 @@ from seismass.studies.campaign.folder import Campaign, CampaignFolder, example_d
 
 __all__ = ["Campaign", "CampaignFolder", "CampaignProgress", "example_description", "read_campaign"]
 
-
-def __dir__() -> list[str]:
-    """Return the public names, for completion."""
-    return list(__all__)
+__dir__ = __all__.copy  # for completion

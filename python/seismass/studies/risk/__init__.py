@@ -14,7 +14,4 @@ __all__ = [
     "stripe_weights",
 ]
 
-
-def __dir__() -> list[str]:
-    """Return the public names, for completion."""
-    return list(__all__)
+__dir__ = __all__.copy  # for completion

@@ -20,7 +20,4 @@ __all__ = [
     "wilson_interval",
 ]
 
-
-def __dir__() -> list[str]:
-    """Return the public names, for completion."""
-    return list(__all__)
+__dir__ = __all__.copy  # for completion

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,13 +14,14 @@ from seismass.base.values import FloatArray
 from seismass.effective_mass.models import ModelDamping, attached
 from seismass.model.block import Block
 from seismass.model.scene import Scene
+from seismass.model.tipping import demand_in_g
 from seismass.motions.motion import Motion
 from seismass.motions.records.intensity import integrals, peak_velocity
 from seismass.runs.plane import PlaneMotion, PlaneResponse
 from seismass.runs.response import Response
 from seismass.runs.simulate import simulate
 from seismass.studies.slip.clearance import at_nodes, histories_at_nodes, places_of, signed_peaks, without_loose_goods
-from seismass.studies.slip.estimates import Base, demand_in_g, estimates
+from seismass.studies.slip.estimates import Base, estimates
 
 VECTOR = 2
 """Place of the length of the vector among peaks of `PlaneResponse`."""
@@ -41,66 +43,6 @@ class PlaneSlip:
     def of_all(cls, solved: list[PlaneSlip]) -> PlaneSlip:
         """Return the slips under all motions."""
         return cls(*(np.array([getattr(each, field.name) for each in solved]) for field in fields(cls)))
-
-
-@dataclass(frozen=True, slots=True)
-class PlaneSolved:
-    """Runs of a scene under one pair. Acceleration (m/s2), velocity (m/s) and demand (acceleration over g + a_v) are
-    peak lengths of what a block stands on; in the building alone or with goods attached NaN on collapse.
-    """
-
-    slip: PlaneSlip
-    sliding: PlaneResponse
-    ground: PlaneResponse
-    moving: NDArray[np.bool_]
-    acceleration: FloatArray
-    velocity: FloatArray
-    demand: FloatArray
-    alone_acceleration: FloatArray
-    full_acceleration: FloatArray
-
-
-def solve_pair(
-    scene: Scene, on_the_ground: Scene, alone: Scene | None, full: Scene | None, motions: PlaneMotion
-) -> PlaneSolved:
-    """Solve a scene in two directions, its goods on the ground, and each direction by itself; `alone` and `full` (all
-    goods attached) are None where no goods stand on the building.
-    """
-    x, y = motions
-    nodes = np.array([place.node for place in places_of(scene)], dtype=np.int64)
-    sliding = simulate(scene, motions, histories=True, events=False)
-    ground_velocity = np.stack([integrals(each.acceleration, each.dt)[0] for each in motions], axis=1)
-    standing = np.concatenate(
-        [0.0 * ground_velocity[:, None, :], sliding.floor_velocity, sliding.rack_velocity], axis=1
-    )
-    rate = sliding.block_velocity - standing[:, nodes]
-    sides = [
-        signed_peaks(sliding.slip[:, :, axis], rate[:, :, axis], x.dt, sliding.peak_slip[:, axis])
-        for axis in range(VECTOR)
-    ]
-    each_alone = [
-        simulate(one, motion, events=False).peak_slip for one, motion in zip(scene._directions(), motions, strict=True)
-    ]
-    ground_peak = float(np.hypot(x.acceleration, y.acceleration).max())
-    accelerations = _peaks_at_nodes(sliding, ground_peak)
-    speeds = np.nanmax(np.hypot(*np.moveaxis(standing + ground_velocity[:, None, :], -1, 0)), axis=0)
-    return PlaneSolved(
-        slip=PlaneSlip(
-            peak=sliding.peak_slip[:, :VECTOR],
-            plus=np.stack([plus for plus, _ in sides], axis=1),
-            minus=np.stack([minus for _, minus in sides], axis=1),
-            residual=sliding.residual_slip,
-            alone=np.stack(each_alone, axis=1),
-        ),
-        sliding=sliding,
-        ground=simulate(on_the_ground, motions, events=False),
-        moving=np.hypot(*np.moveaxis(rate[-1], -1, 0)) > 0.0,
-        acceleration=accelerations[nodes],
-        velocity=speeds[nodes],
-        demand=_demands_plane_runs(sliding, motions, accelerations)[nodes],
-        alone_acceleration=_without_goods(alone, motions, nodes, ground_peak),
-        full_acceleration=_without_goods(full, motions, nodes, ground_peak),
-    )
 
 
 def _peaks_at_nodes(response: PlaneResponse, ground: float) -> FloatArray:
@@ -175,34 +117,10 @@ class EstimateRow:
 
 
 @dataclass(frozen=True, slots=True)
-class SolvedMotion:
-    """What is kept of the runs under one motion, arrays of shape (blocks,) in SI units, slips up to a collapse;
-    `demand` is abs(a)/(g + a_v). In `plane` they are lengths, `plus` and `minus` in x, without estimates.
-    """
-
-    peak: FloatArray
-    plus: FloatArray
-    minus: FloatArray
-    residual: FloatArray
-    path: FloatArray
-    contact_force: FloatArray
-    contact_velocity: FloatArray
-    moving: NDArray[np.bool_]
-    collapsed: bool
-    ground_peak: FloatArray
-    ground_residual: FloatArray
-    acceleration: FloatArray
-    velocity: FloatArray
-    demand: FloatArray
-    alone_acceleration: FloatArray
-    full_acceleration: FloatArray
-    estimates: list[EstimateRow]
-    plane: PlaneSlip | None = None
-
-
-@dataclass(frozen=True, slots=True)
 class SlipRuns:
-    """Runs under all motions: arrays of `SolvedMotion`, of shape (motions, blocks), and `collapsed` (motions,)."""
+    """Runs under one motion, arrays of shape (blocks,), or under all, (motions, blocks), in SI; `collapsed` has no
+    blocks, `demand` is abs(a)/(g + a_v). In `plane` they are lengths, `plus` and `minus` in x, without estimates.
+    """
 
     peak: FloatArray
     plus: FloatArray
@@ -221,13 +139,14 @@ class SlipRuns:
     alone_acceleration: FloatArray
     full_acceleration: FloatArray
     plane: PlaneSlip | None = None
+    estimates: tuple[EstimateRow, ...] = ()
 
     @classmethod
-    def of(cls, solved: list[SolvedMotion]) -> SlipRuns:
-        """Return the runs under all motions."""
-        names = [field.name for field in fields(cls) if field.name != "plane"]
+    def of(cls, solved: list[SlipRuns]) -> SlipRuns:
+        """Return the runs under all motions, without estimates."""
+        names = [field.name for field in fields(cls) if field.name not in ("plane", "estimates")]
         in_plane = [each.plane for each in solved if each.plane is not None]
-        arrays = {name: np.array([getattr(each, name) for each in solved]) for name in names}
+        arrays: dict[str, Any] = {name: np.array([getattr(each, name) for each in solved]) for name in names}
         return cls(**arrays, plane=PlaneSlip.of_all(in_plane) if in_plane else None)
 
     def or_infinite(self, values: FloatArray) -> FloatArray:
@@ -235,7 +154,7 @@ class SlipRuns:
         return or_infinite(values, self.collapsed[:, None])
 
 
-def solve_motion(models: SlipModels, motion: Motion, other: Motion | None = None) -> SolvedMotion:
+def solve_motion(models: SlipModels, motion: Motion, other: Motion | None = None) -> SlipRuns:
     """Solve the models under one motion, or in two directions under that in x and the other one in y."""
     if other is not None:
         return _solve_pair(models, (motion, other))
@@ -259,7 +178,7 @@ def solve_motion(models: SlipModels, motion: Motion, other: Motion | None = None
     accelerations = at_nodes(sliding, "peak_floor_acceleration", "peak_rack_acceleration", base.acceleration)
     velocities = np.nanmax(np.abs(standing + ground_velocity[:, None]), axis=0)
     velocities[0] = base.velocity
-    return SolvedMotion(
+    return SlipRuns(
         peak=sliding.peak_slip,
         plus=plus,
         minus=minus,
@@ -268,7 +187,7 @@ def solve_motion(models: SlipModels, motion: Motion, other: Motion | None = None
         contact_force=sliding.peak_contact_force,
         contact_velocity=sliding.peak_contact_velocity,
         moving=np.abs(rate[-1]) > 0.0,
-        collapsed=sliding.status == "collapsed",
+        collapsed=np.array(sliding.status == "collapsed"),
         ground_peak=ground.peak_slip,
         ground_residual=ground.residual_slip,
         acceleration=accelerations[nodes],
@@ -276,33 +195,57 @@ def solve_motion(models: SlipModels, motion: Motion, other: Motion | None = None
         demand=_demands(sliding, motion, accelerations)[nodes],
         alone_acceleration=_peaks(alone, nodes, base.acceleration),
         full_acceleration=_peaks(full, nodes, base.acceleration),
-        estimates=rows,
+        estimates=tuple(rows),
     )
 
 
-def _solve_pair(models: SlipModels, motions: PlaneMotion) -> SolvedMotion:
-    """Solve the models in two directions."""
-    pair = solve_pair(models.scene, models.ground, models.alone, models.full, motions)
-    sliding, ground, sides = pair.sliding, pair.ground, pair.slip
-    return SolvedMotion(
+def _solve_pair(models: SlipModels, motions: PlaneMotion) -> SlipRuns:
+    """Solve the models in two directions, and each direction by itself."""
+    x, y = motions
+    scene = models.scene
+    nodes = np.array([place.node for place in places_of(scene)], dtype=np.int64)
+    sliding = simulate(scene, motions, histories=True, events=False)
+    ground = simulate(models.ground, motions, events=False)
+    ground_velocity = np.stack([integrals(each.acceleration, each.dt)[0] for each in motions], axis=1)
+    standing = np.concatenate(
+        [0.0 * ground_velocity[:, None, :], sliding.floor_velocity, sliding.rack_velocity], axis=1
+    )
+    rate = sliding.block_velocity - standing[:, nodes]
+    sides = [
+        signed_peaks(sliding.slip[:, :, axis], rate[:, :, axis], x.dt, sliding.peak_slip[:, axis])
+        for axis in range(VECTOR)
+    ]
+    each_alone = [
+        simulate(one, motion, events=False).peak_slip for one, motion in zip(scene._directions(), motions, strict=True)
+    ]
+    ground_peak = float(np.hypot(x.acceleration, y.acceleration).max())
+    accelerations = _peaks_at_nodes(sliding, ground_peak)
+    speeds = np.nanmax(np.hypot(*np.moveaxis(standing + ground_velocity[:, None, :], -1, 0)), axis=0)
+    slip = PlaneSlip(
+        peak=sliding.peak_slip[:, :VECTOR],
+        plus=np.stack([plus for plus, _ in sides], axis=1),
+        minus=np.stack([minus for _, minus in sides], axis=1),
+        residual=sliding.residual_slip,
+        alone=np.stack(each_alone, axis=1),
+    )
+    return SlipRuns(
         peak=sliding.peak_slip[:, VECTOR],
-        plus=sides.plus[:, 0],
-        minus=sides.minus[:, 0],
+        plus=slip.plus[:, 0],
+        minus=slip.minus[:, 0],
         residual=np.hypot(*sliding.residual_slip.T),
         path=sliding.slip_path,
         contact_force=sliding.peak_contact_force.max(axis=1),
         contact_velocity=sliding.peak_contact_velocity.max(axis=1),
-        moving=pair.moving,
-        collapsed=sliding.status == "collapsed",
+        moving=np.hypot(*np.moveaxis(rate[-1], -1, 0)) > 0.0,
+        collapsed=np.array(sliding.status == "collapsed"),
         ground_peak=ground.peak_slip[:, VECTOR],
         ground_residual=np.hypot(*ground.residual_slip.T),
-        acceleration=pair.acceleration,
-        velocity=pair.velocity,
-        demand=pair.demand,
-        alone_acceleration=pair.alone_acceleration,
-        full_acceleration=pair.full_acceleration,
-        estimates=[],
-        plane=sides,
+        acceleration=accelerations[nodes],
+        velocity=speeds[nodes],
+        demand=_demands_plane_runs(sliding, motions, accelerations)[nodes],
+        alone_acceleration=_without_goods(models.alone, motions, nodes, ground_peak),
+        full_acceleration=_without_goods(models.full, motions, nodes, ground_peak),
+        plane=slip,
     )
 
 

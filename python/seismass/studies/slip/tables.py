@@ -19,7 +19,7 @@ from seismass.model.tipping import BlockSize
 from seismass.runs.peaks import NamedMotions
 from seismass.studies.slip.clearance import Clearance, place_columns, place_names, places_of
 from seismass.studies.slip.estimates import log_ratio
-from seismass.studies.slip.runs import SlipRuns, SolvedMotion
+from seismass.studies.slip.runs import SlipRuns
 
 
 def block_table(
@@ -232,7 +232,7 @@ def squat_table(scene: Scene, runs: pl.DataFrame, sizes: tuple[BlockSize | None,
     return pl.DataFrame(rows, schema=kinds)
 
 
-def estimate_table(motions: NamedMotions, solved: Iterable[SolvedMotion], scene: Scene) -> pl.DataFrame:
+def estimate_table(motions: NamedMotions, solved: Iterable[SlipRuns], scene: Scene) -> pl.DataFrame:
     """Return one row per motion, block, base and estimate; see `SlipDemand.estimate_runs`."""
     rows = []
     places = places_of(scene)

@@ -34,7 +34,4 @@ __all__ = [
     "study_sensitivity",
 ]
 
-
-def __dir__() -> list[str]:
-    """Return the public names, for completion."""
-    return list(__all__)
+__dir__ = __all__.copy  # for completion

@@ -62,10 +62,7 @@ __all__ = [
     "validate",
 ]
 
-
-def __dir__() -> list[str]:
-    """Return the public names, for completion."""
-    return list(__all__)
+__dir__ = __all__.copy  # for completion
 
 
 @dataclass(frozen=True, eq=False)
