@@ -11,6 +11,7 @@ import pytest
 from scipy import stats
 
 import seismass as sm
+from seismass.model.tipping import demand_in_g
 from seismass.studies.slip import (
     Base,
     BlockSize,
@@ -24,7 +25,6 @@ from seismass.studies.slip import (
     wilson_interval,
 )
 from seismass.studies.slip.clearance import exceedance_table
-from seismass.studies.slip.estimates import demand_in_g
 
 G = sm.STANDARD_GRAVITY
 

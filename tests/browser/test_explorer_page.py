@@ -403,6 +403,16 @@ def test_the_answer_stands_first_and_its_numbers_can_be_dragged(html: str, open_
         assert page.locator(".share").inner_text() == "66 %"
         bar = page.locator(".share-bar").get_attribute("aria-label")
         assert bar.startswith("Effective fraction 66 %, interval 56 % to 77 %; codes: ASCE 7-10 25 %")
+        # Shares of codes are those of the goods present: of 0.8 of the design live load, and of those at most all.
+        visit(page, "o=0.8&c=0.3125")
+        ticks = page.locator(".ticks span").all_inner_texts()
+        assert ticks == ["ASCE 7-10 31 %", "NBC\N{DAGGER} 75 %", "EC 8\N{DAGGER} 100 %"]
+        assert page.locator("#x-code option:checked").inner_text().startswith("ASCE/SEI 7-10")
+        assert page.locator(".unchecked").is_hidden()
+        page.locator("#x-code").select_option("0.6")
+        settled(page)
+        assert page.locator(".unchecked").is_visible()
+        visit(page, "")
         number = page.get_by_role("slider", name="Static friction", exact=True)
         assert number.inner_text() == "0.2"
         number.focus()

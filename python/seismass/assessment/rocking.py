@@ -14,11 +14,10 @@ from seismass.assessment.floors import FloorGoods
 from seismass.assessment.models import SLIDING, SLIDING_HIGH, SLIDING_LOW, friction_factors
 from seismass.base.values import FloatArray
 from seismass.model.scene import Scene
-from seismass.model.tipping import FALLS_BELOW, Tipping, falls_of
+from seismass.model.tipping import FALLS_BELOW, Tipping, demand_in_g, falls_of
 from seismass.motions.records.intensity import integrals
 from seismass.runs.plane import PlaneResponse
 from seismass.runs.simulate import simulate
-from seismass.studies.slip.estimates import demand_in_g
 
 WORDS: Final[dict[Tipping, str]] = {
     "slide": "goods that slide with their mu",

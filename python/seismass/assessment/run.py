@@ -10,7 +10,6 @@ from typing import Any, Final
 
 import numpy as np
 
-from seismass import _kernel
 from seismass.assessment.advice import advice_of, assumptions_of, remarks_of
 from seismass.assessment.answer import (
     ANALYSIS,
@@ -43,7 +42,7 @@ from seismass.assessment.result import SCHEMA_VERSION, Assessment
 from seismass.assessment.rocking import other_models, tipping_table
 from seismass.assessment.statement import PresentGoods, governing_drifts, other_amounts, present_goods
 from seismass.base.arguments import Progress, ProgressLike
-from seismass.base.digest import inputs_digest, motion_contents
+from seismass.base.digest import metadata_head, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.files import without_formulas
 from seismass.base.statistics import bootstrap_counts, few_collapses
@@ -56,7 +55,6 @@ from seismass.motions.motion import motion_names, scaled_motions
 from seismass.motions.records import Pair, Pairs, Record, Suite, builtin_pairs, builtin_suite
 from seismass.motions.spectra import TargetSpectrum
 from seismass.runs.peaks import named_motions
-from seismass.runs.simulate import instruction_set
 
 FIXED_MODELS: Final = 4
 """Models that every assessment with goods solves beside those with goods that slide."""
@@ -246,10 +244,8 @@ def assess(
         remarks=remarks_of(stated, doubts, scaling, effective, facts),
         assumptions=assumptions_of(stated, spectrum, scaling, facts, period),
         metadata={
-            "schema_version": SCHEMA_VERSION,
-            "package_version": _kernel.VERSION,
-            "instructions": instruction_set(),
-            "inputs_sha256": inputs_digest(
+            **metadata_head(
+                SCHEMA_VERSION,
                 scenes,
                 stated,
                 None if spectrum is None else spectrum.parameters,

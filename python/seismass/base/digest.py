@@ -10,6 +10,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from seismass import _kernel
 from seismass.base.values import Value
 
 LABELS: Final = frozenset({"file_sha256", "name", "note", "path", "project", "sources", "units"})
@@ -78,3 +79,9 @@ def _parts(value: Any) -> Iterator[bytes]:
             yield from _parts(item)
     else:
         raise TypeError(f"no digest of a {type(value).__name__}")
+
+
+def metadata_head(schema: int, *inputs: Any) -> dict[str, Any]:
+    """What the metadata of a result begins with: versions, the instruction set, and the digest of inputs if any."""
+    head = {"schema_version": schema, "package_version": _kernel.VERSION, "instructions": _kernel.instruction_set()}
+    return head | ({"inputs_sha256": inputs_digest(*inputs)} if inputs else {})

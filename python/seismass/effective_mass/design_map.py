@@ -12,8 +12,8 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from seismass import _kernel
 from seismass.base.arguments import Progress, ProgressLike
+from seismass.base.digest import metadata_head
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.statistics import QUANTILES, over_records, quantile
 from seismass.base.units import STANDARD_GRAVITY
@@ -45,7 +45,6 @@ from seismass.motions.records import Suite
 from seismass.motions.spectra import TargetSpectrum, mean_spectrum
 from seismass.motions.spectra.target import target_remarks
 from seismass.runs.peaks import NamedMotions, Peaks, named_motions, solve
-from seismass.runs.simulate import instruction_set
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -429,9 +428,7 @@ def effective_mass_map(
         fractions=fractions,
         scaling=scaling,
         metadata={
-            "schema_version": SCHEMA_VERSION,
-            "package_version": _kernel.VERSION,
-            "instructions": instruction_set(),
+            **metadata_head(SCHEMA_VERSION),
             "parameters": asdict(options),
             "target": {"label": target.label, **target.parameters},
             "suite": {"name": suite.name, "motions": motion_names(suite)},

@@ -16,8 +16,8 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass import _kernel
 from seismass.base.arguments import Progress, ProgressLike
+from seismass.base.digest import metadata_head
 from seismass.base.distributions import Distribution
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import DRIFT_CAP, few_collapses, over_records, quantile
@@ -38,7 +38,6 @@ from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.motions.motion import MotionLike
 from seismass.runs.peaks import NamedMotions, Peaks, named_motions, solve
-from seismass.runs.simulate import instruction_set
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -261,9 +260,7 @@ def live_load_uncertainty(
         unit="m" if heights is None else "ratio",
         remarks=_remarks(checked, named, sampled, values, model_drift),
         metadata={
-            "schema_version": SCHEMA_VERSION,
-            "package_version": _kernel.VERSION,
-            "instructions": instruction_set(),
+            **metadata_head(SCHEMA_VERSION),
             "samples": count,
             "seed": start,
             "damping": convention,

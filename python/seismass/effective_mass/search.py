@@ -8,9 +8,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from seismass import _kernel
 from seismass.base.arguments import ProgressLike, as_bootstrap, as_progress, as_threads
-from seismass.base.digest import inputs_digest, motion_contents
+from seismass.base.digest import metadata_head, motion_contents
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import (
     DRIFT_CAP,
@@ -62,7 +61,6 @@ from seismass.model.scene import Scene
 from seismass.model.springs import SHAPE_FIELDS
 from seismass.motions.spectra import TargetSpectrum
 from seismass.runs.peaks import LARGER, DriftMeasure, NamedMotions, Peaks, check_drift, solve
-from seismass.runs.simulate import instruction_set
 
 OWNER: Final = "effective mass"
 """What error messages call it."""
@@ -292,10 +290,7 @@ class Search:
             "seed": options.seed,
         }
         return {
-            "schema_version": SCHEMA_VERSION,
-            "package_version": _kernel.VERSION,
-            "instructions": instruction_set(),
-            "inputs_sha256": inputs_digest(scene, motion_contents(self.motions.components), settings),
+            **metadata_head(SCHEMA_VERSION, scene, motion_contents(self.motions.components), settings),
             **settings,
             **{name: values.tolist() for name, values in building.springs_in_use().items() if name in SHAPE_FIELDS},
             "p_delta": bool(scene.geometric_stiffness.any()),

@@ -15,7 +15,7 @@ import numpy as np
 from seismass.base.errors import InvalidOption
 from seismass.base.files import stored_rows
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import as_list, as_number, as_one_of, as_positive, brief, refusal
+from seismass.base.values import FloatArray, as_list, as_number, as_one_of, as_positive, brief, refusal
 
 OWNER: Final = "block size"
 
@@ -199,3 +199,12 @@ def tipping_of(size: BlockSize | None, mu_s: float) -> Tipping:
     if size is None or not size.rocks_first(mu_s):
         return "slide"
     return "attached" if size.uplift_g < FALLS_BELOW else "split"
+
+
+def demand_in_g(acceleration: FloatArray, vertical: FloatArray | None) -> float:
+    """Return the largest abs(a)/(g + a_v) of a history (m/s2, up positive, NaN after a collapse), by which friction and
+    uplift are limited. Samples at which g + a_v is not positive have no contact and are left out.
+    """
+    weight = STANDARD_GRAVITY + (np.zeros(1) if vertical is None else vertical)
+    ratio = np.where(weight > 0.0, np.abs(acceleration) / np.where(weight > 0.0, weight, 1.0), 0.0)
+    return float(np.nanmax(ratio, initial=0.0))

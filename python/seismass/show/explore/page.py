@@ -22,7 +22,7 @@ from seismass.design import response_spectrum_analysis
 from seismass.design.scaling import scale_asce7_10
 from seismass.effective_mass import effective_mass, rule
 from seismass.media.page import DIFFERENCES, page_html, templates
-from seismass.media.roles import CODE, SLIDE, YIELDS
+from seismass.media.roles import ADVISED, CODE, SLIDE
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import Building
 from seismass.model.codes import MARK, NOT_CHECKED, code_fraction
@@ -131,7 +131,7 @@ def still_answer() -> Markup:
         "<figcaption>{words}</figcaption></figure>"
     ).format(
         slide=SLIDE.text,
-        interval=YIELDS.text,
+        interval=ADVISED.text,
         counted=CODE.text,
         empty=EMPTY,
         words=words,

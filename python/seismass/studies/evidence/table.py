@@ -12,9 +12,8 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from seismass import _kernel
 from seismass.base.arguments import Progress, ProgressLike
-from seismass.base.digest import inputs_digest, motion_contents
+from seismass.base.digest import inputs_digest, metadata_head, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
 from seismass.base.values import (
@@ -32,7 +31,6 @@ from seismass.base.views import view
 from seismass.media.result import Result, finite_values
 from seismass.model.codes import code_fraction
 from seismass.motions.records import Suite, builtin_suite
-from seismass.runs.simulate import instruction_set
 from seismass.studies.evidence.archetypes import Archetype, Setting, read_archetypes
 from seismass.studies.evidence.definitions import MCE, QUANTITIES, Answer, Question, answer_of
 from seismass.studies.evidence.runs import present_share, runs_of, solved_archetype
@@ -246,8 +244,7 @@ def evidence(
         rows = [each.row(solved(part, each.archetype, each.slope)) for each, (part, _) in pairs]
         tables["vary"] = pl.DataFrame(rows, schema_overrides={"a_mean": pl.Float64, "d": pl.Float64})
     contents = [motion_contents(each) for each in suites]
-    metadata = {"schema_version": SCHEMA_VERSION, "package_version": _kernel.VERSION, "instructions": instruction_set()}
-    metadata["inputs_sha256"] = inputs_digest(SCHEMA_VERSION, list(listed), settings, contents, curve.parameters)
+    metadata = metadata_head(SCHEMA_VERSION, SCHEMA_VERSION, list(listed), settings, contents, curve.parameters)
     metadata |= {"suites": [each.name for each in suites], "motions": [len(each) for each in suites]}
     metadata |= {"stations": [int(stations(each).max()) + 1 for each in suites], "hazard": curve.parameters}
     metadata |= {"synthetic": any(record.synthetic for record in suites[0]), "setting": asdict(settings)}

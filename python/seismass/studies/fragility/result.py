@@ -10,16 +10,14 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass import _kernel
 from seismass.base.arguments import as_word, is_one_of
-from seismass.base.digest import inputs_digest, motion_contents
+from seismass.base.digest import metadata_head, motion_contents
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import quantile
 from seismass.base.values import FloatArray, as_array, brief, content_hash, counted, refusal, same_content, short_repr
 from seismass.base.views import view
 from seismass.media.result import Result, finite_values
 from seismass.model.plausibility import usage_remarks
-from seismass.runs.simulate import instruction_set
 from seismass.studies.fragility.compare import (
     comparison_table,
     curve_table,
@@ -342,10 +340,7 @@ def result_of(
         exceedance=exceedance_table(fits, setting.limits, names, levels),
         remarks=_remarks(setting, method, known, fits, options, settings),
         metadata={
-            "schema_version": SCHEMA_VERSION,
-            "package_version": _kernel.VERSION,
-            "instructions": instruction_set(),
-            "inputs_sha256": inputs_digest(setting.models, motion_contents(motions.components), described),
+            **metadata_head(SCHEMA_VERSION, setting.models, motion_contents(motions.components), described),
             **described,
             "motions": len(motions),
             "clusters": motions.clusters,

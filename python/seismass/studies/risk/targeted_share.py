@@ -13,9 +13,8 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass import _kernel
 from seismass.base.arguments import Progress, ProgressLike, as_bootstrap, as_share, as_threads
-from seismass.base.digest import inputs_digest, motion_contents
+from seismass.base.digest import metadata_head, motion_contents
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.values import FloatArray, as_array, as_number, brief, content_hash, refusal, same_content, short_repr
 from seismass.base.views import view
@@ -34,7 +33,6 @@ from seismass.effective_mass.share import Kind
 from seismass.media.result import Result, finite_values
 from seismass.model.scene import Scene
 from seismass.motions.motion import HasMotion, Motion, MotionLike
-from seismass.runs.simulate import instruction_set
 from seismass.studies.fragility.hunt import exact_capacities
 from seismass.studies.fragility.limits import IntensityMeasure, LimitState, MeasureName
 from seismass.studies.fragility.run import DEFAULT_CODE_SHARE, SLIDING, Setting, setting_of
@@ -367,10 +365,7 @@ def risk_targeted_share(
         effective=effective,
         remarks=risk_remarks(search, answer, reason),
         metadata={
-            "schema_version": SCHEMA_VERSION,
-            "package_version": _kernel.VERSION,
-            "instructions": instruction_set(),
-            "inputs_sha256": inputs_digest(checked, motion_contents(setting.motions.components), settings),
+            **metadata_head(SCHEMA_VERSION, checked, motion_contents(setting.motions.components), settings),
             **settings,
             "motions": len(setting.motions),
             "clusters": setting.motions.clusters,

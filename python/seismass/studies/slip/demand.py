@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import polars as pl
 
-from seismass import _kernel
 from seismass.base.arguments import Progress, ProgressLike, as_bootstrap
-from seismass.base.digest import inputs_digest, motion_contents
+from seismass.base.digest import metadata_head, motion_contents
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.values import as_flag, brief, content_hash, refusal, same_content
 from seismass.base.views import view
@@ -22,7 +21,6 @@ from seismass.motions.motion import HasMotion, Motion
 from seismass.motions.records.pair import Pair
 from seismass.runs.batch import MotionsLike
 from seismass.runs.peaks import named_motions
-from seismass.runs.simulate import instruction_set
 from seismass.studies.fragility.analysis import incremental_dynamic_analysis
 from seismass.studies.fragility.fragility import Fragility
 from seismass.studies.fragility.hunt import HuntAndFill
@@ -367,10 +365,7 @@ def slip_demand(
         confidence=probability,
         remarks=(*demand_remarks(scene, named, runs, squat, limits, bool(fragilities)), *of_fragilities),
         metadata={
-            "schema_version": SCHEMA_VERSION,
-            "package_version": _kernel.VERSION,
-            "instructions": instruction_set(),
-            "inputs_sha256": inputs_digest(scene, motion_contents(named.components), settings),
+            **metadata_head(SCHEMA_VERSION, scene, motion_contents(named.components), settings),
             "motions": len(named),
             "clusters": named.clusters,
             **settings,

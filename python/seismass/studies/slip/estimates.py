@@ -15,16 +15,6 @@ from seismass.base.views import Card
 from seismass.motions.motion import Motion
 from seismass.motions.spectra import response_spectrum
 
-
-def demand_in_g(acceleration: FloatArray, vertical: FloatArray | None) -> float:
-    """Return the largest abs(a)/(g + a_v) of a history (m/s2, up positive, NaN after a collapse), by which friction and
-    uplift are limited. Samples at which g + a_v is not positive have no contact and are left out.
-    """
-    weight = STANDARD_GRAVITY + (np.zeros(1) if vertical is None else vertical)
-    ratio = np.where(weight > 0.0, np.abs(acceleration) / np.where(weight > 0.0, weight, 1.0), 0.0)
-    return float(np.nanmax(ratio, initial=0.0))
-
-
 BOUND_LIMIT: Final = 6.0
 """Largest A/N of the bound of Newmark (1965); beyond it the bound is 6 V^2/(2 g N)."""
 ASCE43_DAMPING: Final = 0.10

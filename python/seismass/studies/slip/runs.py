@@ -14,13 +14,14 @@ from seismass.base.values import FloatArray
 from seismass.effective_mass.models import ModelDamping, attached
 from seismass.model.block import Block
 from seismass.model.scene import Scene
+from seismass.model.tipping import demand_in_g
 from seismass.motions.motion import Motion
 from seismass.motions.records.intensity import integrals, peak_velocity
 from seismass.runs.plane import PlaneMotion, PlaneResponse
 from seismass.runs.response import Response
 from seismass.runs.simulate import simulate
 from seismass.studies.slip.clearance import at_nodes, histories_at_nodes, places_of, signed_peaks, without_loose_goods
-from seismass.studies.slip.estimates import Base, demand_in_g, estimates
+from seismass.studies.slip.estimates import Base, estimates
 
 VECTOR = 2
 """Place of the length of the vector among peaks of `PlaneResponse`."""
@@ -117,7 +118,7 @@ class EstimateRow:
 
 @dataclass(frozen=True, slots=True)
 class SlipRuns:
-    """Runs under one motion, arrays of shape (blocks,), or under all, (motions, blocks), in SI units; `collapsed` has no
+    """Runs under one motion, arrays of shape (blocks,), or under all, (motions, blocks), in SI; `collapsed` has no
     blocks, `demand` is abs(a)/(g + a_v). In `plane` they are lengths, `plus` and `minus` in x, without estimates.
     """
 

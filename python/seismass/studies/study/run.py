@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from seismass import _kernel
 from seismass.base.arguments import ProgressLike
-from seismass.base.digest import inputs_digest, motion_contents
+from seismass.base.digest import inputs_digest, metadata_head, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
 from seismass.base.values import (
@@ -38,7 +38,6 @@ from seismass.motions.records import Record, Suite
 from seismass.motions.spectra import TargetSpectrum, mean_spectrum, response_spectrum
 from seismass.motions.spectra.target import target_remarks
 from seismass.runs.batch import solve_many
-from seismass.runs.simulate import instruction_set
 from seismass.studies.study.parameters import MODELS, StudyBuilding, StudyParameters, code_fractions, study_buildings
 from seismass.studies.study.tables import (
     designs_table,
@@ -233,9 +232,7 @@ def run_study(
         spectrum=spectrum,
         scaling=scaling,
         metadata={
-            "schema_version": SCHEMA_VERSION,
-            "package_version": _kernel.VERSION,
-            "instructions": instruction_set(),
+            **metadata_head(SCHEMA_VERSION),
             "inputs_sha256": study_digest(suite, target, settings, factors if is_stated else None),
             "parameters": settings.content(),
             "code": _code_metadata(settings),

@@ -28,9 +28,11 @@ function showHeadline(place, { found, real, rule, state, codes, motions }) {
   const words = none ? "no goods" : known ? per100(found.value) : failed ? "not solved" : `\u2248 ${per100(rule.estimate)}`;
   one(".share").textContent = words;
   place.classList.toggle("stale", !none && !known);
-  one(".means").textContent = none ? "There is nothing on the floors." : known
-    ? `of the goods${state.present === 1 ? "" : " present"} act as mass (90 % interval ${per100(found.low)} to ${per100(found.high)}), over the ${motions} built-in synthetic motions at intensity ${general(state.intensity, 4)}.`
-    : failed ? "There is no share of the goods." : "of the goods act as mass by the rule by hand: being solved over the built-in motions.";
+  const [means, over] = none ? ["There is nothing on the floors.", ""]
+    : failed ? ["There is no share of the goods.", ""]
+    : known ? [`of the goods${state.present === 1 ? "" : " present"} act as mass (90 % interval ${per100(found.low)} to ${per100(found.high)})`, `, over the ${motions} built-in synthetic motions at intensity ${general(state.intensity, 4)}`]
+    : ["of the goods act as mass by the rule by hand", ": being solved over the built-in motions"];
+  one(".means").replaceChildren(means, Object.assign(document.createElement("span"), { textContent: over }));
   const bar = one(".share-bar");
   for (const [selector, from, to] of [[".filled", 0, known ? found.value : none || failed ? 0 : rule.estimate], [".interval", known ? found.low : 0, known ? found.high : 0]]) {
     Object.assign(one(selector).style, { left: `${100 * from}%`, width: `${100 * (to - from)}%` });
