@@ -53,6 +53,8 @@ def building(tmp_path_factory: pytest.TempPathFactory) -> str:
     return Path(out, "report.html").read_text(encoding="utf-8")
 
 
+WIDTHS = (320, 360, 390, 414, 480, 600, 680, 720, 768, 800, 810, 834, 960, 1280, 1440, 1920)
+"""Screens of phones, tablets and computers (CSS pixels)."""
 CUT = """() => Array.from(document.querySelectorAll(".table .scroll"))
   .filter((one) => one.scrollWidth > one.clientWidth).map((one) => one.ariaLabel)"""
 """Captions of tables that are wider than their place."""
@@ -77,7 +79,7 @@ def test_on_a_phone_names_stand_above_values_and_words_of_figures_are_legible(bu
     """Letters of 7 points, the smallest in figures, have a line of 10 px at their own size and of 8 px at the least."""
     with open_page(building, "building", width=360) as page:
         boxes = page.evaluate(
-            """() => Array.from(document.querySelectorAll(".facts > div"), (one) => {
+            """() => Array.from(document.querySelectorAll(".sections .facts > div"), (one) => {
               const [name, value] = [...one.children].map((child) => child.getBoundingClientRect());
               return [name.bottom, value.top, value.width];
             })"""
@@ -97,12 +99,34 @@ def test_the_sheet_for_the_file_is_one_side_of_a4(building: str, open_page: Any)
         end = page.locator(".sheet").evaluate("one => one.getBoundingClientRect().bottom + scrollY")
         assert end < (297.0 - 2 * 16.0) / 25.4 * 96.0
         assert page.locator(".sheet").evaluate("one => getComputedStyle(one).breakAfter") == "page"
-        for words in ("Project", "Checked by", "Analysis 1", "Analysis 2", "margin", "Motions.", "mezzanines"):
+        for words in ("Project", "Checked by", "Analysis 1", "Analysis 2", "use", "Method.", "By hand.", "mezzanines"):
             assert words in page.locator(".sheet").inner_text()
 
 
+def test_project_file_and_number_stand_on_every_sheet(building: str, open_page: Any) -> None:
+    """A page without its margin boxes has fewer glyphs on every sheet; each has the number of the sheet."""
+    rule = re.search(r"@top-left \{.*?\}.*?counter\(pages\); \}", building)
+    assert rule is not None
+    assert "warehouse of four storeys" in rule[0]
+    assert "SHA-256" in rule[0].replace("\\00002d", "-")
+    with open_page(building, "building", width=680) as page:
+        sheets = page.pdf(format="A4")
+    with open_page(building.replace(rule[0], ""), "bare", width=680) as page:
+        bare = page.pdf(format="A4")
+    pages = len(re.findall(rb"/Type\s*/Page\b", sheets))
+    assert pages == len(re.findall(rb"/Type\s*/Page\b", bare)) >= 9
+    assert len(sheets) > len(bare)
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_no_page_scrolls_sideways(building: str, study: str, open_page: Any, width: int) -> None:
+    for name, page in (("building", building), ("study", study)):
+        with open_page(page, name, width=width) as shown:
+            assert shown.evaluate("document.documentElement.scrollWidth") <= width, name
+
+
 def test_heads_of_tables_are_repeated_on_every_page(open_page: Any) -> None:
-    """Pages behind the first have two texts: the one glyph of all cells, and the three of the head."""
+    """Pages behind the first have the one glyph of all cells and the three of the head, beside their number."""
     rows = pl.DataFrame({"QXZ": ["1"] * 300})
     html = page_html("T", [Section("S", [table_html(rows, "C", formats={"QXZ": str})])])
     with open_page(html, "heads", width=680) as page:
@@ -117,7 +141,7 @@ def test_heads_of_tables_are_repeated_on_every_page(open_page: Any) -> None:
         if b" Tj" in text:
             streams.append({*re.findall(rb"<([0-9A-F]+)> Tj", text)})
     assert len(streams) >= 3
-    assert [sorted(len(text) // 4 for text in texts) for texts in streams[1:]] == [[1, 3]] * (len(streams) - 1)
+    assert [{len(text) // 4 for text in texts} for texts in streams[1:]] == [{1, 3}] * (len(streams) - 1)
 
 
 def test_the_study_opens_with_its_figure_and_validates_last(study: str, open_page: Any) -> None:

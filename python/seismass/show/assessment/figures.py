@@ -128,7 +128,8 @@ def fraction_figure(result: AssessmentTables, size: Size) -> Figure:
     axes.set_xlim(0.0, 1.0)
     _mark_shares(axes, result, size)
     axes.set_xlabel(SHARE)
-    axes.set_ylabel(f"{OVER_MODEL}, capped mean of the largest drift\n(above 1: the model is unsafe)")
+    words = f"{OVER_MODEL}, capped mean of the largest drift (above 1: the model is unsafe)"
+    axes.set_ylabel(textwrap.fill(words, size.label // 2 + 6))
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     figure.legend(loc="outside upper center", ncols=1, frameon=False)
     shown = STORAGE_CODES if result.code["use"] == "storage" else {}
@@ -155,7 +156,7 @@ def _mark_shares(axes: Axes, result: AssessmentTables, size: Size) -> None:
         )
         place = code["share_of_design_live_load"] / present
         axes.axvline(place, **MODELS[CODE].look, linewidth=1.4, label=_wrapped(label, size))
-    if code["use"] != "storage":
+    if code["use"] != "storage" or size.columns == 1:  # a phone has no room for names
         return
     marks = {name: share / present for name, share in STORAGE_CODES.items() if share <= present}
     upper = axes.secondary_xaxis("top")
@@ -225,14 +226,9 @@ def _drift_panel(axes: Axes, result: AssessmentTables, rows: list[StoreyDrifts],
         places = [scale * value for value in row.analyses.values()]
         apart_by = 0.17 if len(places) > 1 and abs(places[0] - places[1]) < near else 0.0
         for number, (digit, place) in enumerate(zip(row.analyses, places, strict=True)):
-            height, is_first = row.storey + (apart_by, -apart_by)[number], digit == "1"
-            axes.plot(
-                place, height, "o", markersize=9.5, color=INK, markerfacecolor=INK if is_first else PAPER, zorder=4
-            )
-            colour = PAPER if is_first else INK
-            axes.annotate(
-                digit, (place, height), color=colour, fontsize=7.0, ha="center", va="center_baseline", zorder=5
-            )
+            height, face = row.storey + (apart_by, -apart_by)[number], "lightgrey" if digit == "1" else PAPER
+            axes.plot(place, height, "o", markersize=9.5, color=INK, markerfacecolor=face, zorder=4)
+            axes.annotate(digit, (place, height), fontsize=7.0, ha="center", va="center_baseline", zorder=5)
         text = f"{scale * row.largest:.0f} %" if limit is not None else f"{scale * row.largest:.2f} {unit}"
         model = _short(row.model) if answer else ""
         _at_edge(axes, row.storey, lettered("\n".join(part for part in (text, model) if part)))

@@ -392,7 +392,9 @@ class Pictures:
         """The figure of drifts and slips of the first sheet."""
         words = "What each storey uses of its drift limit, and the slip of its floor; the table below has the numbers."
         drawn = self._for_phones.get("sheet")
-        return Markup("") if drawn is None else figure_html(short_svg(drawn), "", words)
+        if drawn is None:
+            return Markup("")
+        return figure_html(short_svg(drawn), "", words, narrow=short_svg(self._for_phones["drift"]))
 
     def figure(self, name: str, caption: str, alt: str) -> Markup:
         """Return one figure; nothing where there is no such drawing."""

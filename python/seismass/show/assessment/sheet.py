@@ -41,7 +41,7 @@ ON_SHEET: Final = ("W", "T_1", "T", "I", "C_s", "V", "V_y/(C_s W)", "V_y/W")
 """Quantities of the design on the sheet, beside V_y of each storey."""
 GIVEN: Final = (
     *("Weight without loose goods", "Weight of the goods present", "First period", "Stiffness", SPRINGS, "Damping"),
-    *("P-Delta", "Code", "Site spectrum"),
+    *("P-Delta", "Site spectrum"),
 )
 """Facts of the input on the sheet."""
 MOST_STOREYS: Final = 8
@@ -187,7 +187,8 @@ def worst_of(result: AssessmentTables, check: str) -> tuple[dict[str, Any] | Non
 def _references(result: AssessmentTables) -> dict[str, str]:
     """Clauses by what they are of, in their order on the sheet."""
     code, rule = result.code, result.document["input"]["drift_limit_rule"]
-    known = {"share": ", ".join(part for part in (code["code"], code["clause"]) if part)}
+    of_load = f"{code['share_of_design_live_load']:.3g} of the design live load"
+    known = {"share": f"{', '.join(part for part in (code['code'], code['clause']) if part)}: {of_load}"}
     if result.drift_limit is not None:
         limit = "limit as stated" if rule is None else f"{rule['code']}, {rule['clause']}"
         stable = str(result.checks.filter(check="stability coefficient")["source"][0]).partition(" (")[0]
