@@ -282,7 +282,7 @@ def test_scaling_by_a_building_is_that_of_its_oscillator() -> None:
         (
             {"reduction": 2.0, "deformation": "x"},
             sm.errors.InvalidOption,
-            "deformation of scaling must be one of ratio, med",
+            "deformation of scaling must be ratio or med",
         ),
         (
             {"reduction": 2.0, "corner_period": 0.0},

@@ -322,8 +322,6 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
     """The building of a file in one direction."""
     units = top.choice("units", SYSTEMS) if "units" in top.values else ""
     storeys = top.tables("storeys")
-    sources = sources_of(top.values)
-    is_us = units == US or (not units and any(row.us and row.us in text for _, text in sources for row in UNIT_KEYS))
     if not storeys:
         top.refuse("storeys", "a table per storey, storey 1 first", "none")
     for storey in storeys:
@@ -333,6 +331,8 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
             _known(kind, "storeys.goods", units)
         if kinds_of_storey:
             storey.values["goods"] = [kind.values for kind in kinds_of_storey]
+    sources = sources_of(top.values)
+    is_us = units == US or (not units and any(row.us and row.us in text for _, text in sources for row in UNIT_KEYS))
     building, goods_table, site, code, walls, base, project = (
         _table(top, key, units) for key in ("building", "goods", "site", "code", "walls", "base", "project")
     )

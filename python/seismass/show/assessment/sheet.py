@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import Any, Final
 
-import numpy as np
 import polars as pl
 from markupsafe import Markup
 
@@ -13,6 +12,7 @@ from seismass.assessment.advice import slip_ends
 from seismass.assessment.checks import CAPPED_DRIFT
 from seismass.assessment.models import NAMES, SLIDING, SLIDING_ALL
 from seismass.assessment.structure import slip_of_base
+from seismass.base.statistics import quantile
 from seismass.effective_mass.rule import RULE_UNKNOWN
 from seismass.media.page import facts_html, table_html, text_html
 from seismass.media.roles import apart, isolated, sentence_html
@@ -239,7 +239,7 @@ def _collapses(result: AssessmentTables) -> list[Markup]:
             continue
         places = fallen.unique("motion", keep="first", maintain_order=True)["storey"]
         peak = pl.when(pl.col("collapsed").any()).then(math.inf).otherwise(pl.col(column).max())
-        median = float(np.median(runs.group_by("motion").agg(peak.alias("peak"))["peak"].to_numpy()))
+        median = float(quantile(runs.group_by("motion").agg(peak.alias("peak"))["peak"].to_numpy(), 0.5))
         rows.append(
             {
                 "model": NAMES.get(str(model), str(model)),
