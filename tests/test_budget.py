@@ -20,7 +20,7 @@ LINES = """
 assessment 7155   base 2561   commands 4209   design 3891   design/scaling 1104   effective_mass 2880   media 1554
 model 3212   motions 377   motions/matching 1475   motions/pulses 1058   motions/records 3841
 motions/records/formats 3853   motions/records/synthetic 1150   motions/scaling 799   motions/spectra 1820   runs 3544
-runs/grid 1720   show 3454   show/animation 1519   show/assessment 2296   show/explore 314   show/plots 1834
+runs/grid 1720   show 3455   show/animation 1519   show/assessment 2296   show/explore 314   show/plots 1834
 show/study 1988   studies 8   studies/campaign 1623   studies/evidence 1163   studies/fragility 3151
 studies/risk 1618   studies/slip 1587   studies/study 1784   studies/validation 1248   top 97
 """
