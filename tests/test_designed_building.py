@@ -89,7 +89,7 @@ def test_strengths_are_those_of_building_files() -> None:
         ({"live_load": [6e3, 5e3]}, "live_load of designed building must be 3 numbers"),
         ({"fraction": 1.2}, "fraction of designed building must be between 0 and 1"),
         ({"code_id": "ec9"}, "id of code must be"),
-        ({"procedure": "static"}, "procedure of design must be one of modal, lateral-force"),
+        ({"procedure": "static"}, "procedure of design must be modal or lateral-force"),
         ({"system": "tent"}, "system"),
     ],
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import statistics
 import time
@@ -219,7 +220,7 @@ def test_fraction_is_that_of_the_package(html: str, open_page: Any, tmp_path: Pa
     assert expected.interval is not None
     low, high = expected.interval
     assert words.startswith(
-        f"Effective fraction {expected.value:.3f} (90 % interval over the built-in motions {low:.2f} to {high:.2f}); "
+        f"Effective fraction {expected.value:.3f} (90 % interval over the built-in motions {low:.2f} to {high:.2f}). "
     )
     assert expected.kind == "root"
     assert "One share gives the drift of the building whose goods slide." in words
@@ -642,6 +643,28 @@ def test_a_drift_beyond_belief_is_remarked_and_the_enlargement_stated(html: str,
         assert re.fullmatch(r"[\d.]+ \u00d7, to fit", page.locator(".factor option").first.inner_text())
         visit(page, "x=20")
         assert "% of the storey height is beyond what buildings survive" in page.locator(".belief").inner_text()
+
+
+def test_a_building_that_collapses_has_no_share_and_no_nearest_model(html: str, open_page: Any, tmp_path: Path) -> None:
+    with open_page(html, "explorer") as page:
+        settled(page)
+        visit(page, "n=3&by=hand&V=0.06,0.05,0.04&P=1&x=2.5&a=1,1,0.5&h=3")
+        said = page.locator(".answer").inner_text()
+        collapsed = re.match(r"Under synthetic-1 at intensity 2\.5: storey (\d) collapses at ([\d.]+) s, where", said)
+        assert collapsed is not None
+        scene = sm.read_scene(exported(page, tmp_path))
+        own = sm.simulate(scene.scene, scene.motion)
+        assert own.collapsed_storey == int(collapsed[1])
+        assert own.end_time == pytest.approx(float(collapsed[2]), abs=0.0051)
+        assert "got a collapse under 7 of 7 motions" in page.locator(".fraction").inner_text()
+        assert page.locator(".share").inner_text() == "not solved"
+        assert page.locator(".winner").inner_text().endswith("collapses: there are no drifts to compare.")
+        assert page.locator(".belief").is_hidden()
+        drawn = page.evaluate("document.querySelector('figure.animation').places.xs")
+        assert len(drawn) == 4
+        assert all(map(math.isfinite, drawn))
+        visit(page, "")
+        assert page.locator(".share").inner_text() == "66 %"
 
 
 def test_without_a_script_there_is_a_picture_and_a_sentence(html: str, open_page: Any) -> None:

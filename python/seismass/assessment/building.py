@@ -17,7 +17,7 @@ from seismass.assessment.floors import CountedFraction, FloorCode, FloorGoods, b
 from seismass.base.errors import InvalidOption
 from seismass.base.input_table import Table
 from seismass.base.units import STANDARD_GRAVITY, UNITS, Units
-from seismass.base.values import FloatArray, brief, content_hash, printable, refusal, same_content, short_repr
+from seismass.base.values import FieldValue, FloatArray, brief, printable, refusal
 from seismass.base.views import Card
 from seismass.design import (
     DRIFT_LIMIT_CODES,
@@ -122,8 +122,8 @@ class DesignRule:
     combination: Combination = "srss"
 
 
-@dataclass(frozen=True, eq=False)
-class OwnBuilding(Card):
+@dataclass(frozen=True, eq=False, repr=False)
+class OwnBuilding(FieldValue, Card):
     """A building with its goods, as a building file describes it; see `read_building`.
 
     Attributes
@@ -257,10 +257,6 @@ class OwnBuilding(Card):
     system: str = ""
     s_1: float | None = None
     scaling: str = ""
-
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     def shown(self) -> Units:

@@ -15,7 +15,7 @@ from seismass.assessment.building import OwnBuilding
 from seismass.assessment.checks import checks_table, input_document
 from seismass.assessment.models import Shown
 from seismass.assessment.structure import design_table
-from seismass.base.values import content_hash, same_content
+from seismass.base.values import FieldValue
 from seismass.base.views import view
 from seismass.design.scaling import ScalingResult
 from seismass.effective_mass import EffectiveMass
@@ -35,7 +35,7 @@ def shown_figures(fractions: bool) -> tuple[str, ...]:
 
 
 @dataclass(frozen=True, eq=False)
-class Assessment(Result):
+class Assessment(FieldValue, Result):
     """How much of a building's live load acts as mass, and how the building and its goods move.
 
     Attributes
@@ -109,9 +109,6 @@ class Assessment(Result):
     remarks: tuple[str, ...] = field(repr=False)
     assumptions: tuple[str, ...] = field(repr=False)
     metadata: dict[str, Any] = field(repr=False)
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
     def __repr__(self) -> str:
         return f"<Assessment of {self.building.name}: {self.answer.headline}>"

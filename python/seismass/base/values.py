@@ -167,6 +167,17 @@ def _in_short(value: Any) -> str:
     return brief(value)
 
 
+class FieldValue:
+    """A value that is its fields: equal to one of its class whose fields are, and printed in few words. A dataclass
+    says `eq=False`, and `repr=False` where its own words are too long.
+    """
+
+    __slots__ = ()
+    __eq__ = same_content
+    __hash__ = content_hash
+    __repr__ = short_repr
+
+
 _SHOWN_AS_ESCAPES: Final = {
     code: f"\\x{code:02x}" if code < 256 else f"\\u{code:04x}"
     for code in (*range(32), *range(127, 160), *range(0x2028, 0x202F), *range(0x2066, 0x206A))

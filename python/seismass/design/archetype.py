@@ -11,17 +11,7 @@ from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import (
-    FloatArray,
-    as_array,
-    as_number,
-    brief,
-    content_hash,
-    frozen,
-    refusal,
-    same_content,
-    short_repr,
-)
+from seismass.base.values import FieldValue, FloatArray, as_array, as_number, brief, frozen, refusal
 from seismass.base.views import Card
 from seismass.design.code_design import CodeDesign, Procedure, design_by_code
 from seismass.design.lateral_force import DISTRIBUTION_CODES, equivalent_lateral_forces
@@ -37,8 +27,8 @@ LEAST_DRIFT: Final = 1e-4
 """Least drift limit for which stiffnesses are sought."""
 
 
-@dataclass(frozen=True, eq=False)
-class DesignedBuilding(Card):
+@dataclass(frozen=True, eq=False, repr=False)
+class DesignedBuilding(FieldValue, Card):
     """A building as a code designs it, with the numbers of the design.
 
     Attributes
@@ -61,10 +51,6 @@ class DesignedBuilding(Card):
     checks: pl.DataFrame
     floors: tuple[int, ...]
     load_ratio: FloatArray
-
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
 
 
 def designed_building(

@@ -13,16 +13,7 @@ from numpy.typing import ArrayLike
 from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import (
-    FloatArray,
-    as_one_of,
-    as_positive,
-    content_hash,
-    frozen,
-    refusal,
-    same_content,
-    short_repr,
-)
+from seismass.base.values import FieldValue, FloatArray, as_one_of, as_positive, frozen, refusal
 from seismass.base.views import Card
 from seismass.design.lateral_force import equivalent_lateral_forces, seismic_response_coefficient
 from seismass.design.modes import Combination, SpectrumAnalysis, positive, response_spectrum_analysis
@@ -70,8 +61,8 @@ class DesignEntry:
     note: str = ""
 
 
-@dataclass(frozen=True, eq=False)
-class CodeDesign(Card):
+@dataclass(frozen=True, eq=False, repr=False)
+class CodeDesign(FieldValue, Card):
     """Strengths of a building by its code.
 
     Attributes
@@ -108,10 +99,6 @@ class CodeDesign(Card):
     yield_shear: FloatArray
     entries: tuple[DesignEntry, ...]
     not_applied: tuple[str, ...]
-
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
 
     def table(self) -> pl.DataFrame:
         """Return one row per quantity.

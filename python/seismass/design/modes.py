@@ -12,15 +12,14 @@ from numpy.typing import ArrayLike
 from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.values import (
+    FieldValue,
     FloatArray,
     as_array,
     as_number,
     as_positive,
     brief,
-    content_hash,
     frozen,
     refusal,
-    same_content,
     short_repr,
 )
 from seismass.base.views import Card
@@ -33,7 +32,7 @@ Combination: TypeAlias = Literal["srss", "cqc"]
 
 
 @dataclass(frozen=True, eq=False)
-class Modes(Card):
+class Modes(FieldValue, Card):
     """Vibration modes of an undamped shear building, longest period first.
 
     Attributes
@@ -52,9 +51,6 @@ class Modes(Card):
     shapes: FloatArray
     participation: FloatArray
     effective_mass: FloatArray
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     def mass(self) -> float:

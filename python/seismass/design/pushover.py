@@ -10,7 +10,7 @@ import polars as pl
 from numpy.typing import ArrayLike, NDArray
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_array, brief, content_hash, frozen, refusal, same_content, short_repr
+from seismass.base.values import FieldValue, FloatArray, as_array, brief, frozen, refusal
 from seismass.base.views import Card, view
 from seismass.design.lateral_force import exponent_k
 from seismass.design.modes import positive_of_length, vibration_modes
@@ -211,8 +211,8 @@ DEFAULT_DRIFT_RATIO: Final = 0.05
 """Drift over the storey height up to which a building is pushed."""
 
 
-@dataclass(frozen=True, eq=False)
-class Pushover(Card):
+@dataclass(frozen=True, eq=False, repr=False)
+class Pushover(FieldValue, Card):
     """Equilibrium path of a building under growing lateral forces: points with straight lines between.
 
     Attributes
@@ -254,10 +254,6 @@ class Pushover(Card):
     end: str
     weight: float
     heights: FloatArray | None
-
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     def capacity(self) -> float:

@@ -12,18 +12,7 @@ from numpy.typing import ArrayLike
 
 from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
-from seismass.base.values import (
-    FloatArray,
-    as_array,
-    as_list,
-    brief,
-    content_hash,
-    frozen,
-    is_list,
-    refusal,
-    same_content,
-    short_repr,
-)
+from seismass.base.values import FieldValue, FloatArray, as_array, as_list, brief, frozen, is_list, refusal
 from seismass.base.views import view
 from seismass.media.result import Result, finite_values
 
@@ -237,8 +226,8 @@ _AT_PEAK: Final = 1e-3
 """Shears that are so close to the largest, over it, are of one plateau with it."""
 
 
-@dataclass(frozen=True, eq=False)
-class PushoverFit(Result):
+@dataclass(frozen=True, eq=False, repr=False)
+class PushoverFit(FieldValue, Result):
     """Storey springs fitted to pushover curves.
 
     Attributes
@@ -274,10 +263,6 @@ class PushoverFit(Result):
     largest_misfit: FloatArray
     rms_misfit: FloatArray
     assumptions: tuple[str, ...]
-
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     def springs(self) -> dict[str, FloatArray]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import FloatArray, as_number, as_positive, brief, content_hash, frozen, refusal, same_content
+from seismass.base.values import FieldValue, FloatArray, as_number, as_positive, brief, frozen, refusal
 from seismass.base.views import Card
 from seismass.design.modes import checked_heights, positive, positive_of_length, vibration_modes
 from seismass.model.building import Building
@@ -18,7 +18,7 @@ _FARTHEST = 1e9
 
 
 @dataclass(frozen=True, eq=False)
-class Wall(Card):
+class Wall(FieldValue, Card):
     """An elastic wall that bends: a cantilever, fixed at the ground, that has every floor's displacement.
 
     It has no shear deformation and no mass of its own. Walls side by side that have the same displacements count as one
@@ -69,9 +69,6 @@ class Wall(Card):
         rigidity = positive_of_length(flexural_rigidity, "flexural_rigidity", len(h))
         object.__setattr__(self, "heights", frozen(h))
         object.__setattr__(self, "flexural_rigidity", frozen(rigidity))
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @classmethod
     def of_period(cls, mass: ArrayLike, heights: ArrayLike, period: float) -> Wall:

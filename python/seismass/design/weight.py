@@ -14,17 +14,7 @@ from seismass.base.arguments import as_word, is_one_of, known_id
 from seismass.base.errors import InvalidOption
 from seismass.base.files import stored_rows
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import (
-    FloatArray,
-    as_array,
-    as_number,
-    brief,
-    content_hash,
-    frozen,
-    refusal,
-    same_content,
-    short_repr,
-)
+from seismass.base.values import FieldValue, FloatArray, as_array, as_number, brief, frozen, refusal
 from seismass.base.views import Card
 from seismass.model.codes import CODE_IDS, FROM_MEMORY, SECOND_HAND, VERIFIED, Use, code_fraction
 
@@ -55,8 +45,8 @@ INTENSITY: Final = {"bnbc2017": (3000.0, "2.5.7.3", VERIFIED), "is1893": (3000.0
 """Live load (Pa) above which a floor has the fraction of storage, where that decides and not the use."""
 
 
-@dataclass(frozen=True, eq=False)
-class SeismicWeight(Card):
+@dataclass(frozen=True, eq=False, repr=False)
+class SeismicWeight(FieldValue, Card):
     """Effective seismic weight of a building by a code.
 
     Attributes
@@ -79,10 +69,6 @@ class SeismicWeight(Card):
     table: pl.DataFrame
     rules: pl.DataFrame
     status: str
-
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     def total(self) -> float:

@@ -17,7 +17,7 @@ from seismass.base.digest import metadata_head
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.statistics import QUANTILES, over_records, quantile
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content, short_repr
+from seismass.base.values import FieldValue, FloatArray, as_count, as_number, brief, refusal
 from seismass.base.views import view
 from seismass.design import Combination, response_spectrum_analysis, vibration_modes
 from seismass.design.scaling import ScalingResult, scale_asce7_10
@@ -195,8 +195,8 @@ ETA_EDGES: Final = (0.0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0, 1.2, 1.5, 2.0, 
 """Edges of the bins of eta for which the scatter of the fraction is tabulated."""
 
 
-@dataclass(frozen=True, eq=False)
-class EffectiveMassMap(Result):
+@dataclass(frozen=True, eq=False, repr=False)
+class EffectiveMassMap(FieldValue, Result):
     """The effective fraction at every point of a grid.
 
     Attributes
@@ -228,10 +228,6 @@ class EffectiveMassMap(Result):
     fractions: FloatArray
     scaling: dict[tuple[int, float], ScalingResult]
     metadata: dict[str, Any] = field(repr=False)
-
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
 
     def model_drift(self, shares: FloatArray) -> FloatArray:
         """Return the capped mean of the largest drift of the model (m) of each case at its own share, interpolated."""

@@ -21,7 +21,7 @@ from seismass.base.digest import metadata_head
 from seismass.base.distributions import Distribution
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import DRIFT_CAP, few_collapses, over_records, quantile
-from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content, short_repr
+from seismass.base.values import FieldValue, FloatArray, as_count, as_number, brief, refusal
 from seismass.base.views import view
 from seismass.effective_mass.models import (
     SAME_DAMPING,
@@ -54,8 +54,8 @@ RESAMPLES: Final = 2000
 """Bootstrap resamples over the records."""
 
 
-@dataclass(frozen=True, eq=False)
-class LiveLoadUncertainty(Result):
+@dataclass(frozen=True, eq=False, repr=False)
+class LiveLoadUncertainty(FieldValue, Result):
     """The share phi of the design live load to attach as mass, with what is known of occupancy and friction.
 
     Attributes
@@ -96,10 +96,6 @@ class LiveLoadUncertainty(Result):
     unit: str
     remarks: tuple[str, ...] = field(repr=False)
     metadata: dict[str, Any] = field(repr=False)
-
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
 
     def exceedance(self, fraction: float) -> float:
         """Return the probability that the share to attach is above a code's fraction of the design live load."""

@@ -11,7 +11,7 @@ import numpy as np
 import polars as pl
 
 from seismass.base.statistics import CAPPED_MEAN, Statistic, over_records
-from seismass.base.values import FloatArray, content_hash, same_content
+from seismass.base.values import FieldValue, FloatArray
 from seismass.base.views import view
 from seismass.effective_mass.rule import ByHand
 from seismass.effective_mass.share import Kind, interpolated_roots, is_below, kind_of
@@ -47,7 +47,7 @@ KIND_TEXTS: Final[dict[Kind, str]] = {
 
 
 @dataclass(frozen=True, eq=False)
-class EffectiveMass(Result):
+class EffectiveMass(FieldValue, Result):
     """The effective fraction of the live load of a building under a suite of motions.
 
     Attributes
@@ -130,9 +130,6 @@ class EffectiveMass(Result):
     collapses: dict[str, int] = field(repr=False)
     remarks: tuple[str, ...] = field(repr=False)
     metadata: dict[str, Any] = field(repr=False)
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     def text(self) -> str:

@@ -17,19 +17,7 @@ from seismass.base.errors import InvalidOption, InvalidScene, SeismassError
 from seismass.base.files import Content, data_directory
 from seismass.base.folders import write_folder
 from seismass.base.fork_check import require_polars
-from seismass.base.values import (
-    FloatArray,
-    as_array,
-    as_count,
-    as_list,
-    as_one_of,
-    as_path,
-    brief,
-    content_hash,
-    refusal,
-    same_content,
-    short_repr,
-)
+from seismass.base.values import FieldValue, FloatArray, as_array, as_count, as_list, as_one_of, as_path, brief, refusal
 from seismass.base.views import Card
 from seismass.model.building import Building
 from seismass.model.scene import Scene
@@ -180,8 +168,8 @@ def _exact(scene: Scene, motion: Motion) -> dict[str, list[float]]:
     return {"drift": response.peak_drift.tolist(), "slip": response.peak_slip.tolist()}
 
 
-@dataclass(frozen=True, eq=False)
-class SpringPath(Card):
+@dataclass(frozen=True, eq=False, repr=False)
+class SpringPath(FieldValue, Card):
     """What a spring did along a list of drifts.
 
     Attributes
@@ -204,10 +192,6 @@ class SpringPath(Card):
     dissipated: FloatArray
     stored: FloatArray
     events: pl.DataFrame
-
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
 
 
 def spring_forces(building: Building, storey: int, drifts: ArrayLike) -> SpringPath:

@@ -539,7 +539,8 @@
   // ---- player -----------------------------------------------------------------------------------------------------
   let time = 0;
   let since = null; // the time of the last frame on the screen while it plays
-  let isInSight = true; // the histories, which are drawn where they are seen
+  let isInSight = true; // the histories, which wait for a pause where they are not seen
+  let later = 0;
 
   function draw() {
     if (data === null) return;
@@ -548,7 +549,9 @@
     if (width === 0) return;
     const each = width / runs.length;
     runs.forEach((run, i) => drawBuilding(context, run, i * each, each, height, at, Number(factor.value) || data.factor));
+    clearTimeout(later);
     if (isInSight) drawPlots(at);
+    else later = setTimeout(drawPlots, 200, at);
     slider.value = String(time);
     slider.setAttribute("aria-valuetext", `${time.toFixed(1)} of ${END.toFixed(1)} seconds`);
     clock.textContent = `${time.toFixed(2)} of ${END.toFixed(1)} s`;

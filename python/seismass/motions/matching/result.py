@@ -15,7 +15,7 @@ from seismass.base.arguments import is_one_of
 from seismass.base.errors import InvalidOption
 from seismass.base.files import write_file
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_path, brief, content_hash, counted, refusal, same_content
+from seismass.base.values import FieldValue, FloatArray, as_path, brief, counted, refusal
 from seismass.base.views import Card, view
 from seismass.motions.records.intensity import build_up
 from seismass.motions.records.record import Record
@@ -86,7 +86,7 @@ def _misfit(ratios: FloatArray) -> Misfit:
 
 
 @dataclass(frozen=True, eq=False)
-class MatchedRecord(Card):
+class MatchedRecord(FieldValue, Card):
     """A record whose spectrum was matched to a target.
 
     Attributes
@@ -132,9 +132,6 @@ class MatchedRecord(Card):
     wide_before: FloatArray
     wide_after: FloatArray
     remarks: tuple[str, ...]
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
     def __repr__(self) -> str:
         name, largest = self.record.name or "(unnamed)", 100.0 * self.misfit.largest
@@ -274,7 +271,7 @@ class MatchedRecord(Card):
 
 
 @dataclass(frozen=True, eq=False)
-class MatchedSuite(Card):
+class MatchedSuite(FieldValue, Card):
     """Records matched one by one to the same target.
 
     Attributes
@@ -287,9 +284,6 @@ class MatchedSuite(Card):
 
     suite: Suite
     matched: tuple[MatchedRecord, ...]
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
     def __len__(self) -> int:
         return len(self.matched)

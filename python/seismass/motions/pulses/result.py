@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal
 import numpy as np
 import polars as pl
 
-from seismass.base.values import FloatArray, content_hash, same_content, short_repr
+from seismass.base.values import FieldValue, FloatArray
 from seismass.base.views import Card, view
 
 if TYPE_CHECKING:
@@ -22,8 +22,8 @@ PERIOD_OF_SCALE: Final = 1.4
 Kind = Literal["pulse", "ambiguous", "no pulse"]
 
 
-@dataclass(frozen=True, eq=False)
-class Candidate(Card):
+@dataclass(frozen=True, eq=False, repr=False)
+class Candidate(FieldValue, Card):
     """One pulse taken out of a velocity, and how it is judged.
 
     Attributes
@@ -77,10 +77,6 @@ class Candidate(Card):
     pulse: FloatArray
     residual: FloatArray
 
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
-
     @property
     def is_pulse(self) -> bool:
         """Whether the method calls it a pulse."""
@@ -113,7 +109,7 @@ class Candidate(Card):
 
 
 @dataclass(frozen=True, eq=False)
-class PulseResult(Card):
+class PulseResult(FieldValue, Card):
     """Whether a record or a pair is pulse-like, with every candidate that was looked at.
 
     Attributes
@@ -132,9 +128,6 @@ class PulseResult(Card):
     names: tuple[str, ...]
     candidates: tuple[Candidate, ...]
     remarks: tuple[str, ...]
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     def primary(self) -> Candidate:
@@ -273,7 +266,7 @@ class PulseResult(Card):
 
 
 @dataclass(frozen=True, eq=False)
-class OrientationScan(Card):
+class OrientationScan(FieldValue, Card):
     """The class of one pair by orientation, each judged as one component by Baker (2007).
 
     Attributes
@@ -292,9 +285,6 @@ class OrientationScan(Card):
     results: tuple[PulseResult, ...]
     angles: FloatArray
     remarks: tuple[str, ...]
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     def pulses(self) -> int:

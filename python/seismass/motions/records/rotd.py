@@ -11,17 +11,7 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import (
-    FloatArray,
-    as_array,
-    as_count,
-    as_number,
-    brief,
-    content_hash,
-    frozen,
-    refusal,
-    same_content,
-)
+from seismass.base.values import FieldValue, FloatArray, as_array, as_count, as_number, brief, frozen, refusal
 from seismass.base.views import Card
 from seismass.motions.records.intensity import integrals, peak_displacement, peak_velocity
 from seismass.motions.records.pair import Pair
@@ -34,7 +24,7 @@ ANGLES: Final = 180
 
 
 @dataclass(frozen=True, eq=False)
-class RotD(Card):
+class RotD(FieldValue, Card):
     """Percentiles over directions, and the direction of the largest.
 
     Attributes
@@ -68,9 +58,6 @@ class RotD(Card):
     peak_angle: dict[str, float]
     damping: float
     kind: str
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
     def __getitem__(self, percentile: float) -> FloatArray:
         """Return the spectrum of one of the percentiles, shape (periods,)."""

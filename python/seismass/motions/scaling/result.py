@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 import numpy as np
 import polars as pl
 
-from seismass.base.values import FloatArray, content_hash, frozen, same_content, short_repr
+from seismass.base.values import FieldValue, FloatArray, frozen
 from seismass.base.views import view
 from seismass.media.result import Result, finite_values
 
@@ -24,8 +24,8 @@ MAX_OVERSHOOT: Final = 2.0
 """Mean scaled spectrum over the target."""
 
 
-@dataclass(frozen=True, eq=False)
-class ScalingResult(Result):
+@dataclass(frozen=True, eq=False, repr=False)
+class ScalingResult(FieldValue, Result):
     """Factors of a suite, and the spectra that they follow from.
 
     Attributes
@@ -76,10 +76,6 @@ class ScalingResult(Result):
     damping: float = 0.05
     target_label: str = ""
     notes: tuple[str, ...] = ()
-
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     def misfit(self) -> FloatArray:

@@ -12,7 +12,7 @@ import polars as pl
 
 from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.values import FloatArray, as_count, brief, content_hash, refusal, same_content, short_repr
+from seismass.base.values import FieldValue, FloatArray, as_count, brief, refusal
 from seismass.base.views import Card
 from seismass.motions.records import Record, Suite, read_suite
 from seismass.motions.scaling.suite import SuiteSpectra, checked_range, suite_spectra
@@ -24,8 +24,8 @@ Choice: TypeAlias = Literal["mean", "each"]
 _SEQUENCE: Final = re.compile(r"RSN\d+", re.IGNORECASE)
 
 
-@dataclass(frozen=True, eq=False)
-class Selection(Card):
+@dataclass(frozen=True, eq=False, repr=False)
+class Selection(FieldValue, Card):
     """Records that were chosen, and the table of all candidates.
 
     Attributes
@@ -41,10 +41,6 @@ class Selection(Card):
 
     suite: Suite
     table: pl.DataFrame
-
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
 
 
 def select_records(

@@ -14,7 +14,7 @@ from seismass import _kernel
 from seismass.base.arguments import as_threads
 from seismass.base.errors import InvalidOption, InvalidScene, SimulationError
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_array, as_number, content_hash, frozen, refusal, same_content
+from seismass.base.values import FieldValue, FloatArray, as_array, as_number, frozen, refusal
 from seismass.base.views import Card
 from seismass.motions.motion import motion_names
 from seismass.motions.spectra.elastic import GroundMotion, as_motions, check_not_zero, held, response_spectrum
@@ -104,7 +104,7 @@ _MOST_STEPS: Final = 1000
 
 
 @dataclass(frozen=True, eq=False)
-class InelasticSpectrum(Card):
+class InelasticSpectrum(FieldValue, Card):
     """Peaks of inelastic oscillators; arrays are motions by periods, or motions by levels by periods for a list.
 
     Attributes
@@ -135,9 +135,6 @@ class InelasticSpectrum(Card):
     overstrength: float
     second_slope: float
     third_slope: float
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     def reduction(self) -> FloatArray:

@@ -13,17 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seismass.base.errors import InvalidMotion, InvalidScene, SeismassError
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import (
-    FloatArray,
-    as_array,
-    brief,
-    content_hash,
-    frozen,
-    is_list,
-    read_only,
-    refusal,
-    same_content,
-)
+from seismass.base.values import FieldValue, FloatArray, as_array, brief, frozen, is_list, read_only, refusal
 from seismass.model.building import Building, changed_building, of_storeys_alone
 from seismass.model.springs import SHAPE_FIELDS, SpringShape
 from seismass.runs.grid.sample import StrengthDesign
@@ -242,7 +232,7 @@ _NUMBERS: Final = ("building", "storeys", "motion")
 
 
 @dataclass(frozen=True, eq=False)
-class GridAxis:
+class GridAxis(FieldValue):
     """What varies together over the scenes of a grid.
 
     Attributes
@@ -261,9 +251,6 @@ class GridAxis:
     each: int
     length: int
     columns: dict[str, np.ndarray[Any, Any]]
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
 
 def described(

@@ -14,7 +14,7 @@ from seismass import _kernel
 from seismass.base.arguments import as_word, is_one_of
 from seismass.base.errors import DoubtfulInput, InvalidOption, InvalidScene
 from seismass.base.fork_check import require_polars
-from seismass.base.values import FloatArray, as_count, as_number, brief, content_hash, refusal, same_content
+from seismass.base.values import FieldValue, FloatArray, as_count, as_number, brief, refusal
 from seismass.base.views import Card
 from seismass.model.block import Block
 from seismass.model.building import Building, chain_kernel
@@ -54,7 +54,7 @@ MAX_SCENES: Final = 2**53
 _CHECKED_AT_ONCE: Final = 2**16
 
 
-class Grid(Card):
+class Grid(FieldValue, Card):
     """Scenes that differ in building, blocks and intensity, described by columns: a million need no million objects.
 
     A column is one value for all scenes, a list with one value per scene, or, for what blocks or storeys have, a table
@@ -172,9 +172,6 @@ class Grid(Card):
     _everywhere: bool
     _roof_is_bare: bool
     __slots__ = tuple(__annotations__)
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: getattr(self, name) for name in self.__slots__}

@@ -12,7 +12,7 @@ import numpy as np
 from seismass.base.arguments import as_share
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_count, brief, content_hash, refusal, same_content
+from seismass.base.values import FieldValue, FloatArray, as_count, brief, refusal
 from seismass.base.views import Card, view
 from seismass.effective_mass.models import attached_scene
 from seismass.media.roles import SLIDE
@@ -200,7 +200,7 @@ DEFAULT_CODE: Final = "asce7-10"
 
 
 @dataclass(frozen=True, eq=False)
-class Animation:
+class Animation(FieldValue):
     """An animation of one scene under one motion, as `animate` makes it.
 
     Attributes
@@ -217,9 +217,6 @@ class Animation:
     note: str
     scene: Scene
     shown: Shown
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     def sentences(self) -> tuple[str, ...]:
@@ -370,7 +367,7 @@ _SIDE: Final = 6.0
 
 
 @dataclass(frozen=True, eq=False)
-class PlaneAnimation(Card):
+class PlaneAnimation(FieldValue, Card):
     """An animation of one scene in two directions under one pair of motions, as `animate_plane` makes it.
 
     Attributes
@@ -396,9 +393,6 @@ class PlaneAnimation(Card):
     step: float
     rows: int
     factor: float
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     def floor_displacement(self) -> FloatArray:

@@ -17,18 +17,7 @@ from seismass.base.digest import inputs_digest
 from seismass.base.distributions import beta, lognormal
 from seismass.base.errors import InvalidCampaignFile, InvalidOption
 from seismass.base.input_table import Table
-from seismass.base.values import (
-    as_count,
-    as_flag,
-    as_list,
-    as_name,
-    as_number,
-    brief,
-    content_hash,
-    printable,
-    refusal,
-    same_content,
-)
+from seismass.base.values import FieldValue, as_count, as_flag, as_list, as_name, as_number, brief, printable, refusal
 from seismass.motions.motion import Motion, MotionLike
 from seismass.runs.batch import checked_motions, stream_many
 from seismass.runs.grid.content import axes_table, grid_document
@@ -178,7 +167,7 @@ MOST_PART_RUNS: Final = 2**24
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class CampaignRuns:
+class CampaignRuns(FieldValue):
     """The runs of a grid under motions, and what solves a part of them.
 
     Arguments and attributes are those of `Campaign`, which writes the parts to a folder.
@@ -191,9 +180,6 @@ class CampaignRuns:
     peaks_only: bool
     columns: tuple[str, ...]
     single: bool
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
     def __init__(
         self,

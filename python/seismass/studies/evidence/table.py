@@ -16,17 +16,7 @@ from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.digest import inputs_digest, metadata_head, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
-from seismass.base.values import (
-    as_flag,
-    as_list,
-    as_number,
-    as_one_of,
-    brief,
-    content_hash,
-    refusal,
-    same_content,
-    short_repr,
-)
+from seismass.base.values import FieldValue, as_flag, as_list, as_number, as_one_of, brief, refusal
 from seismass.base.views import view
 from seismass.media.result import Result, finite_values
 from seismass.model.codes import code_fraction
@@ -62,8 +52,8 @@ def default_hazard(slope: float = 2.5) -> HazardCurve:
     return HazardCurve(ratio, np.exp(-power * x - 0.1 * x * x) / 2475.0, label=f"illustrative, k = {power:g}")
 
 
-@dataclass(frozen=True, eq=False)
-class Evidence(Result):
+@dataclass(frozen=True, eq=False, repr=False)
+class Evidence(FieldValue, Result):
     """Which share of the design live load acts as mass in the archetypes of a code.
 
     Attributes
@@ -80,10 +70,6 @@ class Evidence(Result):
 
     frames: dict[str, pl.DataFrame] = field(repr=False)
     metadata: dict[str, Any] = field(repr=False)
-
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     def tables(self) -> dict[str, pl.DataFrame]:

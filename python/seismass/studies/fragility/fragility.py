@@ -12,17 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from seismass.base.arguments import as_bootstrap
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import interval_of
-from seismass.base.values import (
-    FloatArray,
-    as_array,
-    as_number,
-    as_positive,
-    brief,
-    content_hash,
-    counted,
-    refusal,
-    same_content,
-)
+from seismass.base.values import FieldValue, FloatArray, as_array, as_number, as_positive, brief, counted, refusal
 from seismass.base.views import Card
 from seismass.studies.fragility.likelihood import Fits, capacity_fits, cloud_fits, probit_fits
 
@@ -124,7 +114,7 @@ _KIND_TEXTS: Final[dict[FragilityKind, str]] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Fragility(Card):
+class Fragility(FieldValue, Card):
     """Probability that a limit is exceeded, by intensity: Phi(ln(x / median) / dispersion).
 
     Attributes
@@ -172,9 +162,6 @@ class Fragility(Card):
     curve: FloatArray = field(repr=False)
     samples: FloatArray = field(repr=False)
     remarks: tuple[str, ...] = field(repr=False)
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
     def probability(self, intensity: ArrayLike) -> FloatArray:
         """Return the probability that the limit is exceeded, in the shape of `intensity`.

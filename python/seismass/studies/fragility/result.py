@@ -14,7 +14,7 @@ from seismass.base.arguments import as_word, is_one_of
 from seismass.base.digest import metadata_head, motion_contents
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import quantile
-from seismass.base.values import FloatArray, as_array, brief, content_hash, counted, refusal, same_content, short_repr
+from seismass.base.values import FieldValue, FloatArray, as_array, brief, counted, refusal
 from seismass.base.views import view
 from seismass.media.result import Result, finite_values
 from seismass.model.plausibility import usage_remarks
@@ -44,8 +44,8 @@ AnalysisMethod = Literal["hunt_fill", "stripes", "cloud"]
 """How intensities were chosen."""
 
 
-@dataclass(frozen=True, eq=False)
-class FragilityAnalysis(Result):
+@dataclass(frozen=True, eq=False, repr=False)
+class FragilityAnalysis(FieldValue, Result):
     """Demand by intensity of several models of a building, and the probability of exceeding limits.
 
     Attributes
@@ -102,10 +102,6 @@ class FragilityAnalysis(Result):
     remarks: tuple[str, ...] = field(repr=False)
     metadata: dict[str, Any] = field(repr=False)
     fits: dict[tuple[str, str], Fragility] = field(repr=False)
-
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     def reference(self) -> str:

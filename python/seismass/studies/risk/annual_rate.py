@@ -15,17 +15,7 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import (
-    FloatArray,
-    as_array,
-    as_flag,
-    as_number,
-    brief,
-    content_hash,
-    refusal,
-    same_content,
-    short_repr,
-)
+from seismass.base.values import FieldValue, FloatArray, as_array, as_flag, as_number, brief, refusal
 from seismass.base.views import Card
 from seismass.media.result import finite_values
 from seismass.studies.risk.hazard import HazardCurve, check_hazard, check_years
@@ -204,8 +194,8 @@ def _log_difference(low: FloatArray, high: FloatArray, log_ndtr: Any) -> FloatAr
         return np.asarray(larger + np.log1p(-np.exp(smaller - larger)))
 
 
-@dataclass(frozen=True, eq=False)
-class AnnualRate(Card):
+@dataclass(frozen=True, eq=False, repr=False)
+class AnnualRate(FieldValue, Card):
     """Annual rate of exceeding a limit, with what the hazard curve leaves out.
 
     Attributes
@@ -238,10 +228,6 @@ class AnnualRate(Card):
     contributions: pl.DataFrame = field(repr=False)
     hazard: HazardCurve = field(repr=False)
     remarks: tuple[str, ...] = field(repr=False)
-
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
 
     def probability(self, years: float = YEARS) -> float:
         """Return the probability of at least one exceedance in so many years, as a Poisson process."""

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from seismass.base.arguments import Progress, ProgressLike, as_bootstrap, as_share, as_threads
 from seismass.base.digest import metadata_head, motion_contents
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import FloatArray, as_array, as_number, brief, content_hash, refusal, same_content, short_repr
+from seismass.base.values import FieldValue, FloatArray, as_array, as_number, brief, refusal
 from seismass.base.views import view
 from seismass.effective_mass.answer import effective_mass
 from seismass.effective_mass.models import (
@@ -62,8 +62,8 @@ SCHEMA_VERSION: Final = 2
 """Version of the tables and of the JSON of a risk-targeted share."""
 
 
-@dataclass(frozen=True, eq=False)
-class RiskTargetedShare(Result):
+@dataclass(frozen=True, eq=False, repr=False)
+class RiskTargetedShare(FieldValue, Result):
     """The share of the live load whose attached model exceeds a drift limit as often as the real building.
 
     Attributes
@@ -141,10 +141,6 @@ class RiskTargetedShare(Result):
     effective: EffectiveMass | None = field(repr=False)
     remarks: tuple[str, ...] = field(repr=False)
     metadata: dict[str, Any] = field(repr=False)
-
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     @view

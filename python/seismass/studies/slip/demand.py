@@ -11,7 +11,7 @@ import polars as pl
 from seismass.base.arguments import Progress, ProgressLike, as_bootstrap
 from seismass.base.digest import metadata_head, motion_contents
 from seismass.base.errors import InvalidOption, InvalidScene
-from seismass.base.values import as_flag, brief, content_hash, refusal, same_content
+from seismass.base.values import FieldValue, as_flag, brief, refusal
 from seismass.base.views import view
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, check_damping
 from seismass.media.result import Result, finite_values
@@ -83,7 +83,7 @@ SCHEMA_VERSION: Final = 2
 
 
 @dataclass(frozen=True, eq=False)
-class SlipDemand(Result):
+class SlipDemand(FieldValue, Result):
     """Slip of the goods of a scene over a suite of motions.
 
     Lengths are in m, accelerations in g where the name says so. Slip is relative to the block's own floor; peaks are
@@ -150,9 +150,6 @@ class SlipDemand(Result):
     confidence: float
     remarks: tuple[str, ...] = field(repr=False)
     metadata: dict[str, Any] = field(repr=False)
-
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     @view

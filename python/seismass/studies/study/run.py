@@ -17,17 +17,7 @@ from seismass.base.arguments import ProgressLike
 from seismass.base.digest import inputs_digest, metadata_head, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
-from seismass.base.values import (
-    FloatArray,
-    as_flag,
-    as_one_of,
-    brief,
-    content_hash,
-    printable,
-    refusal,
-    same_content,
-    short_repr,
-)
+from seismass.base.values import FieldValue, FloatArray, as_flag, as_one_of, brief, printable, refusal
 from seismass.base.views import view
 from seismass.design.scaling import ScalingResult, scale_asce7_10
 from seismass.media.result import Result
@@ -64,8 +54,8 @@ _METHODS: Final = {"ASCE 7-10": "ASCE/SEI 7-10, 16.1.3.1, two-step factors in th
 """Methods of scaling as the metadata name them; others by their own name."""
 
 
-@dataclass(frozen=True, eq=False)
-class StudyResult(Result):
+@dataclass(frozen=True, eq=False, repr=False)
+class StudyResult(FieldValue, Result):
     """Tables of a study; their columns are described in docs/study_schema.md.
 
     Attributes
@@ -96,10 +86,6 @@ class StudyResult(Result):
     spectrum: pl.DataFrame
     scaling: ScalingResult
     metadata: dict[str, Any] = field(repr=False)
-
-    __repr__ = short_repr
-    __eq__ = same_content
-    __hash__ = content_hash
 
     @property
     @view

@@ -15,7 +15,7 @@ const LIMITS = {
   muK: [0, 5, "k", "kinetic friction"],
   intensity: [0.001, 100, "x", "intensity"],
   counted: [0, 1, "c", "share of the code"],
-  thirdSlope: [-0.5, 1, "r3", "third slope"],
+  thirdSlope: [0, 1, "r3", "third slope"],
   floorMass: [0.01, 4, "M", "floor mass over the mean one"],
   stiffness: [0.001, 1000, "K", "storey stiffness over that of the first"],
   pDelta: [0, 1, "P", "P-Delta"],
@@ -125,9 +125,10 @@ function strengthsOf(state, elastic) {
 
 function sceneOf(state, strength) {
   const first = (list) => list.slice(0, state.storeys);
+  const thirdSlope = first(state.thirdSlope).map((slope, i) => Math.min(slope, state.secondSlope[i]));
   return {
     storeys: state.storeys, period: state.period, damping: state.damping, pDelta: state.pDelta, strength,
-    ...Object.fromEntries(LISTS.filter((key) => key !== "strength").map((key) => [key, first(state[key])])),
+    ...Object.fromEntries(LISTS.filter((key) => key !== "strength").map((key) => [key, first(state[key])])), thirdSlope,
   };
 }
 

@@ -319,8 +319,13 @@
     const blocks = scene.massRatio.flatMap((ratio, i) => (ratio > 0 ? [{ floor: i + 1, ratio, muS: scene.muS[i], muK: scene.muK[i] }] : []));
     const run = (share) => {
       const done = kernel.run(scene, share, every);
-      const rows = done.drift.length / scene.storeys;
-      return { ...done, rows, blocks: share === null ? blocks : [] };
+      let rows = done.drift.length / scene.storeys;
+      // Behind a collapse there is nothing.
+      while (rows > 1 && Number.isNaN(done.drift[rows * scene.storeys - 1])) rows -= 1;
+      const own = share === null ? blocks : [];
+      const upTo = (list, columns) => list.subarray(0, rows * columns);
+      const histories = { drift: upTo(done.drift, scene.storeys), slip: upTo(done.slip, own.length), force: upTo(done.force, scene.storeys) };
+      return { ...done, ...histories, rows, blocks: own };
     };
     const real = run(null);
     const [code, full] = blocks.length ? [run(state.counted), run(1)] : [real, real];
@@ -460,6 +465,7 @@
   }
 
   let timer = 0;
+  let isRefused = false; // the case before, by the kernel
   let waiting = false;
   function changed() {
     if (waiting) return;
@@ -475,10 +481,18 @@
     } catch (error) {
       complain(error.message);
       if (error instanceof WebAssembly.RuntimeError) restart();
+      isRefused = solved !== null;
+      // An address of which nothing can be shown leaves the first case.
+      if (!isRefused) {
+        state = defaultCase();
+        changed();
+      }
       return;
     }
+    if (isRefused) complain("");
+    isRefused = false;
     const drift = largest(ratiosOf(solved.real, state));
-    one(".belief").hidden = !(drift > 0.05);
+    one(".belief").hidden = solved.real.end[1] > 0 || !(drift > 0.05);
     one(".belief").textContent = `A drift of ${fixed(100 * drift, 0)} % of the storey height is beyond what buildings survive: the run goes on as if it stood.`;
     number += 1;
     // The effective fraction is of the suite: another record, another model beside leave it as it is.

@@ -9,7 +9,8 @@ function raceOf({ real, entrants, heights, masses, step, counter }) {
   };
   const all = [{ name: "goods slide", share: null, run: real }, ...entrants].map((one) => ({ ...one, largest: largestOf(one.run) }));
   const [own, ...others] = all;
-  const distance = ({ run }) => Math.abs(run.peakDrift[counter] - real.peakDrift[counter]);
+  // What collapses has no drift to compare.
+  const distance = ({ run }) => (real.end[1] > 0 || run.end[1] > 0 ? Infinity : Math.abs(run.peakDrift[counter] - real.peakDrift[counter]));
   const nearest = others.reduce((best, one) => (distance(one) < distance(best) ? one : best));
   let farthest = 1e-9;
   for (const { run } of all) {
@@ -19,7 +20,7 @@ function raceOf({ real, entrants, heights, masses, step, counter }) {
     }
   }
   const most = Math.max(...all.map(({ run }) => run.peakDrift[counter]), 1e-9);
-  return { own, others, nearest, heights, masses, step, counter, farthest, most };
+  return { own, others, nearest: distance(nearest) < Infinity ? nearest : null, heights, masses, step, counter, farthest, most };
 }
 
 function drawRace(context, { left = 0, top = 0, width, height }, race, time, colours) {
@@ -36,7 +37,7 @@ function drawRace(context, { left = 0, top = 0, width, height }, race, time, col
   function frame({ name, share, run, largest }, box) {
     const colour = share === null ? colours.slide : share === 0 ? colours.bare : share === 1 ? colours.attached : colours.code;
     const row = rowOf(run);
-    const isNearest = share === nearest.share;
+    const isNearest = nearest !== null && share === nearest.share;
     const [head, foot, side] = [34, 20, 14];
     const middle = box.left + (box.width - side) / 2;
     context.lineWidth = isNearest ? 3 : 1;
@@ -92,7 +93,8 @@ function drawRace(context, { left = 0, top = 0, width, height }, race, time, col
     context.fillRect(bar - 3, at(reference) - 1, 14, 2);
     const apart = reference > 0 ? Math.round(100 * (largest[row] / reference - 1)) : 0;
     const percent = ((100 * largest[row]) / heights[race.counter]).toFixed(2);
-    words(share === null ? `${percent} % of ${heights[race.counter]} m` : `${apart < 0 ? "\u2212" : apart > 0 ? "+" : ""}${Math.abs(apart)} %`, centre, box.top + box.height - 8, { size: 12, fit: box.width - 10 });
+    const isDown = run.end[1] > 0 && row === run.rows - 1;
+    words(isDown ? `storey ${run.end[1]} collapses` : share === null ? `${percent} % of ${heights[race.counter]} m` : `${apart < 0 ? "\u2212" : apart > 0 ? "+" : ""}${Math.abs(apart)} %`, centre, box.top + box.height - 8, { size: 12, fit: box.width - 10 });
   }
   if (width < 600) {
     frame(own, { left, top, width, height: 0.55 * height });

@@ -42,6 +42,7 @@ function fileWords({ share, low, high, motions, differs }, found, isSame, words)
 
 // Which model of the race comes nearest, under the motion that is shown.
 function raceWords({ own, nearest, counter }, motion) {
+  if (nearest === null) return `Under ${motion} ${own.run.end[1] > 0 ? "the building with the goods as they are" : "each of the models"} collapses: there are no drifts to compare.`;
   const ratio = nearest.run.peakDrift[counter] / own.run.peakDrift[counter];
   return `Under ${motion} the model with ${per100(nearest.share)} of the goods attached (${nearest.name}) comes nearest: its storey ${counter + 1} drifts ${comparedWith(ratio)} that of the building with the goods as they are.`;
 }

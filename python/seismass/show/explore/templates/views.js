@@ -35,11 +35,15 @@ const weightOf = (scene) => GRAVITY * scene.floorMass.reduce((sum, mass) => sum 
 // The run in words, for the live region.
 function runWords({ state, real, code, full }, name) {
   const storey = place(ratiosOf(real, state));
-  const drift = (run) => run.peakDrift[storey];
+  const [end, collapsed] = real.end;
+  const drift = (run) => (run.end[1] > 0 ? `storey ${run.end[1]} collapses` : `${fixed(1000 * run.peakDrift[storey], 1)} mm`);
   const yielding = new Set();
   for (let i = 0; i < real.events.length; i += 4) if (real.events[i + 1] === 0) yielding.add(real.events[i + 2]);
   const parts = [
-    `Under ${name} at intensity ${general(state.intensity, 4)}: largest drift ${fixed(1000 * drift(real), 1)} mm (${fixed((100 * drift(real)) / state.height[storey], 2)} % of the height) in storey ${storey + 1}.`,
+    `Under ${name} at intensity ${general(state.intensity, 4)}: ` +
+      (collapsed > 0
+        ? `storey ${collapsed} collapses at ${fixed(end, 2)} s, where the run ends.`
+        : `largest drift ${drift(real)} (${fixed((100 * real.peakDrift[storey]) / state.height[storey], 2)} % of the height) in storey ${storey + 1}.`),
     yielding.size ? `Storeys that yield: ${listed([...yielding].sort().map(String))}.` : "No storey yields.",
   ];
   if (real.blocks.length) {
@@ -49,7 +53,7 @@ function runWords({ state, real, code, full }, name) {
       slid.length
         ? `Goods slide on ${slid.length === 1 ? "floor" : "floors"} ${listed(slid.map((block) => String(block.floor)))}, at most ${fixed(1000 * real.peakSlip[most], 1)} mm.`
         : "No goods slide.",
-      `With ${fixed(100 * state.counted, 0)} % of the goods attached, as the code's model has, ${fixed(1000 * drift(code), 1)} mm; with all attached ${fixed(1000 * drift(full), 1)} mm.`,
+      `With ${fixed(100 * state.counted, 0)} % of the goods attached, as the code's model has, ${drift(code)}; with all attached ${drift(full)}.`,
     );
   }
   return parts.join(" ");
@@ -78,7 +82,7 @@ function fractionWords(found, rule) {
   return {
     short: `Over the built-in motions ${per100(found.value)} of the goods act as mass, 90 % interval ${per100(found.low)} to ${per100(found.high)}.`,
     long:
-      `Effective fraction ${fixed(found.value, 3)} (90 % interval over the built-in motions ${fixed(found.low, 2)} to ${fixed(found.high, 2)}); ` +
+      `Effective fraction ${fixed(found.value, 3)} (90 % interval over the built-in motions ${fixed(found.low, 2)} to ${fixed(found.high, 2)}). ` +
       `${KIND_WORDS[found.kind].replace(/^./, (letter) => letter.toUpperCase())}. By hand: ${rule.words}.`,
   };
 }
