@@ -421,7 +421,7 @@ def test_motions_like_no_recording_and_one_that_decides_are_doubts() -> None:
     strong = [*FEW[:2], FEW[2].scaled(3.0 / FEW[2].pgv)]
     result = sm.assess(tables(), strong, scale=False, mu_factors=(1, 1), resamples=2)
     assert any(
-        f"1 of 3 scaled motions have a PGV above 2.5 m/s or a factor above 4: motion 3, {FEW[2].name} (PGV 3.00" in d
+        f"1 of 3 scaled motions has a PGV above 2.5 m/s or a factor above 4: motion 3, {FEW[2].name} (PGV 3.00" in d
         for d in result.answer.doubts
     )
     change = (result.left_out["fraction"] - result.effective["real"].value).abs()

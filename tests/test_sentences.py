@@ -247,7 +247,7 @@ def _answer(result: sm.Assessment, sheet: str, page: str, text: str) -> set[str]
 
 def _units(result: sm.Assessment, page: str, text: str) -> None:
     """The units of the file alone, but for weights, which have both once."""
-    own, other = r"\d (?:kN|mm|kPa|t)\b", r"\d (?:kip|psf|in|ft)\b"
+    own, other = r"\d (?:kN|mm|kPa|t|m/s)\b", r"\d (?:kip|psf|in|ft|in/s)\b"
     if result.building.units == "us":
         own, other = other, own
     assert not re.search(other, text.replace("in a ", ""))

@@ -13,7 +13,7 @@ import polars as pl
 from seismass.assessment.building import OwnBuilding
 from seismass.assessment.models import NAMES
 from seismass.assessment.structure import damping_doubts
-from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.units import STANDARD_GRAVITY, UNITS, Units
 from seismass.base.values import FloatArray
 from seismass.effective_mass import EffectiveMass
 from seismass.model.plausibility import usage_remarks
@@ -96,15 +96,22 @@ def building_doubts(building: OwnBuilding, sliding_scene: Scene, target: TargetS
     return tuple(dict.fromkeys(doubts))
 
 
-def motion_doubts(left_out: pl.DataFrame, effective: dict[str, EffectiveMass]) -> tuple[str, ...]:
+def motion_doubts(
+    left_out: pl.DataFrame, effective: dict[str, EffectiveMass], units: Units = UNITS["si"]
+) -> tuple[str, ...]:
     """Return doubts about scaled motions that are like few recordings, and about a share that one motion decides."""
 
     def listed(table: pl.DataFrame) -> str:
-        row = "motion {motion}, {record} (PGV {pgv:.2f} m/s, PGD {pgd:.2f} m, factor {factor:.2f})"
-        return "; ".join(row.format_map(values) for values in table.head(3).to_dicts()) + "; ..." * (table.height > 3)
+        rows = [
+            f"motion {row['motion']}, {row['record']} (PGV {units.text('velocity', row['pgv'])}, PGD "
+            f"{units.text('displacement', row['pgd'])}, factor {row['factor']:.2f})"
+            for row in table.head(3).to_dicts()
+        ]
+        return "; ".join(rows) + "; ..." * (table.height > 3)
 
     far = left_out.filter((pl.col("pgv") > MAX_PGV) | (pl.col("factor") > MAX_FACTOR)).sort("pgv", descending=True)
-    limits = f"have a PGV above {MAX_PGV:g} m/s or a factor above {MAX_FACTOR:g}"
+    has = "has" if far.height == 1 else "have"
+    limits = f"{has} a PGV above {units.text('velocity', MAX_PGV, '.3g')} or a factor above {MAX_FACTOR:g}"
     doubts = [f"{far.height} of {left_out.height} scaled motions {limits}: {listed(far)}"] * (far.height > 0)
     value = max((one.value for one in effective.values()), default=0.0)
     change = (pl.col("fraction") - value).abs()

@@ -208,7 +208,10 @@ def assess(
     period = period_sentences(stated, spectrum, scaled)
     about_motions = {"record": names, "factor": factors}
     left_out = left_out_table(stated, runs, effective, {**about_motions, **ground_peaks(scaled)})
-    doubts = (*doubts_of(stated, sliding_scene, scaled, spectrum, storeys), *motion_doubts(left_out, effective))
+    doubts = (
+        *doubts_of(stated, sliding_scene, scaled, spectrum, storeys),
+        *motion_doubts(left_out, effective, stated.shown),
+    )
     tables = (storeys, governing, runs, left_out, collapses, slip, amounts)
     tipping = tipping_table(stated, sliding_scene, scaled)
 
@@ -280,10 +283,10 @@ def _remedy(
         worst = max(collapses_of(runs).values())
         if few_collapses(worst, len(motions)):
             how = "" if stronger.design is None else f", R = {stronger.design.R:.3g},"
-            return (
-                f"With strengths {factor:g} times as large{how} there is an answer: models collapse under at most "
-                f"{worst} of {len(motions)} motions"
+            fallen = (
+                f"models collapse under at most {worst} of {len(motions)} motions" if worst else "no model collapses"
             )
+            return f"With strengths {factor:g} times as large{how} there is an answer: {fallen}"
     return f"Strengths {tried[-1]:g} times as large give no answer either" if tried else ""
 
 

@@ -33,7 +33,8 @@ _HEIGHT = 4.6
 def slip_demand_figure(result: SlipDemand, name: str | None = None) -> Figure:
     """Return `SlipDemand.plot`."""
     named_figure(result, name)
-    width, panels = 8.4, [["blocks", "acceleration"], *([["fragilities"] * 2] if result.fragilities else [])]
+    width = 8.4
+    panels: list[Any] = [["blocks", "acceleration"], *([["fragilities"] * 2] if result.fragilities else [])]
     figure = Figure(figsize=(width, _HEIGHT * (0.85 * len(panels) + 0.15)), layout="constrained")
     axes = list(figure.subplot_mosaic(panels).values())
     _by_block(axes[0], result)

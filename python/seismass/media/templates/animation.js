@@ -401,7 +401,9 @@
       panels.push({ title, ends: rangeOf(curves), digits: data.known ? 2 : 1, curves, marks: marksOf("yield", data.storey + 1) });
     }
     const reach = (curve) => Math.max(...rangeOf([curve]).map(Math.abs));
-    const hues = [colours.slide, colours.code, colours.attached, colours.ink, colours.yield];
+    // Blocks and levels are shades of the colour of goods that slide: the others are those of models.
+    const shade = (part, other) => `color-mix(in srgb, ${colours.slide} ${part}%, ${other})`;
+    const hues = [colours.slide, shade(55, colours.paper), shade(45, colours.ink), shade(75, colours.ink), shade(35, colours.paper)];
     const mostOf = (all) => {
       const most = all.map((curve) => [reach(curve), curve]).sort(([a], [b]) => b - a).slice(0, mostCurves);
       const curves = all.filter((curve) => most.some(([, other]) => other === curve));
@@ -617,8 +619,11 @@
   (alone ? document : root).addEventListener("keydown", keys);
 
   dark.addEventListener("change", redraw);
+  // On paper stands the instant of the largest drift, unless another one was chosen.
   window.addEventListener("beforeprint", () => {
     isInSight = true;
+    if (time === 0 && data !== null) time = runs[0].largest.indexOf(Math.max(...runs[0].largest)) * data.step;
+    redraw();
     requestAnimationFrame(redraw);
   });
   window.addEventListener("afterprint", redraw);

@@ -11,7 +11,7 @@ from matplotlib import get_data_path
 from PIL import Image, ImageDraw, ImageFont
 
 from seismass.base.values import FloatArray
-from seismass.media.roles import ATTACHED, BARE, CODE, SLIDE, YIELDS, Role
+from seismass.media.roles import ATTACHED, BARE, BLOCK_COLOURS, CODE, SLIDE, YIELDS, Role
 from seismass.model.scene import rack_levels
 from seismass.show.animation.animation import GROUND_HEIGHT, Good, Run, standing_goods
 
@@ -28,7 +28,7 @@ SCENES: Final = 330
 PANEL: Final = 84
 FOOT: Final = 26
 """Sizes (pixels): of a frame, of the pictures of buildings, of each history, of the axis of time."""
-CURVES: Final = (SLIDE.text, CODE.text, ATTACHED.text, INK)
+CURVES: Final = (SLIDE.text, *BLOCK_COLOURS[1:4])
 """Colours of blocks, of floors and of levels, in their order."""
 
 Point: TypeAlias = tuple[float, float]

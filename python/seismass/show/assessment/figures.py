@@ -171,9 +171,8 @@ def drift_figure(result: AssessmentTables, size: Size) -> Figure:
     stacked, count = size.columns == 1, 2 if slips else 1
     figure = Figure(figsize=(size.width, (tall + 0.35) * (count if stacked else 1) + 0.65), layout="constrained")
     figure.set_layout_engine("constrained", rect=(0.0, 0.0, 0.98, 1.0))
-    shape = (count, 1) if stacked else (1, count)
-    ratios = {} if stacked or not slips else {"width_ratios": (1.5, 1.0)}
-    panels = figure.subplots(*shape, sharey=not stacked, squeeze=False, **ratios).flat
+    shape, widths = ((count, 1), None) if stacked else ((1, count), (1.5, 1.0)[:count])
+    panels = list(figure.subplots(*shape, sharey=not stacked, squeeze=False, width_ratios=widths).flat)
     base = slip_of_base(result.runs)
     labels = {} if base is None else {0: "base"}
     labels |= {row.storey: f"{row.storey} {row.name * bool(size.name)}".rstrip() for row in rows}
@@ -220,7 +219,8 @@ def _drift_panel(axes: Axes, result: AssessmentTables, rows: list[StoreyDrifts],
             low, high = (scale * end for end in row.sliding)
             axes.barh(row.storey, max(high - low, 0.004 * right), left=low, height=0.3, **SLIDE.band)
         if row.scatter is not None:
-            axes.hlines(row.storey, *(scale * end for end in row.scatter), color=SLIDE.colour, linewidth=1.0)
+            low, high = (scale * end for end in row.scatter)
+            axes.hlines(row.storey, low, high, color=SLIDE.colour, linewidth=1.0)
         if row.code is not None:
             axes.vlines(scale * row.code, row.storey - 0.3, row.storey + 0.3, color=CODE_ROLE.colour, linewidth=2.2)
         places = [scale * value for value in row.analyses.values()]

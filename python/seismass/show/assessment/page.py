@@ -230,7 +230,8 @@ def _analysis(result: AssessmentTables) -> list[Markup]:
     of_mass, of_weight = ANALYSIS_UNITS[units.name]
     if not any(table["name"]):
         table = table.drop("name")
-    headers, formats = {}, {}
+    headers: dict[str, str] = {}
+    formats: dict[str, str] = {}
     numbers = ("2",) if len(result.called) == 1 else ("1", "2")
     for number, called in zip(numbers, result.called.values(), strict=True):
         names = [f"mass_{number}_{of_mass}", f"weight_{number}_{of_weight}", f"multiplier_{number}"]

@@ -142,9 +142,9 @@ def _verdicts(result: AssessmentTables) -> Markup:
     """Largest value of each check with its limit, and its use in per cent of the limit."""
     units, rows, references = result.units, [], _references(result)
     motions = len(result.document["suite"]["motions"])
-    worst = result.checks.filter(check="collapsed runs").sort("value", descending=True).row(0, named=True)
-    where = _model_words(result, worst["model"]) if worst["value"] else "all models"
-    rows.append(("collapsed runs", f"{worst['value']:.0f} of {motions}", "0", "", where, ""))
+    most = result.checks.filter(check="collapsed runs").sort("value", descending=True).row(0, named=True)
+    where = _model_words(result, most["model"]) if most["value"] else "all models"
+    rows.append(("collapsed runs", f"{most['value']:.0f} of {motions}", "0", "", where, ""))
     for check, words in CHECKS.items():
         worst, why = worst_of(result, check)
         if worst is None:
@@ -165,8 +165,8 @@ def _verdicts(result: AssessmentTables) -> Markup:
         rows.append(("slip, 84 % of the motions", value, limit, "", f"floor {row['floor']}, {NAMES[row['model']]}", ""))
     base = slip_of_base(result.runs)
     if base is not None:
-        most = f"largest {units.text('slip', base['most'])}, {NAMES[base['model']]}"
-        rows.append(("slip of the base, 84 %", units.text("slip", base["p84"]), "", "", most, ""))
+        where = f"largest {units.text('slip', base['most'])}, {NAMES[base['model']]}"
+        rows.append(("slip of the base, 84 %", units.text("slip", base["p84"]), "", "", where, ""))
     names = ("check", "value", "limit", "use", "where", "clause")
     return table_html(
         pl.DataFrame([dict(zip(names, row, strict=True)) for row in rows]),
