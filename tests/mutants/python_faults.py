@@ -47,7 +47,7 @@ FAULTS = [
      "np.where(further, peak, np.minimum(plus, peak))",
      "np.where(further, peak, plus)",
      "test_slip_demand", ""),
-    (111, "slip: demand in g with vertical acceleration downwards", "studies/slip/estimates.py",
+    (111, "slip: demand in g with vertical acceleration downwards", "model/tipping.py",
      "weight = STANDARD_GRAVITY + (np.zeros(1)",
      "weight = STANDARD_GRAVITY - (np.zeros(1)",
      "test_slip_demand", ""),
