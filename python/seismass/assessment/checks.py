@@ -253,7 +253,7 @@ def _governing(drifts: dict[str, float], words: dict[str, str], called: dict[str
     model = max((name for name in ANALYSES if name in drifts), key=lambda name: drifts[name])
     largest = max(drifts, key=lambda name: drifts[name])
     if round(scale * drifts[largest], DIGITS) == round(scale * drifts[model], DIGITS):
-        return {"governing": drifts[model], "governed_by": called[model]}
+        return {"governing": drifts[largest], "governed_by": called[model]}
     return {"governing": drifts[largest], "governed_by": f"goods slide, {words[largest]}"}
 
 

@@ -270,12 +270,15 @@ def _label_marks(axes: Axes, rows: list[StoreyDrifts], scale: float, near: float
         marks = (*row.analyses.values(), *ends, place, *(row.scatter or ()))
         middle = scale * (place if role is CODE_ROLE else 0.5 * sum(ends))
         crowded = scale * room < 2.0 * near
+        beside, ha = scale * max(marks) + 0.6 * near, "left"
+        if beside > axes.get_xlim()[1] - near:  # no room at the right
+            beside, ha = scale * min(marks) - 0.6 * near, "right"
         axes.text(
-            scale * max(marks) + 0.6 * near if crowded else max(middle, 0.5 * near),
+            beside if crowded else max(middle, 0.5 * near),
             row.storey + (0.5 * shift if crowded else shift),
             role.name,
             va=("top" if shift < 0.0 else "bottom") if crowded else side,
-            ha="left" if crowded else "center",
+            ha=ha if crowded else "center",
             color=role.text,
             fontsize=7.5,
         )
