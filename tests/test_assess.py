@@ -15,6 +15,7 @@ import seismass as sm
 from seismass.assessment.answer import rounded_up
 from seismass.assessment.building_file import example_file
 from seismass.assessment.checks import collapses_allowed, drift_statistics
+from seismass.assessment.doubts import building_doubts
 from seismass.assessment.models import with_mass
 from seismass.assessment.structure import force_ratios
 from seismass.cli import main
@@ -296,6 +297,25 @@ def test_results_do_not_depend_on_threads_and_progress_ends() -> None:
     # frictions and 21 shares, under three motions.
     assert calls[-1] == ((7 + 3 + 21 + 42 + 24) * 3, (7 + 3 + 21 + 42 + 24) * 3)
     assert [done for done, _ in calls] == sorted(done for done, _ in calls)
+
+
+@pytest.mark.parametrize("limit", [0.004, 0.02, 0.025, 0.03, 0.04, None])
+@pytest.mark.parametrize("category", ["II", "IV", None])
+@pytest.mark.parametrize(
+    ("code", "scaling"), [("asce7-10", None), ("asce7-16", None), ("asce7-22", None), ("ec8", "asce7-16")]
+)
+def test_a_limit_of_the_design_level_is_doubted_at_the_mce(
+    limit: float | None, category: str | None, code: str, scaling: str | None
+) -> None:
+    """Table 12.12-1: 0.020 in categories I and II, 0.010 in IV, twice that at MCE_R by 16.4.1.2."""
+    building = {"drift_limit": limit, "risk_category": category if code != "ec8" else None}
+    own = sm.read_building(tables(building=building, code={"id": code, "scaling": scaling}))
+    said = [text for text in building_doubts(own, own.scene(), own.target) if "is one of the design level" in text]
+    most = 0.010 if building["risk_category"] == "IV" else 0.020
+    at_mce = "asce7-10" not in (code, scaling)
+    assert len(said) == (limit is not None and at_mce and limit <= most)
+    if said:
+        assert f"is {2 * limit:g} meant?" in said[0]
 
 
 def test_what_is_unlikely_is_remarked_on() -> None:

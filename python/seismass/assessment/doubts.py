@@ -15,6 +15,8 @@ from seismass.assessment.models import NAMES
 from seismass.assessment.structure import damping_doubts
 from seismass.base.units import STANDARD_GRAVITY, UNITS, Units
 from seismass.base.values import FloatArray
+from seismass.design import drift_limit
+from seismass.design.rules import CATEGORIES, rule_of
 from seismass.effective_mass import EffectiveMass
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
@@ -200,7 +202,23 @@ def _limit_doubts(building: OwnBuilding) -> list[str]:
         for name, value, largest, source in limits
         if value is not None and value > largest
     ]
-    return [*doubts, *[below] * (building.drift_cap <= building.drift_limit)]
+    return [*doubts, *[below] * (building.drift_cap <= building.drift_limit), *_level_doubts(building)]
+
+
+def _level_doubts(building: OwnBuilding) -> list[str]:
+    """A stated drift limit of the design level under motions of the MCE, where the code's own limit is larger."""
+    factor, level = (rule_of(building.scaling_code, name) for name in ("drift factor", "level"))
+    if building.drift_limit_rule is not None or factor is None or level is None or level.number == 1.0:
+        return []
+    category = building.risk_category if building.risk_category in CATEGORIES else "II"
+    row = drift_limit(building.scaling_code, category)
+    if building.drift_limit > row.ratio:
+        return []
+    return [
+        f"the drift limit, {building.drift_limit:g}, is one of the design level, and motions are at {level.number:g} "
+        f"times the design spectrum, where {row.code} takes {factor.number:g} times the ratio of its table "
+        f"({factor.clause}, {factor.status}): is {factor.number * building.drift_limit:g} meant?"
+    ]
 
 
 def _size_doubts(building: OwnBuilding) -> list[str]:
