@@ -270,11 +270,11 @@ def _label_marks(axes: Axes, rows: list[StoreyDrifts], scale: float, near: float
         marks = (*row.analyses.values(), *ends, place, *(row.scatter or ()))
         middle = scale * (place if role is CODE_ROLE else 0.5 * sum(ends))
         crowded = scale * room < 2.0 * near
-        beside, ha = scale * max(marks) + 0.6 * near, "left"
-        if beside > axes.get_xlim()[1] - near:  # no room at the right
-            beside, ha = scale * min(marks) - 0.6 * near, "right"
+        edge, ha = scale * max(marks) + 0.6 * near, "left"
+        if edge > axes.get_xlim()[1] - 2.5 * near:  # no room at the right
+            edge, ha = scale * min(marks) - 0.6 * near, "right"
         axes.text(
-            beside if crowded else max(middle, 0.5 * near),
+            edge if crowded else max(middle, 0.5 * near),
             row.storey + (0.5 * shift if crowded else shift),
             role.name,
             va=("top" if shift < 0.0 else "bottom") if crowded else side,
