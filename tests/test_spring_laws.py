@@ -120,7 +120,7 @@ BUILDINGS: list[tuple[dict[str, Any], str]] = [
         {"backbone": POINTS, "hysteresis": "peak-oriented"},
         "hysteresis of building must be left out where",
     ),
-    ({"hysteresis": "takeda"}, "hysteresis of building must be masing or peak-oriented or flag-shaped; got"),
+    ({"hysteresis": "takeda"}, "hysteresis of building must be one of masing, peak-oriented, flag-shaped; got"),
     ({"hysteresis": ["masing"] * 2, "mass": [1.0] * 3}, "hysteresis of building must be one name or a list of 3"),
     ({"third_slope": -0.1}, "third_slope of storey 1 must be between 0 and the second slope 0.05; got -0.1"),
     ({**PEAK, "third_slope": -1.1}, "third_slope of storey 1 must be between -1 and the second slope 0; got -1.1"),
