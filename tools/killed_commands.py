@@ -105,13 +105,18 @@ def state(path: Path) -> str:
 
 def started(words: tuple[str, ...], place: Path, most: int | None = None) -> subprocess.Popen[bytes]:
     """Start a command in a folder; no file may be larger than `most` bytes."""
-    limit = (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))) if most is not None else None
+
+    def before() -> None:
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)  # nohup has it ignored
+        if most is not None:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
+
     return subprocess.Popen(
         [sys.executable, "-W", "ignore", "-c", PROGRAM, *words],
         cwd=place,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
-        preexec_fn=limit,
+        preexec_fn=before,
     )
 
 

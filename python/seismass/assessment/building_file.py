@@ -331,11 +331,11 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
             _known(kind, "storeys.goods", units)
         if kinds_of_storey:
             storey.values["goods"] = [kind.values for kind in kinds_of_storey]
-    sources = sources_of(top.values)
-    is_us = units == US or (not units and any(row.us and row.us in text for _, text in sources for row in UNIT_KEYS))
     building, goods_table, site, code, walls, base, project = (
         _table(top, key, units) for key in ("building", "goods", "site", "code", "walls", "base", "project")
     )
+    sources = sources_of(top.values)
+    is_us = units == US or (not units and any(row.us and row.us in text for _, text in sources for row in UNIT_KEYS))
     _unique(building, goods_table, storeys)
     frame = np.array([_mass(storey, building) for storey in storeys])
     heights = _heights(storeys, building)

@@ -55,6 +55,8 @@ def assessment_text(result: Assessment) -> str:
     if building.note:
         lines.append(f"  {building.note}")
     lines += ["", *_answer(result), "", *storey_bars(result), "", *_drifts(result)]
+    if result.slip.height and (result.slip.group_by("model", "floor").len()["len"] > 1).any():
+        lines += ["", *_slips(result)]
     if result.answer.analyses:
         lines += ["", *_analysis(result)]
     lines += ["", *_design(result)]
@@ -226,9 +228,24 @@ def _marked(mean: float, over_limit: float | None, scale: float) -> str:
     return f"{scale * mean:.2f}" + ("*" if over_limit is not None and over_limit > 1.0 else "")
 
 
+def _slips(result: Assessment) -> list[str]:
+    """Slip of each kind of goods, where a floor has several."""
+    units, motions = result.building.shown, len(result.suite["motions"])
+    rows = [["floor and goods", "mu_s/mu_k", "slides in", "median", "84 %", "largest"]]
+    for row in result.slip.filter(pl.col("model").is_in([SLIDING, SLIDING_LOW])).iter_rows(named=True):
+        values = (units.text("slip", row[name]) for name in ("peak_median", "peak_p84", "peak_max"))
+        name = " ".join(part for part in (str(row["floor"]), row["name"], row["goods"]) if part)
+        friction = f"{row['mu_s']:.3g}/{row['mu_k']:.3g}"
+        rows.append([name[:LONGEST_NAME], friction, f"{row['motions_that_slide']} of {motions}", *values])
+    return ["Slip of each kind of goods, friction as stated and at its lower bound", *text_table(rows)]
+
+
 def _analysis(result: Assessment) -> list[str]:
     """What to type into another program, floor by floor."""
-    lines = ["For another program: mass of each floor, and multiplier of the design live load in the mass source"]
+    lines = [
+        "For another program: mass of each floor, and multiplier of the design live load in the mass source",
+        "  (--mass-source FILE.e2k or FILE.s2k writes both for ETABS or SAP2000)",
+    ]
     units = result.building.shown
     mass, force = units.unit("mass"), units.unit("force")
     head = [f"analysis 1: {mass}", force, "multiplier", f"analysis 2: {mass}", force, "multiplier"]
