@@ -1,7 +1,4 @@
-//! The block as a state machine, and the decision of a floor: which blocks stick (`numerics`, section 2).
-//!
-//! The mass matrix is diagonal, so a floor's acceleration depends on the rest of the building only through drifts and
-//! velocities, which are continuous: each floor decides alone.
+//! The block as a state machine: sticking, sliding, lifted (`numerics`, section 2).
 
 use crate::machines::sign::Sign;
 use crate::scene::{Block, Wear};

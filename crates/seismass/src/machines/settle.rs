@@ -1,4 +1,8 @@
-//! Who moves: what a floor asks of the blocks on it at an instant, and what becomes of them.
+//! The decision of a floor at an instant, which of its blocks stick and which slide (`numerics`, section 2), and what
+//! becomes of them.
+//!
+//! The mass matrix is diagonal, so a floor's acceleration depends on the rest of the building only through drifts and
+//! velocities, which are continuous: each floor decides alone.
 
 use crate::machines::block::{BlockLaw, BlockMotion, BlockState};
 use crate::machines::sign::Sign;
