@@ -129,7 +129,7 @@ def test_shares_are_told_of_the_goods_present_and_of_the_design_load(unequal: sm
     # Means of static and kinetic friction, by the masses present.
     of_floors = [0.59 * 0.88 * 0.256 + 0.41 * 0.55 * 0.2035, 0.71 * 0.2665, 0.43 * 0.2655]
     assert real.by_hand.friction == pytest.approx(np.array(of_floors) @ loads / (present @ loads), rel=1e-12)
-    assert f"mu = (mu_s + mu_k)/2 = {unequal.effective[deciding(unequal.effective)].by_hand.friction:.3g}" in text
+    assert f"(mu_s + mu_k)/2 = {unequal.effective[deciding(unequal.effective)].by_hand.friction:.3g}" in text
 
 
 def test_sentences_name_the_storey_and_the_friction_of_the_largest_ratio(unequal: sm.Assessment) -> None:

@@ -168,8 +168,9 @@ class ByHand:
         """The rule in letters and numbers, in one sentence, in SI units."""
         return self.words_in(UNITS["si"])
 
-    def words_in(self, units: Units) -> str:
-        """Return the rule in letters and numbers, in one sentence, in a system of units."""
+    def words_in(self, units: Units, factor: float = 1.0) -> str:
+        """Return the rule in letters and numbers, in a system of units; `factor` is that of the stated friction."""
+        friction = f"{factor:g} " * (factor != 1.0) + "(mu_s + mu_k)/2"
         if not np.isfinite(self.friction):
             return "1, as all goods are fixed"
         source = "target spectrum" if self.of_target else "mean spectrum of the motions"
@@ -181,7 +182,7 @@ class ByHand:
             strength = f"R_y = S_a W_g/V_y = {self.yield_reduction:.2f}, W_g = {weight}, V_y = {force}"
         why = f"; - {SMALL_OFFSET:.2f}: {', '.join(self.exceptions)}" if self.exceptions else ""
         return (
-            f"{self.formula} = {self.estimate:.2f}; mu = (mu_s + mu_k)/2 = {self.friction:.3g}, C1 = S_a/R_y^(2/3) = "
+            f"{self.formula} = {self.estimate:.2f}; mu = {friction} = {self.friction:.3g}, C1 = S_a/R_y^(2/3) = "
             f"{self.coefficient:.3f}, S_a = {self.spectral_acceleration_g:.3f} g at {self.period:.3f} s ({source}), "
             f"{strength}{why}"
         )

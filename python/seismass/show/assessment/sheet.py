@@ -290,7 +290,7 @@ def _by_hand(result: AssessmentTables) -> str:
     factor = dict(zip(SLIDING_ALL, (1.0, *result.mu_factors), strict=True))[decisive]
     where = "mu as stated" if decisive == SLIDING else f"mu x {factor:g}"
     runs = f" The runs give {one.value:.2f}." if result.answer is not None else " The runs give no answer."
-    return f"lambda = {one.by_hand.words_in(result.units)} ({where}).{runs}"
+    return f"At {where} lambda = {one.by_hand.words_in(result.units, factor)}.{runs}"
 
 
 def box_class(result: AssessmentTables) -> str:

@@ -15,7 +15,7 @@ import polars as pl
 
 from seismass.assessment.answer import analysis_table, deciding
 from seismass.assessment.checks import friction_words
-from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
+from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW, friction_factors
 from seismass.assessment.result import Assessment
 from seismass.base.errors import InvalidOption
 from seismass.base.folders import check_out, write_folder
@@ -119,9 +119,9 @@ def _by_hand(result: Assessment) -> str:
     """The rule at the friction that decides, and at the others."""
     decisive, words = deciding(result.effective), friction_words(result.building)
     others = (f"{words[name]} {one.by_hand.estimate:.2f}" for name, one in result.effective.items() if name != decisive)
-    rest = ", ".join(others)
+    rest, factor = ", ".join(others), friction_factors(result.building)[decisive]
     return (
-        f"{words[decisive]}: {result.effective[decisive].by_hand.words_in(result.building.shown)}"
+        f"{words[decisive]}: {result.effective[decisive].by_hand.words_in(result.building.shown, factor)}"
         + f"; with {rest}" * bool(rest)
     )
 
