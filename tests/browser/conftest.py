@@ -24,6 +24,9 @@ WIDTHS = (360, 1280)
 PRINTED = 680
 """Width of the text on A4 with margins of 15 mm, the narrower of the two sizes (CSS pixels)."""
 SCHEMES = ("light", "dark")
+AXE_RUN = """() => axe.run(document).then((found) => found.violations.flatMap((rule) =>
+    rule.nodes.map((node) => `${rule.id}: ${node.target} ${node.html.slice(0, 120)}`)))"""
+"""What axe-core finds wrong, a line for each place."""
 
 
 @pytest.fixture(scope="package")
@@ -68,8 +71,15 @@ def open_page(browser: Browser, tmp_path: Path) -> Callable[..., Any]:
     return opened
 
 
+@pytest.fixture(scope="package")
+def axe() -> str:
+    """The source of axe-core, the rules of accessibility by Deque."""
+    package = pytest.importorskip("axe_playwright_python", reason="axe-playwright-python is not installed")
+    return (Path(package.__file__).parent / "axe.min.js").read_text(encoding="utf-8")
+
+
 @pytest.fixture
-def look(open_page: Callable[..., Any]) -> Callable[..., None]:
+def look(open_page: Callable[..., Any], axe: str) -> Callable[..., None]:
     """Return what looks at a page as every page is looked at: `look(html, name)`, at all widths and in both schemes.
 
     `prepare` is called with the page before it is looked at.
@@ -84,9 +94,12 @@ def look(open_page: Callable[..., Any]) -> Callable[..., None]:
                     prepare(page)
                     page.screenshot(path=SCREENSHOTS / f"{name}-{width}-{scheme}.png", full_page=True)
                     found = page.evaluate(CHECKS)
+                    page.evaluate(axe)
+                    violations = page.evaluate(AXE_RUN)
                 where = f"{name} at {width} px, {scheme}"
                 assert found["problems"] == [], where
                 assert found["texts"] > 10, where  # the checks had something to look at
+                assert violations == [], where
         with open_page(html, name, width=PRINTED) as page:
             prepare(page)
             page.emulate_media(media="print", color_scheme="light")

@@ -201,7 +201,11 @@ def _drifts(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     row = result.governing.sort("governing", descending=True).row(0, named=True)
     note = f"The largest is {scale * row['governing']:.2f} {unit}, storey {row['storey']}, {row['governed_by']}."
     return [
-        *(storeys_html(result, len(result.storey_names)) if result.answer is not None else []),
+        *(
+            storeys_html(result, len(result.storey_names), "Every storey, and what governs it")
+            if result.answer is not None
+            else []
+        ),
         pictures.figure(
             "drift",
             "What each storey uses of its drift limit, ground at the bottom: analyses by their numbers, goods that "

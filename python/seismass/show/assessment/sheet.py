@@ -206,12 +206,12 @@ def _model_words(result: AssessmentTables, model: str) -> str:
     return result.called.get(model, NAMES[model])
 
 
-def storeys_html(result: AssessmentTables, most: int) -> list[Markup]:
+def storeys_html(result: AssessmentTables, most: int, title: str = "What governs each storey") -> list[Markup]:
     """Return what governs storeys and what they use of the limit, of a tall building those `most` that drift most."""
     table = result.governing
     ratio = result.drift_limit is not None
     scale, unit = result.units.drifts(ratio=ratio)
-    caption = "What governs each storey: capped mean drift"
+    caption = f"{title}: capped mean drift"
     if table.height > most:
         table = table.sort("governing", descending=True).head(most).sort("storey")
         caption = f"The {most} storeys that drift most, the others behind: capped mean drift"
