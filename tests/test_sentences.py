@@ -331,3 +331,15 @@ def test_order_of_places_is_that_of_drifts() -> None:
     assert numbers == sorted(numbers, reverse=True)
     assert len(numbers) == 12
     assert all(one > other for one, other in pairwise(numbers))
+
+
+@pytest.mark.parametrize("rule", ["asce7-10", "asce7-16", "ec8", "nzs1170.5"])
+def test_the_sheet_names_the_rule_that_scaled_the_motions(rule: str) -> None:
+    """Not one rule's words for all: Eurocode 8 asks for 0.9 of the target, NZS for two factors."""
+    tables = {**TWO_STOREYS, "code": {**TWO_STOREYS.get("code", {}), "scaling": rule}}
+    result = sm.assess(tables, sm.builtin_suite("eleven"), resamples=2)
+    (line,) = (line for line in result.assumptions if line.startswith("Scaling: "))
+    text = plain(str(sheet_html(assessment_tables(result))))
+    assert plain(lettered(f"2 Motions: {line.removeprefix('Scaling: ')}")) in text
+    words = {"ec8": "0.9 of the target", "nzs1170.5": "k_1 of each record and k_2 of the family"}
+    assert words.get(rule, "mean not below") in text

@@ -120,7 +120,7 @@ def supports_of(building: Any) -> set[str]:
 
 def check(of: SimpleNamespace) -> str:
     """Compare a statement with its numbers, each computed again here; return the kind of its second sentence."""
-    said, words = of.statement, friction_words(of.building)
+    said, words = of.statement, friction_words(of.building.mu_factors)
     assert said.endswith(".")
     mean = {model: rows["mean"].to_numpy() for (model,), rows in of.storeys.group_by("model", maintain_order=True)}
     # No pair covers: first, and with what the building has.

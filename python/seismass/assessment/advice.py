@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import polars as pl
@@ -27,6 +27,9 @@ from seismass.model.codes import AS_STATED, CODE_NAMES, NOT_CHECKED, STORED, VER
 from seismass.model.friction import BOUND_FACTORS, BOUNDS_SOURCE, friction_pair
 from seismass.model.occupancy import USUAL, surveyed_load
 from seismass.motions.spectra import TargetSpectrum
+
+SCALING: Final = "Scaling: "
+"""How the sentence on the rule of scaling begins."""
 
 
 def code_mass_remarks(building: OwnBuilding) -> list[str]:
@@ -206,7 +209,7 @@ def _envelope(building: OwnBuilding, storeys: pl.DataFrame, sliding: Sequence[st
     covers = "covers every storey here" if ratio <= SHORT else "does not cover every storey"
     return (
         f"Analysis 1 alone {covers}: with sliding goods storey {storey} drifts {ratio:.2f} times its own "
-        f"({friction_words(building)[case]})."
+        f"({friction_words(building.mu_factors)[case]})."
     )
 
 
@@ -241,8 +244,8 @@ def _checks(building: OwnBuilding, storeys: pl.DataFrame, models: Any) -> list[s
 def _against_code(building: OwnBuilding, storeys: pl.DataFrame, sliding: Sequence[str]) -> str:
     ratio, storey, case = _largest_ratio(storeys, sliding, CODE)
     return (
-        f"With sliding goods ({friction_words(building)[case]}) storey {storey} drifts {ratio:.2f} times the model "
-        f"with the code's {building.code_share:.3g} of the design live load, more than any other storey does."
+        f"With sliding goods ({friction_words(building.mu_factors)[case]}) storey {storey} drifts {ratio:.2f} times "
+        f"the model with the code's {building.code_share:.3g} of the design live load, more than any other storey does."
     )
 
 
@@ -351,7 +354,7 @@ def _motion_remarks(
     which = f"first period{direction} with the goods present attached" if fits else "as asked for"
     return [
         *lines,
-        f"Scaling: {_rule_of_scaling(building, pairs=suite['pairs'])} from {shortest:.3g} to {longest:.3g} s, for T = "
+        f"{SCALING}{_rule_of_scaling(building, pairs=suite['pairs'])} from {shortest:.3g} to {longest:.3g} s, for T = "
         f"{period:.3g} s ({which}).",
         *(f"Scaling, note: {note}." for note in scaling.notes),
     ]

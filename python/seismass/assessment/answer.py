@@ -6,7 +6,7 @@ Text, page and JSON say what stands here, and nothing else beside it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -215,7 +215,7 @@ def answer_of(
         goods=(presence_sentence(building), *(amount.words for amount in amounts), *of_tipping),
         tipping=tipping[1],
         amounts=amounts,
-        why=_why(advised, effective, friction_words(building)),
+        why=_why(advised, effective, friction_words(building.mu_factors)),
         sensitivity=(*_left_out(building, left_out), *_at_other_caps(building, advised, effective, runs)),
         design=_design(building, advised, design),
         motions=on,
@@ -242,7 +242,7 @@ def rounded_up(value: float) -> float:
     return rounded if value > 1.0 else min(1.0, rounded)
 
 
-def deciding(effective: dict[str, EffectiveMass]) -> str:
+def deciding(effective: Mapping[str, Any]) -> str:
     """Return the friction whose fraction is the largest; the stated one, where several are."""
     return max(effective, key=lambda name: effective[name].value)
 
@@ -272,7 +272,7 @@ def _reason(
     building: OwnBuilding, effective: dict[str, EffectiveMass], collapses: dict[str, int], motions: int
 ) -> str | None:
     """Why there is no answer: what collapses, the building first, then the analyses."""
-    words = friction_words(building)
+    words = friction_words(building.mu_factors)
     fallen = {name: collapses[name] for name in SLIDING_ALL if not few_collapses(collapses.get(name, 0), motions)}
     if fallen:
         worst = max(fallen, key=lambda name: fallen[name])

@@ -33,7 +33,7 @@ from seismass.design import (
     response_spectrum_analysis,
     vibration_modes,
 )
-from seismass.design.rules import RULES, rule_of
+from seismass.design.rules import RULES, CodeRule, rule_of
 from seismass.design.scaling.by_code import SCALING_CODES
 from seismass.model.block import Block, SlidingBase
 from seismass.model.building import DEFAULT_DAMPING, Building
@@ -564,10 +564,16 @@ class OwnBuilding(FieldValue, Card):
         )
 
 
+def level_factor(code_id: str, scaling: str) -> CodeRule | None:
+    """Return the rule of a code by which its drift limit grows with the level of a rule of scaling: at MCE_R."""
+    level = rule_of(scaling, "level")
+    return None if level is None or level.number == 1.0 else rule_of(code_id, "drift factor")
+
+
 def limit_at_level(row: DriftLimit, scaling: str) -> float:
     """Return the limit of the drift ratio of a code at the level of a rule of scaling: of ASCE 7 twice it at MCE_R."""
-    factor, level = rule_of(row.code_id, "drift factor"), rule_of(scaling, "level")
-    return row.ratio if factor is None or level is None or level.number == 1.0 else factor.number * row.ratio
+    factor = level_factor(row.code_id, scaling)
+    return row.ratio if factor is None else factor.number * row.ratio
 
 
 def with_code(building: OwnBuilding, code: CodeFraction) -> OwnBuilding:

@@ -212,9 +212,9 @@ DIGITS: Final = 2
 """Decimals of a drift (%, or mm) that are printed; drifts with equal ones are one, as of goods that hardly slide."""
 
 
-def friction_words(building: OwnBuilding) -> dict[str, str]:
+def friction_words(mu_factors: tuple[float, float]) -> dict[str, str]:
     """Return the friction of each model with sliding goods in words, "mu as stated" first."""
-    low, high = building.mu_factors
+    low, high = mu_factors
     return {SLIDING: "mu as stated", SLIDING_HIGH: f"mu x {high:g}", SLIDING_LOW: f"mu x {low:g}"}
 
 
@@ -222,7 +222,7 @@ def governing_table(building: OwnBuilding, storeys: pl.DataFrame) -> pl.DataFram
     """Return one row per storey: capped mean drifts of both analyses and of the goods that slide, which governs, its
     limit and the ratio to it.
     """
-    words = friction_words(building)
+    words = friction_words(building.mu_factors)
     known = storeys["model"].unique(maintain_order=True).to_list()
     both = [storeys.filter(model=name)["mean"].to_list() for name in ANALYSES]
     called = ONE_ANALYSIS if both[0] in (both[1], []) else ANALYSES

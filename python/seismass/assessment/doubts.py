@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 import polars as pl
 
-from seismass.assessment.building import OwnBuilding
+from seismass.assessment.building import OwnBuilding, level_factor
 from seismass.assessment.models import NAMES
 from seismass.assessment.structure import damping_doubts
 from seismass.base.units import STANDARD_GRAVITY, UNITS, Units
@@ -207,8 +207,8 @@ def _limit_doubts(building: OwnBuilding) -> list[str]:
 
 def _level_doubts(building: OwnBuilding) -> list[str]:
     """A stated drift limit of the design level under motions of the MCE, where the code's own limit is larger."""
-    factor, level = (rule_of(building.scaling_code, name) for name in ("drift factor", "level"))
-    if building.drift_limit_rule is not None or factor is None or level is None or level.number == 1.0:
+    factor, level = level_factor(building.scaling_code, building.scaling_code), rule_of(building.scaling_code, "level")
+    if building.drift_limit_rule is not None or factor is None or level is None:
         return []
     category = building.risk_category if building.risk_category in CATEGORIES else "II"
     row = drift_limit(building.scaling_code, category)

@@ -100,7 +100,7 @@ def tipping_sentences(building: OwnBuilding, table: pl.DataFrame) -> tuple[str, 
     they lift off and may fall, and how many of such blocks fall.
     """
     sentences = []
-    words = friction_words(building)
+    words = friction_words(building.mu_factors)
     keys = ("ratio", "height", "mu_s", "model", *BOUNDS)
     for _, rows in table.group_by(keys, maintain_order=True):
         row = rows.row(0, named=True)

@@ -132,7 +132,7 @@ def statement_of(
     what governs, and of slips; the first of `amounts` is that of the assessment; `tipping` is that of goods that tip.
     """
     (storeys, governing, slip), (first, *others) = tables, amounts
-    words = {name: text for name, text in friction_words(building).items() if name in collapses}
+    words = {name: text for name, text in friction_words(building.mu_factors).items() if name in collapses}
     change = largest_change(storeys, (*words, ATTACHED, BARE))
     if change is not None and change <= NO_MATTER:
         most = f"{100.0 * max(change, 1e-4):.2g} %, whether none or all of the goods act as mass"
@@ -156,7 +156,7 @@ def collapsing(building: OwnBuilding, collapses: dict[str, int], motions: int, *
     the `single` analysis.
     """
     called = {BARE: "the building"}
-    words = {name: where for name, where in friction_words(building).items() if name in collapses}
+    words = {name: where for name, where in friction_words(building.mu_factors).items() if name in collapses}
     if words:
         worst = max(words, key=lambda name: collapses[name])
         called = {worst: f"the building with goods that slide ({words[worst]})", **ANALYSES}

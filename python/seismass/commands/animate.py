@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -48,7 +49,6 @@ def run(args: argparse.Namespace) -> int:
     """Write the animation; return the exit code."""
     from seismass.runs.peak_digits import digits_remarks
     from seismass.runs.scene_file import example_scene
-    from seismass.runs.simulate import simulate
     from seismass.show.animation import Animation, PlaneAnimation, animate, animate_plane
 
     if args.code_share is not None and (args.code is not None or args.use is not None):
@@ -57,18 +57,20 @@ def run(args: argparse.Namespace) -> int:
     shown_of = _of_building if is_building_file(scene) else _of_scene
     target = args.out or Path(scene.name).with_suffix(".html")
     shown = shown_of(args, scene)
-    chaotic = digits_remarks(simulate(shown.scene, shown.motion, events=False))
-    for remark in (*shown.remarks, *chaotic):
+    for remark in shown.remarks:
         print(f"seismass: {remark}", file=sys.stderr)
-    note = "; ".join(part for part in (shown.note, *chaotic) if part)
     options = shown.options | arguments(args, "code", "use", fraction="code_share")
     animation: Animation | PlaneAnimation
     if shown.scene.engine == "plane":
         refuse_options(args, ("code", "use", "code_share"), "animate", "in two directions, where no model is shown")
         target = args.out or target.with_suffix(".gif")  # there is no page of it
-        animation = animate_plane(shown.scene, shown.motion, title=shown.title, note=note)
+        animation = animate_plane(shown.scene, shown.motion, title=shown.title, note=shown.note)
     else:
-        animation = animate(shown.scene, shown.motion, title=shown.title, note=note, **options)
+        animation = animate(shown.scene, shown.motion, title=shown.title, note=shown.note, **options)
+    chaotic = digits_remarks(animation.response)
+    for remark in chaotic:
+        print(f"seismass: {remark}", file=sys.stderr)
+    animation = replace(animation, note="; ".join(part for part in (shown.note, *chaotic) if part))
     animation.write(target, frames_per_second=args.fps, speed=args.speed)
     show("\n".join([*shown.about_motion, *animation.sentences]))
     show(f"{target}: {target.stat().st_size / 1e3:.0f} kB")

@@ -219,6 +219,11 @@ class Animation(FieldValue):
     shown: Shown
 
     @property
+    def response(self) -> Response:
+        """The run of the real building."""
+        return self.shown.runs[0].response
+
+    @property
     def sentences(self) -> tuple[str, ...]:
         """What happens, a sentence for each run."""
         return self.shown.sentences

@@ -30,7 +30,7 @@ from seismass.media.page import (
 from seismass.media.roles import EFFECTIVE, LAMBDA, MU, OMEGA, OVER_MODEL, lettered, sentence_html
 from seismass.media.text_table import number_text
 from seismass.show.assessment.page_input import Pictures, in_motion_html, input_html, motions_html, names_of
-from seismass.show.assessment.sheet import NOT_COVERED, running, sheet_html, storeys_html
+from seismass.show.assessment.sheet import MOST_STOREYS, NOT_COVERED, running, sheet_html, storeys_html
 from seismass.show.assessment.tables import (
     ANIMATION,
     DOCUMENT,
@@ -200,12 +200,9 @@ def _drifts(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
         headers |= {"motions_above_limit": "motions above the limit", "theta": "stability coefficient"}
     row = result.governing.sort("governing", descending=True).row(0, named=True)
     note = f"The largest is {scale * row['governing']:.2f} {unit}, storey {row['storey']}, {row['governed_by']}."
+    is_tall = len(result.storey_names) > MOST_STOREYS  # the first sheet has not all of them
     return [
-        *(
-            storeys_html(result, len(result.storey_names), "Every storey, and what governs it")
-            if result.answer is not None
-            else []
-        ),
+        *(storeys_html(result, len(result.storey_names)) if is_tall and result.answer is not None else []),
         pictures.figure(
             "drift",
             "What each storey uses of its drift limit, ground at the bottom: analyses by their numbers, goods that "

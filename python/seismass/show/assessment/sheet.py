@@ -8,9 +8,10 @@ from typing import Any, Final
 import polars as pl
 from markupsafe import Markup
 
-from seismass.assessment.advice import slip_ends
-from seismass.assessment.checks import CAPPED_DRIFT
-from seismass.assessment.models import NAMES, SLIDING, SLIDING_ALL
+from seismass.assessment.advice import SCALING, slip_ends
+from seismass.assessment.answer import deciding
+from seismass.assessment.checks import CAPPED_DRIFT, friction_words
+from seismass.assessment.models import NAMES, SLIDING_ALL
 from seismass.assessment.structure import slip_of_base
 from seismass.base.statistics import quantile
 from seismass.effective_mass.rule import RULE_UNKNOWN
@@ -206,12 +207,12 @@ def _model_words(result: AssessmentTables, model: str) -> str:
     return result.called.get(model, NAMES[model])
 
 
-def storeys_html(result: AssessmentTables, most: int, title: str = "What governs each storey") -> list[Markup]:
+def storeys_html(result: AssessmentTables, most: int) -> list[Markup]:
     """Return what governs storeys and what they use of the limit, of a tall building those `most` that drift most."""
     table = result.governing
     ratio = result.drift_limit is not None
     scale, unit = result.units.drifts(ratio=ratio)
-    caption = f"{title}: capped mean drift"
+    caption = "What governs each storey: capped mean drift"
     if table.height > most:
         table = table.sort("governing", descending=True).head(most).sort("storey")
         caption = f"The {most} storeys that drift most, the others behind: capped mean drift"
@@ -255,19 +256,17 @@ def _collapses(result: AssessmentTables) -> list[Markup]:
 
 def _method(result: AssessmentTables) -> list[Markup]:
     """Method in four lines with formulas, the check by hand, and references."""
-    data, scaling = result.document["input"], result.document["scaling"]
+    data = result.document["input"]
     low, high = result.mu_factors
     limits = "none, since heights are not known"
     if result.drift_limit is not None:
         limits = f"d/h up to {result.drift_limit:g} [2], P d/(V h) up to {data['theta_limit']:g} [3]"
-    scaled = "taken as they are"
-    if scaling is not None:
-        first, last = scaling["periods"]
-        scaled = f"scaled so that their mean S_a is not below that of the site from {first:.3g} to {last:.3g} s"
+    rules = [text for text in result.document["assumptions"] if text.startswith(SCALING)]
+    scaled = rules[0].removeprefix(SCALING) if rules else "taken as they are."
     lines = [
         "1 Model: trilinear springs V of storeys; goods are blocks that stick up to mu_s m g and slide against mu_k m "
         "g; runs go exactly from event to event.",
-        f"2 Motions: {scaled}.",
+        f"2 Motions: {scaled}",
         "3 Share: lambda is the smallest share for which d of the model with lambda m attached is at least d with "
         f"goods that slide; d is the capped mean of the largest drift, at mu, {high:g} mu and {low:g} mu; the largest "
         "lambda counts.",
@@ -285,12 +284,11 @@ def _by_hand(result: AssessmentTables) -> str:
     unknown = [text for text in result.document["remarks"] if text.startswith(RULE_UNKNOWN)]
     if unknown:
         return f"Not applied: {'; '.join(unknown)}."
-    decisive = max(result.effective, key=lambda name: result.effective[name].value)
-    one = result.effective[decisive]
-    factor = dict(zip(SLIDING_ALL, (1.0, *result.mu_factors), strict=True))[decisive]
-    where = "mu as stated" if decisive == SLIDING else f"mu x {factor:g}"
+    decisive = deciding(result.effective)
+    one, factors = result.effective[decisive], dict(zip(SLIDING_ALL, (1.0, *result.mu_factors), strict=True))
     runs = f" The runs give {one.value:.2f}." if result.answer is not None else " The runs give no answer."
-    return f"At {where} lambda = {one.by_hand.words_in(result.units, factor)}.{runs}"
+    by_hand = one.by_hand.words_in(result.units, factors[decisive])
+    return f"At {friction_words(result.mu_factors)[decisive]} lambda = {by_hand}.{runs}"
 
 
 def box_class(result: AssessmentTables) -> str:

@@ -117,7 +117,7 @@ def _code(result: Assessment) -> str:
 
 def _by_hand(result: Assessment) -> str:
     """The rule at the friction that decides, and at the others."""
-    decisive, words = deciding(result.effective), friction_words(result.building)
+    decisive, words = deciding(result.effective), friction_words(result.building.mu_factors)
     others = (f"{words[name]} {one.by_hand.estimate:.2f}" for name, one in result.effective.items() if name != decisive)
     rest, factor = ", ".join(others), friction_factors(result.building)[decisive]
     return (
