@@ -209,7 +209,7 @@ def _at_edge(axes: Axes, height: float, text: str, colour: str = INK) -> None:
 def _drift_panel(axes: Axes, result: AssessmentTables, rows: list[StoreyDrifts], size: Size) -> None:
     """Drifts over the limit: goods that slide as a band, analyses as their numbers, the code's model as a tick."""
     limit, answer = result.drift_limit, result.answer is not None
-    scale, unit = result.units.drifts(ratio=False) if limit is None else (1e2, "%")
+    scale, unit = result.units.drifts(ratio=limit is not None)
     known = [value for row in rows for value in (row.largest, row.code or 0.0, *(row.scatter or ()))]
     right = 1.08 * scale * max(*known, 0.0 if limit is None else 1.0)
     axes.set_xlim(0.0, right)
@@ -289,7 +289,7 @@ def _slip_panel(
 ) -> None:
     """Slip at 84 % of the motions as a bar, its median as a tick, the clearance as a line, the largest as a number."""
     units = result.units
-    clear = {kind["floor"]: kind["stops"]["clearance"] for kind in result.document["input"]["goods"] if kind["stops"]}
+    clear = result.clearances
     shown = dict(slips)
     if base is not None:
         shown[0] = {"peak_p84": base["p84"], "peak_median": base["median"], "peak_max": base["most"], "goods": ""}

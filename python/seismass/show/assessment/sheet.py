@@ -158,7 +158,7 @@ def _verdicts(result: AssessmentTables) -> Markup:
         where = f"storey {worst['storey']}, {_model_words(result, worst['model'])}"
         use = f"{100.0 * worst['value'] / worst['limit']:.0f} %"
         rows.append((words, f"{scale * worst['value']:{form}}{unit}", limit, use, where, clause))
-    clear = {kind["floor"]: kind["stops"]["clearance"] for kind in result.document["input"]["goods"] if kind["stops"]}
+    clear = result.clearances
     slips = [row for row in most_slip(result.slip).values() if row["peak_max"]]
     for row in sorted(slips, key=lambda one: one["peak_p84"], reverse=True)[:1]:
         value = f"{units.number('slip', row['peak_p84'])}{slip_ends(row, units)} {units.unit('slip')}"

@@ -102,6 +102,12 @@ class AssessmentTables:
         return code
 
     @property
+    def clearances(self) -> dict[int, float]:
+        """Clearance of the stops of goods (m) by floor, where there are some."""
+        goods = self.document["input"]["goods"]
+        return {kind["floor"]: kind["stops"]["clearance"] for kind in goods if kind["stops"]}
+
+    @property
     def mu_factors(self) -> tuple[float, float]:
         """Factors of friction for its bounds."""
         low, high = self.document["input"]["mu_factors"]

@@ -157,7 +157,7 @@ def storey_bars(result: Assessment) -> list[str]:
     """What each storey uses of its limit, as the figure draws it, and the slip to allow for on its floor."""
     rows, slips, units = storey_drifts(result.storeys, result.governing), most_slip(result.slip), result.building.shown
     limit = result.building.heights is not None
-    scale, unit = (1e2, "%") if limit else units.drifts(ratio=False)
+    scale, unit = units.drifts(ratio=limit)
     right = 1.05 * max([row.largest for row in rows] + [row.scatter[1] for row in rows if row.scatter] + [1.0] * limit)
     clear = {kind.floor: kind.stops.clearance for kind in result.building.loose if kind.stops is not None}
 
@@ -234,9 +234,15 @@ def _slips(result: Assessment) -> list[str]:
     rows = [["floor and goods", "mu_s/mu_k", "slides in", "median", "84 %", "largest"]]
     for row in result.slip.filter(pl.col("model").is_in([SLIDING, SLIDING_LOW])).iter_rows(named=True):
         values = (units.text("slip", row[name]) for name in ("peak_median", "peak_p84", "peak_max"))
-        name = " ".join(part for part in (str(row["floor"]), row["name"], row["goods"]) if part)
         friction = f"{row['mu_s']:.3g}/{row['mu_k']:.3g}"
-        rows.append([name[:LONGEST_NAME], friction, f"{row['motions_that_slide']} of {motions}", *values])
+        rows.append(
+            [
+                _named(row["floor"], row["name"], row["goods"]),
+                friction,
+                f"{row['motions_that_slide']} of {motions}",
+                *values,
+            ]
+        )
     return ["Slip of each kind of goods, friction as stated and at its lower bound", *text_table(rows)]
 
 
