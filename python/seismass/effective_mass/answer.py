@@ -180,7 +180,8 @@ def effective_mass(
     damping : {"same", "ratio"}, default "same"
         Damping of the models, see `attached_scene`.
     fractions : array_like, optional
-        Shares at which models are solved before roots are refined, from 0 to 1; by default 0, 0.05, ..., 1.
+        Shares at which models are solved before roots are refined, from 0 to 1; by default 0, 0.05, ..., 1. Two roots
+        between two of them are missed.
     target : TargetSpectrum, optional
         Spectrum from which the rule by hand takes S_a; by default the mean spectrum of the motions.
     confidence : float, default 0.90
