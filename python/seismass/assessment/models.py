@@ -11,7 +11,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass.assessment.building import OwnBuilding
-from seismass.assessment.file_site import PERIOD_MASSES
+from seismass.assessment.file_parts import PERIOD_MASSES
 from seismass.base.arguments import ProgressLike
 from seismass.base.errors import InvalidOption, SimulationError
 from seismass.base.statistics import or_infinite

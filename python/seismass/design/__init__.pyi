@@ -12,21 +12,6 @@ from .lateral_force import (
     exponent_k,
     seismic_response_coefficient,
 )
-from .limits import (
-    DRIFT_LIMIT_CODES,
-    THETA_CAP,
-    THETA_THRESHOLD,
-    DriftLimit,
-    SystemFactors,
-    drift_limit,
-    drift_limit_table,
-    importance_factor,
-    stability_coefficient,
-    stability_limit,
-    storey_checks,
-    system_factors,
-    system_table,
-)
 from .modes import (
     MODAL_BASE_SHEAR_SHARE,
     Combination,
@@ -48,7 +33,23 @@ from .periods import (
 )
 from .pushover import Pattern, Pushover, pushover
 from .pushover_fit import PushoverFit, fit_pushover
-from .rules import CodeRule, rules_table
+from .rules import (
+    DRIFT_LIMIT_CODES,
+    THETA_CAP,
+    THETA_THRESHOLD,
+    CodeRule,
+    DriftLimit,
+    SystemFactors,
+    drift_limit,
+    drift_limit_table,
+    importance_factor,
+    rules_table,
+    stability_coefficient,
+    stability_limit,
+    storey_checks,
+    system_factors,
+    system_table,
+)
 from .walls import Wall
 from .weight import FloorUse, SeismicWeight, effective_seismic_weight
 

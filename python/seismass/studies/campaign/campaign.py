@@ -13,10 +13,10 @@ import polars as pl
 
 from seismass import _kernel
 from seismass.base.arguments import ProgressLike, is_one_of
-from seismass.base.digest import inputs_digest
 from seismass.base.distributions import beta, lognormal
 from seismass.base.errors import InvalidCampaignFile, InvalidOption
 from seismass.base.input_table import Table
+from seismass.base.stored_results import inputs_digest
 from seismass.base.values import FieldValue, as_count, as_flag, as_list, as_name, as_number, brief, printable, refusal
 from seismass.motions.motion import Motion, MotionLike
 from seismass.runs.batch import checked_motions, stream_many
