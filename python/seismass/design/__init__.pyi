@@ -5,12 +5,18 @@ from .archetype import DesignedBuilding, designed_building
 from .code_design import CodeDesign, DesignEntry, design_by_code
 from .lateral_force import (
     DISTRIBUTION_CODES,
+    PERIOD_CODES,
+    CodePeriod,
     DistributionRule,
     LateralForces,
+    PeriodRule,
+    code_period,
     distribution_table,
     equivalent_lateral_forces,
     exponent_k,
+    period_table,
     seismic_response_coefficient,
+    upper_limit_coefficient,
 )
 from .modes import (
     MODAL_BASE_SHEAR_SHARE,
@@ -22,14 +28,6 @@ from .modes import (
     modal_correlation,
     response_spectrum_analysis,
     vibration_modes,
-)
-from .periods import (
-    PERIOD_CODES,
-    CodePeriod,
-    PeriodRule,
-    code_period,
-    period_table,
-    upper_limit_coefficient,
 )
 from .pushover import Pattern, Pushover, pushover
 from .pushover_fit import PushoverFit, fit_pushover
