@@ -1,4 +1,4 @@
-"""The keys of a building file, as the package knows them."""
+"""The keys of a building file, and the columns of the tables of an assessment, as the package knows them."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Final
 
 from pages.parts import Page, table
 from seismass.assessment.file_keys import ROWS, SI, US, Key
+from seismass.media.result import stored_tables
 
 US_UNITS: Final = {"m": "ft", "m2": "ft2", "kPa": "psf", "kg": "kip", "kN": "kip", "kN/m": "kip/in"}
 SECTIONS: Final[tuple[Callable[[set[str]], bool], ...]] = (
@@ -24,12 +25,19 @@ SECTIONS: Final[tuple[Callable[[set[str]], bool], ...]] = (
 
 
 def fill(page: Page) -> None:
-    """Put in the tables of keys, of those without a unit and of those in US units."""
+    """Put in the tables of keys, of those without a unit and of those in US units, and the columns of all tables."""
     page.tables(*(key_table(row for row in ROWS if belongs(set(row.tables))) for belongs in SECTIONS))
     plain = {name: row for row in ROWS for name in row.plain.values()}
     page.tables(table("key | `si` | `us`", ([f"`{name}`", *systems(name, row)] for name, row in plain.items())))
     in_us = {row.us: row.key for row in ROWS if row.us}
     page.tables(table("key | in place of", ([f"`{name}`", f"`{key}`"] for name, key in in_us.items())))
+    columns: list[list[str]] = []
+    for name, (words, rows) in stored_tables("assessment").items():
+        columns.append([f"`{name}`", "", "", words])
+        columns += (
+            ["", f"`{column}`", row["unit"].replace("drift", "1 or m"), row["meaning"]] for column, row in rows.items()
+        )
+    page.tables(table("table | column | unit | meaning", columns))
 
 
 def systems(name: str, row: Key) -> list[str]:

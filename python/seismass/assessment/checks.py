@@ -20,6 +20,7 @@ from seismass.base.values import FloatArray
 from seismass.design import THETA_THRESHOLD
 from seismass.design.rules import rule_of
 from seismass.effective_mass import EffectiveMass
+from seismass.media.result import table_schema
 from seismass.model.codes import CODE_NAMES, FROM_MEMORY, NOT_CHECKED, VERIFIED
 from seismass.model.scene import Scene
 from seismass.model.tipping import FALLS_BELOW, Tipping, demand_in_g, falls_of
@@ -74,19 +75,7 @@ def checks_table(building: OwnBuilding, storeys: pl.DataFrame, collapses: dict[s
             elastic["source"] += ", as it is here"
             elastic["met"] = None if elastic["value"] is None else True
         rows.append(elastic)
-    return pl.DataFrame(
-        [_judged(row) for row in rows],
-        schema={
-            "check": pl.String,
-            "model": pl.String,
-            "storey": pl.UInt32,
-            "value": pl.Float64,
-            "limit": pl.Float64,
-            "met": pl.Boolean,
-            "reason": pl.String,
-            "source": pl.String,
-        },
-    )
+    return pl.DataFrame([_judged(row) for row in rows], schema=table_schema("assessment", "checks"))
 
 
 def _missing(building: OwnBuilding, column: str) -> str:
@@ -249,9 +238,7 @@ def governing_table(building: OwnBuilding, storeys: pl.DataFrame) -> pl.DataFram
         if first["limit"] is not None:
             row["governing_over_limit"] = row["governing"] / first["limit"]
         rows.append(row)
-    texts = dict.fromkeys(("name", "unit", "governed_by", "sliding_at"), pl.String)
-    numbers = (*models, "governing", "sliding", "limit", "governing_over_limit")
-    return pl.DataFrame(rows, schema={"storey": pl.UInt32, **texts, **dict.fromkeys(numbers, pl.Float64)})
+    return pl.DataFrame(rows, schema=table_schema("assessment", "governing"))
 
 
 def _governing(drifts: dict[str, float], words: dict[str, str], called: dict[str, str], scale: float) -> dict[str, Any]:
@@ -364,10 +351,7 @@ def checked_storeys(building: OwnBuilding, sliding_scene: Scene, runs: pl.DataFr
                     "theta_limit": None if heights is None else building.theta_limit,
                 }
             )
-    numbers = ("mean", *QUANTILES, "max", "mean_by_code", "limit", "mean_over_limit", "mean_peak_shear", "theta")
-    schema: dict[str, Any] = {"storey": pl.UInt32, "motions_above_limit": pl.UInt32, "collapsed": pl.UInt32}
-    schema |= dict.fromkeys((*numbers, "theta_elastic", "theta_limit"), pl.Float64)
-    return pl.DataFrame(rows, schema_overrides=schema)
+    return pl.DataFrame(rows, schema_overrides=table_schema("assessment", "storeys"))
 
 
 def slip_table(
@@ -405,19 +389,7 @@ def slip_table(
                     "collapsed": int(of_kind["collapsed"].sum()),
                 }
             )
-    numbers = [f"peak_{name}" for name in ("mean", *QUANTILES, "max", "p84_low", "p84_high")]
-    numbers += [f"residual_{name}" for name in ("mean", "median", "p84")]
-    texts = ("model", "friction", "name", "goods", "contact")
-    schema: dict[str, Any] = {
-        **dict.fromkeys(texts[:2], pl.String),
-        "floor": pl.UInt32,
-        **dict.fromkeys(texts[2:], pl.String),
-        **dict.fromkeys(("mu_s", "mu_k"), pl.Float64),
-        "motions_that_slide": pl.UInt32,
-        **dict.fromkeys(numbers, pl.Float64),
-        "collapsed": pl.UInt32,
-    }
-    return pl.DataFrame(rows, schema=schema)
+    return pl.DataFrame(rows, schema=table_schema("assessment", "slip"))
 
 
 def collapses_of(runs: pl.DataFrame) -> dict[str, int]:
@@ -482,10 +454,7 @@ def tipping_table(building: OwnBuilding, scene: Scene, motions: Sequence[Any]) -
                 "limits_exceeded": int((lifts & (velocity[:, floor] > (size.overturning_velocity or 0.0))).sum()),
             }
         )
-    schema: dict[str, Any] = {"floor": pl.UInt32, "name": pl.String, "goods": pl.String}
-    schema |= dict.fromkeys(("width", "height", "ratio", "mu_s"), pl.Float64) | {"model": pl.String}
-    schema |= {"staying": pl.Float64} | dict.fromkeys(BOUNDS, pl.String)
-    return pl.DataFrame(rows, schema=schema | dict.fromkeys(("motions", "lifts", "limits_exceeded"), pl.UInt32))
+    return pl.DataFrame(rows, schema=table_schema("assessment", "tipping"))
 
 
 def _floor_peaks(scene: Scene, motions: Sequence[Any]) -> tuple[FloatArray, FloatArray]:
