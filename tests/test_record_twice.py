@@ -36,8 +36,15 @@ def at2(values: np.ndarray, title: str = "Somewhere, 1/1/2000, Town, 90", dt: fl
     return f"PEER\n{title}\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= {len(values)}, DT= {dt:.4f} SEC\n{rows}"
 
 
-def smc(values: np.ndarray, kind: str, component: str = "90", station: str = "Town", rate: float = 100.0) -> str:
-    """Return an SMC file of volume 1 or 2 with no more in its header than asked."""
+def smc(
+    values: np.ndarray,
+    kind: str,
+    component: str = "90",
+    station: str = "Town",
+    rate: float = 100.0,
+    filters: tuple[float, ...] = (),
+) -> str:
+    """Return an SMC file of volume 1 or 2 with no more in its header than asked; `filters` are reals 33 to 36."""
     text = "\n".join(
         [
             f"{2 if kind == 'corrected' else 1} {kind.upper()} ACCELEROGRAM",
@@ -55,6 +62,7 @@ def smc(values: np.ndarray, kind: str, component: str = "90", station: str = "To
     whole[15], whole[16] = 0, len(values)
     reals = [1.7e38] * 50
     reals[1] = rate
+    reals[32 : 32 + len(filters)] = filters
     head = "\n".join("".join(f"{one:10d}" for one in whole[at : at + 8]) for at in range(0, 48, 8))
     head += "\n" + "\n".join("".join(f"{one:15.7E}" for one in reals[at : at + 5]) for at in range(0, 50, 5))
     cells = [f"{100.0 * value:10.4f}" for value in values]
@@ -323,6 +331,27 @@ def test_what_headers_say_of_event_path_site_and_band(header: str, expected: dic
     assert found == {
         name: pytest.approx(value) if isinstance(value, float) else value for name, value in expected.items()
     }
+
+
+@pytest.mark.parametrize("kind", ["corrected", "uncorrected"])
+@pytest.mark.parametrize(
+    ("filters", "band"),
+    [
+        ((), (None, None)),
+        ((0.1, -4.0), (0.125, None)),
+        ((0.08, -2.0, 75.0, 80.0), (0.1, 75.0)),
+        ((1.7e38, 1.7e38, 23.0, 25.0), (None, 23.0)),
+        ((0.0, 0.0, 0.0, 0.0), (None, None)),
+        ((30.0, -4.0, 23.0, 25.0), (None, None)),
+    ],
+)
+def test_smc_states_the_filter_of_corrected_records(
+    kind: str, filters: tuple[float, ...], band: tuple[float | None, float | None], tmp_path: Path
+) -> None:
+    """What is missing, zero or in the wrong order is no corner; an uncorrected record has none."""
+    (tmp_path / "a.smc").write_text(smc(motion(1), kind, filters=filters), encoding="utf-8")
+    record = sm.read_record(tmp_path / "a.smc")
+    assert (record.lowest_hz, record.highest_hz) == (pytest.approx(band) if kind == "corrected" else (None, None))
 
 
 def test_epicentral_distance_of_coordinates() -> None:
