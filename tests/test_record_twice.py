@@ -133,6 +133,37 @@ def test_the_same_recording_in_two_formats_counts_once(tmp_path: Path, first: st
     assert reasons == ([f"the same recording as {min(first, second)}, in another format"] if first != second else [])
 
 
+LEFT_OUT = {
+    "vertical": smc(motion(1), "corrected", "UP"),
+    "an offset": smc(motion(1) + 1.8, "uncorrected"),
+    "not read": "a word\n",
+    "an empty file": "",
+}
+
+
+@pytest.mark.parametrize("where", ["folder", "archive", "archive in an archive"])
+@pytest.mark.parametrize("reason", LEFT_OUT)
+def test_a_suite_is_never_empty_and_its_place_is_named(tmp_path: Path, reason: str, where: str) -> None:
+    """Whatever leaves the last record out, the error says where it was looked for and why; no temporary folder."""
+    place = tmp_path / ("records" if where == "folder" else "records.zip")
+    if where == "folder":
+        place.mkdir()
+        (place / "a.smc").write_text(LEFT_OUT[reason], encoding="utf-8")
+    else:
+        inner = io.BytesIO()
+        with zipfile.ZipFile(inner, "w") as packed:
+            packed.writestr("a.smc", LEFT_OUT[reason])
+        content = inner.getvalue()
+        if where != "archive":
+            with zipfile.ZipFile(place, "w") as packed:
+                packed.writestr("inner.zip", content)
+        else:
+            place.write_bytes(content)
+    with pytest.raises(RecordFormatError, match=rf"^records of \w+ \S*records\S* must be .*{reason}") as error:
+        read_suite(place)
+    assert ".seismass" not in str(error.value)
+
+
 def test_an_uncorrected_record_with_an_offset_is_left_out(tmp_path: Path) -> None:
     (tmp_path / "a.smc").write_text(smc(motion(1) + 1.8, "uncorrected"), encoding="utf-8")
     (tmp_path / "b.smc").write_text(smc(motion(2), "corrected", "180"), encoding="utf-8")

@@ -154,8 +154,8 @@ def _lacking(args: argparse.Namespace) -> str:
     asked = () if sys.stdin.isatty() else tuple(one for one in QUESTIONS if getattr(args, one.name) is None)
     options = [one.option for one in asked if one.name in NEVER_IN_TABLES]
     masses = args.table is not None and any(one.name == "mass_includes" for one in asked)
-    said = [", ".join(options)] * bool(options) + ["--mass-includes where there are masses"] * masses
-    return f"; to be given too: {', and '.join(said)}" if said else ""
+    missing = [", ".join(options)] * bool(options) + ["--mass-includes where there are masses"] * masses
+    return f"; to be given too: {', and '.join(missing)}" if missing else ""
 
 
 def _doubts(building: OwnBuilding) -> tuple[str, ...]:
