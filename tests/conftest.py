@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import os
+import signal
 from collections.abc import Callable
 from functools import partial
 from importlib import import_module
@@ -29,6 +30,11 @@ def unused_lines(request: pytest.FixtureRequest) -> list[str]:
 
 # The processes of pytest-xdist have a width, and a user's shell may: what is printed into a pipe would be folded to it.
 os.environ.pop("COLUMNS", None)
+
+# nohup and shells that put tests into the background have these signals ignored, and so would the commands under test.
+for _number, _default in ((signal.SIGINT, signal.default_int_handler), (signal.SIGHUP, signal.SIG_DFL)):
+    if signal.getsignal(_number) is signal.SIG_IGN:
+        signal.signal(_number, _default)
 
 # A shared machine may be slow; a failure prints what reproduces it.
 settings.register_profile("seismass", deadline=None, print_blob=True)

@@ -8,7 +8,9 @@ from __future__ import annotations
 import gzip
 import hashlib
 import io
+import math
 import os
+import re
 import runpy
 import struct
 import time
@@ -307,6 +309,61 @@ def test_a_file_that_contradicts_itself_is_refused(
     file = put(tmp_path, name, change(FILES[name].decode()))
     with pytest.raises(RecordFormatError, match=message):
         read_records(file)
+
+
+@pytest.mark.parametrize("peak", [700.0, 799.9, 800.1, 1102.6, 3215.3])
+def test_geonet_drops_the_decimals_of_more_than_a_g(peak: float, tmp_path: Path) -> None:
+    """Numbers from 10 000 mm/s2 on stand there without a point, as strong records have them; smaller ones may not."""
+    wave = [peak * math.sin(0.3 * step) for step in range(200)]
+    text = runpy.run_path(str(ROOT / "tools" / "network_files.py"))["geonet"](lambda _: wave, 0.01)
+
+    def without_point(least: float) -> str:
+        lines = text.splitlines()
+        for number, line in enumerate(lines):
+            fields = [line[edge : edge + 8] for edge in range(0, len(line), 8)]
+            if re.fullmatch(r"( *-?\d+\.\d){10}", line):
+                short = [f"{one[:-2]:>8}" if abs(float(one)) >= least else one for one in fields]
+                lines[number] = "".join(short)
+        return "\n".join(lines) + "\n"
+
+    expected = read_records(put(tmp_path, "a.V2A", text))[0].acceleration
+    found = read_records(put(tmp_path, "b.V2A", without_point(1e4)))[0].acceleration
+    np.testing.assert_allclose(found, expected, atol=1e-3)
+    assert (without_point(1e4) != text) == (peak > 800.0)
+    with pytest.raises(RecordFormatError, match="must be numbers with a point"):
+        read_records(put(tmp_path, "c.V2A", without_point(1e3)))
+
+
+UNAM_KEYS = re.findall(r"^([A-Z].{3,37}?) *: ", FILES["made_unam.191"].decode(), re.MULTILINE)
+OTHER_SIGNS = {
+    "a comma more": lambda key: key.replace(" (", ", ("),
+    "no commas": lambda key: key.replace(",", " "),
+    "accents": lambda key: key.replace("ION", "I\u00d3N").replace("NUM", "N\u00daM"),
+    "small letters": str.lower,
+    "words behind": lambda key: " ".join(reversed(key.split())) if "," in key else key,
+    "blanks": lambda key: key.replace(" ", "  ", 1),
+}
+
+
+@pytest.mark.parametrize("change", OTHER_SIGNS)
+def test_institutions_differ_in_the_signs_of_unam_keys(change: str, tmp_path: Path) -> None:
+    """The words of a key count. One at a time, then all; the samples a second stand for the step."""
+    text = FILES["made_unam.191"].decode()
+    plain = read_records(put(tmp_path, "plain.191", text))
+    whole = text
+    assert len(UNAM_KEYS) > 10
+    for number, key in enumerate([*UNAM_KEYS, ""]):
+        other = text.replace(f"\n{key} ", f"\n{OTHER_SIGNS[change](key)} ", 1) if key else whole
+        whole = whole.replace(f"\n{key} ", f"\n{OTHER_SIGNS[change](key)} ", 1) if key else whole
+        records = read_records(put(tmp_path, f"{number}.191", other))
+        for one, expected in zip(records, plain, strict=True):
+            assert (one.dt, one.component, one.event, one.station) == (
+                expected.dt, expected.component, expected.event, expected.station
+            )  # fmt: skip
+            assert one.acceleration.tolist() == expected.acceleration.tolist()
+    rate = text.replace("INTERVALO DE MUESTREO, C1-C6 (s)", "VEL. DE MUESTREO, C1-C6 (muestras/s)")
+    rate = rate.replace("/0.02/0.02/0.02", "/50/50/50").replace("FECHA", "INSTITUCION RESPONSABLE : CICESE\nFECHA")
+    assert [(one.dt, one.network) for one in read_records(put(tmp_path, "rate.191", rate))] == [(0.02, "CICESE")] * 3
 
 
 def test_numbers_of_unam_and_bhrc_by_hand(tmp_path: Path) -> None:

@@ -36,8 +36,15 @@ def at2(values: np.ndarray, title: str = "Somewhere, 1/1/2000, Town, 90", dt: fl
     return f"PEER\n{title}\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= {len(values)}, DT= {dt:.4f} SEC\n{rows}"
 
 
-def smc(values: np.ndarray, kind: str, component: str = "90", station: str = "Town", rate: float = 100.0) -> str:
-    """Return an SMC file of volume 1 or 2 with no more in its header than asked."""
+def smc(
+    values: np.ndarray,
+    kind: str,
+    component: str = "90",
+    station: str = "Town",
+    rate: float = 100.0,
+    filters: tuple[float, ...] = (),
+) -> str:
+    """Return an SMC file of volume 1 or 2 with no more in its header than asked; `filters` are reals 33 to 36."""
     text = "\n".join(
         [
             f"{2 if kind == 'corrected' else 1} {kind.upper()} ACCELEROGRAM",
@@ -55,6 +62,7 @@ def smc(values: np.ndarray, kind: str, component: str = "90", station: str = "To
     whole[15], whole[16] = 0, len(values)
     reals = [1.7e38] * 50
     reals[1] = rate
+    reals[32 : 32 + len(filters)] = filters
     head = "\n".join("".join(f"{one:10d}" for one in whole[at : at + 8]) for at in range(0, 48, 8))
     head += "\n" + "\n".join("".join(f"{one:15.7E}" for one in reals[at : at + 5]) for at in range(0, 50, 5))
     cells = [f"{100.0 * value:10.4f}" for value in values]
@@ -123,6 +131,37 @@ def test_the_same_recording_in_two_formats_counts_once(tmp_path: Path, first: st
     assert [record.source.name for record in suite if record.source] == [min(first, second)]
     reasons = [one.reason for one in suite.excluded]
     assert reasons == ([f"the same recording as {min(first, second)}, in another format"] if first != second else [])
+
+
+LEFT_OUT = {
+    "vertical": smc(motion(1), "corrected", "UP"),
+    "an offset": smc(motion(1) + 1.8, "uncorrected"),
+    "not read": "a word\n",
+    "an empty file": "",
+}
+
+
+@pytest.mark.parametrize("where", ["folder", "archive", "archive in an archive"])
+@pytest.mark.parametrize("reason", LEFT_OUT)
+def test_a_suite_is_never_empty_and_its_place_is_named(tmp_path: Path, reason: str, where: str) -> None:
+    """Whatever leaves the last record out, the error says where it was looked for and why; no temporary folder."""
+    place = tmp_path / ("records" if where == "folder" else "records.zip")
+    if where == "folder":
+        place.mkdir()
+        (place / "a.smc").write_text(LEFT_OUT[reason], encoding="utf-8")
+    else:
+        inner = io.BytesIO()
+        with zipfile.ZipFile(inner, "w") as packed:
+            packed.writestr("a.smc", LEFT_OUT[reason])
+        content = inner.getvalue()
+        if where != "archive":
+            with zipfile.ZipFile(place, "w") as packed:
+                packed.writestr("inner.zip", content)
+        else:
+            place.write_bytes(content)
+    with pytest.raises(RecordFormatError, match=rf"^records of \w+ \S*records\S* must be .*{reason}") as error:
+        read_suite(place)
+    assert ".seismass" not in str(error.value)
 
 
 def test_an_uncorrected_record_with_an_offset_is_left_out(tmp_path: Path) -> None:
@@ -323,6 +362,27 @@ def test_what_headers_say_of_event_path_site_and_band(header: str, expected: dic
     assert found == {
         name: pytest.approx(value) if isinstance(value, float) else value for name, value in expected.items()
     }
+
+
+@pytest.mark.parametrize("kind", ["corrected", "uncorrected"])
+@pytest.mark.parametrize(
+    ("filters", "band"),
+    [
+        ((), (None, None)),
+        ((0.1, -4.0), (0.125, None)),
+        ((0.08, -2.0, 75.0, 80.0), (0.1, 75.0)),
+        ((1.7e38, 1.7e38, 23.0, 25.0), (None, 23.0)),
+        ((0.0, 0.0, 0.0, 0.0), (None, None)),
+        ((30.0, -4.0, 23.0, 25.0), (None, None)),
+    ],
+)
+def test_smc_states_the_filter_of_corrected_records(
+    kind: str, filters: tuple[float, ...], band: tuple[float | None, float | None], tmp_path: Path
+) -> None:
+    """What is missing, zero or in the wrong order is no corner; an uncorrected record has none."""
+    (tmp_path / "a.smc").write_text(smc(motion(1), kind, filters=filters), encoding="utf-8")
+    record = sm.read_record(tmp_path / "a.smc")
+    assert (record.lowest_hz, record.highest_hz) == (pytest.approx(band) if kind == "corrected" else (None, None))
 
 
 def test_epicentral_distance_of_coordinates() -> None:

@@ -297,6 +297,26 @@ def test_roofs_and_penthouses_carry_no_goods() -> None:
         bare_floors(("L1", "RF"), ("L9",))
 
 
+NEEDED = ("--area", "--sds", "--sd1", "--live-load", "--friction")
+
+
+@pytest.mark.parametrize("given", range(2 ** len(NEEDED)))
+def test_a_table_that_is_refused_and_all_missing_answers_are_one_error(
+    given: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Whichever options are given, the message about the units names the others, and with these the file is written."""
+    file = write(tmp_path, "Story,Height,UX,Stiff X\nROOF,4.5,512.3,444082\nL1,6,1251.1,719618\n")
+    options = [(name, "0.4") for place, name in enumerate(NEEDED) if given >> place & 1]
+    words = ["new", str(tmp_path / "own.toml"), "--from", str(file), *(word for pair in options for word in pair)]
+    assert main(words) == 2
+    said = capsys.readouterr().err
+    assert "must be stated" in said and "--mass-includes where there are masses" in said
+    missing = [name for name in NEEDED if f"{name}" in said.partition("to be given too")[2]]
+    assert missing == [name for name in NEEDED if name not in dict(options)]
+    more = [word for name in missing for word in (name, "0.4")]
+    assert main([*words, *more, "--units", "kN-m", "--mass-includes", "0"]) == 0
+
+
 def test_new_takes_the_live_load_off_and_says_what_it_doubts(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

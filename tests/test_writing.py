@@ -186,14 +186,9 @@ def runs_in(out: Path) -> set[str]:
     return {content[:9].decode() for content in contents.values()}
 
 
-def heeding_hangup() -> None:
-    """In a child: SIGHUP ends it, though these tests run under nohup, which has it ignored."""
-    signal.signal(signal.SIGHUP, signal.SIG_DFL)
-
-
 def looping(out: Path, first: int) -> subprocess.Popen[str]:
     command = [sys.executable, "-c", textwrap.dedent(LOOP), str(out), str(first)]
-    child = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, preexec_fn=heeding_hangup)
+    child = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert child.stdout is not None
     with child.stdout:
         assert child.stdout.readline() == "ready\n"
@@ -220,9 +215,7 @@ def test_a_signal_that_ends_a_command_leaves_nothing(tmp_path: Path, number: sig
     """While a study is solved; what it has solved is kept, hidden, for the next call."""
     program = "import sys; from seismass.cli import main; sys.exit(main(sys.argv[1:]))"
     command = [sys.executable, "-c", program, "study", "--effective", "--out", str(tmp_path / "out")]
-    child = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=heeding_hangup
-    )
+    child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     until = time.monotonic() + 120.0
     while not any(tmp_path.iterdir()) and time.monotonic() < until:
         time.sleep(0.05)

@@ -167,6 +167,7 @@ QUESTIONS: Final = (
     ),
 )
 """What is asked, in order. The roof carries no goods."""
+NEVER_IN_TABLES: Final = ("area", "sds", "sd1", "live_load", "friction")
 _ABOVE_ROOF: Final = 3
 """Most floors above a roof that count as penthouses; a roof below more of them is that of a podium."""
 

@@ -94,7 +94,7 @@ def run(args: argparse.Namespace) -> int:
     from seismass.assessment.new_file import MASS_INCLUDES, building_text, fit_of_curves, questions_for
     from seismass.assessment.pushover_file import read_pushover
     from seismass.assessment.storey_table import read_storey_table
-    from seismass.base.errors import InvalidOption
+    from seismass.base.errors import InvalidBuildingFile, InvalidOption
     from seismass.base.files import check_files, write_file
     from seismass.base.values import refusal
 
@@ -107,12 +107,15 @@ def run(args: argparse.Namespace) -> int:
         refuse_options(args, ("mass_includes", "base_level", "loaded"), "new", "where --from is not given")
     reading = {name: getattr(args, name) for name in ("units", "order", "direction", "decimal")}
     table = curves = None
-    if args.table is not None:
-        table = read_storey_table(args.table, case=args.case, base_level=args.base_level, **reading)
-        show(table.text)
-    if args.pushover is not None:
-        curves = read_pushover(args.pushover, case=args.pushover_case, **reading)
-        show(curves.text)
+    try:
+        if args.table is not None:
+            table = read_storey_table(args.table, case=args.case, base_level=args.base_level, **reading)
+            show(table.text)
+        if args.pushover is not None:
+            curves = read_pushover(args.pushover, case=args.pushover_case, **reading)
+            show(curves.text)
+    except (InvalidBuildingFile, InvalidOption) as error:
+        raise type(error)(f"{error}{_lacking(args)}") from error
     answers: dict[str, Any] = {}
     for question in questions_for(table, curves):
         value = getattr(args, question.name)
@@ -141,6 +144,17 @@ def run(args: argparse.Namespace) -> int:
         show(f"{fit.text}\n{figure} is drawn")
     show(f"{args.out} is written: look at it, then run\n  seismass building {args.out}")
     return 0
+
+
+def _lacking(args: argparse.Namespace) -> str:
+    """Return which answers that no table gives are left out, so that they are said with what is wrong in a file."""
+    from seismass.assessment.new_file import NEVER_IN_TABLES, QUESTIONS
+
+    asked = () if sys.stdin.isatty() else tuple(one for one in QUESTIONS if getattr(args, one.name) is None)
+    options = [one.option for one in asked if one.name in NEVER_IN_TABLES]
+    masses = args.table is not None and any(one.name == "mass_includes" for one in asked)
+    missing = [", ".join(options)] * bool(options) + ["--mass-includes where there are masses"] * masses
+    return f"; to be given too: {', and '.join(missing)}" if missing else ""
 
 
 def _doubts(building: OwnBuilding) -> tuple[str, ...]:

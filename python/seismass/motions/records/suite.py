@@ -192,7 +192,7 @@ def read_suite(path: str | os.PathLike[str]) -> Suite:
         return _read_directory(source)
     if is_archive(source):
         with unpacked(source) as (folder, names):
-            return named_after(_read_directory(folder), source, names)
+            return named_after(_read_directory(folder, source), source, names)
     if source.suffix.lower() == ".csv":
         return _read_list(source)
     missing = "" if source.exists() else ", which does not exist"
@@ -226,7 +226,8 @@ def suite_of_file(
     return Suite(printable(path.stem), taken, (*left_out, *twice))
 
 
-def _read_directory(directory: Path) -> Suite:
+def _read_directory(directory: Path, archive: Path | None = None) -> Suite:
+    """Return the suite of a folder, in which an archive may be unpacked."""
     records: list[Record] = []
     excluded: list[Excluded] = []
     for file in files_below(directory):
@@ -240,14 +241,13 @@ def _read_directory(directory: Path) -> Suite:
                 excluded.append(Excluded(file, reason if len(read) == 1 else f"{record.name}: {reason}"))
             else:
                 records.append(record)
-    if not records:
-        raise RecordFormatError(
-            f"records of directory {directory} must be at least one horizontal record; got {_counted(excluded)}"
-        )
     records, twice = recorded_once(with_tables(records, files_below(directory)))
     offset = {number: is_uncorrected(record) and _offset(record) for number, record in enumerate(records)}
     excluded += [*twice, *(excluded_record(records[index], reason) for index, reason in offset.items() if reason)]
     taken = tuple(record for number, record in enumerate(records) if not offset[number])
+    if not taken:
+        place = f"archive {archive.name}" if archive else f"directory {directory}"
+        raise RecordFormatError(f"records of {place} must be at least one horizontal record; got {_counted(excluded)}")
     return Suite(printable(directory.resolve().name), taken, tuple(sorted(excluded, key=lambda one: one.file)))
 
 

@@ -6,6 +6,7 @@ Source of the keys: esm-db.eu, "ESM data format"; units are cm/s2, peaks in PGA_
 from __future__ import annotations
 
 import re
+import unicodedata
 from pathlib import Path
 from typing import Final
 
@@ -227,6 +228,7 @@ _ENTRY = re.compile(r"(?P<key>[^:]{3,60}?)\s*:(?P<value>.*)")
 
 _POINTS_UNAM: Final = "NUM. TOTAL DE MUESTRAS, C1-C6"
 _STEP: Final = "INTERVALO DE MUESTREO, C1-C6 (S)"
+_RATE: Final = "VEL. DE MUESTREO, C1-C6 (MUESTRAS/S)"
 _LENGTH: Final = "DURACION DEL REGISTRO (S), C1-C6"
 _DIRECTION: Final = "ORIENTACION C1-C6 (RUMBO;ORIENTACION)"
 _PEAK: Final = "ACEL. MAX.(GAL), C1-C6"
@@ -234,6 +236,22 @@ _PEAK_AT: Final = "ACEL. MAX., C1-C6, EN LA MUESTRA"
 _UNIT_UNAM: Final = "UNIDADES DE LOS DATOS"
 _LAYOUT: Final = "FORMATO DATOS (FORTRAN,10 CAMPOS/DATO)"
 _DECIMATION: Final = "FACTOR DE DECIMACION"
+_AGENCY: Final = "INSTITUCION RESPONSABLE"
+
+
+class _Entries(dict[str, str]):
+    """The head of a file by its keys, of which the words count: institutions differ in signs and in their order."""
+
+    def entry(self, key: str) -> str:
+        """Return what stands behind a key, or nothing."""
+        return self.get(_words(key), "")
+
+
+def _words(key: str) -> str:
+    """Return the words of a key in upper case without accents, in alphabetic order."""
+    return " ".join(
+        sorted(re.findall(r"[A-Z0-9]+", unicodedata.normalize("NFKD", key).encode("ascii", "ignore").decode().upper()))
+    )
 
 
 def _parse_unam(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]:
@@ -247,15 +265,17 @@ def _parse_unam(text: str, source: Path, arguments: Arguments) -> tuple[Channel,
     header = _header(lines[:start])
     components = _list(header, _DIRECTION, file)
     counts = [_whole(word, file) for word in _list(header, _POINTS_UNAM, file)]
-    steps = _list(header, _STEP, file)
+    steps = _steps(header, file)
     channels = len(components)
     for name, others in ((_POINTS_UNAM, counts), (_STEP, steps)):
         if len(others) != channels or len(set(others)) != 1:
             raise RecordFormatError(f"{name} of {file} must be one for each of {channels} channels; got {others}")
     dt = _step_unam(steps[0], arguments.dt, file)
-    layout = layout_of(header.get(_LAYOUT, ""), file)
+    layout = layout_of(header.entry(_LAYOUT), file)
     if layout.columns != channels:
-        raise RecordFormatError(f"format of the numbers of {file} must be {channels} a line; got {header[_LAYOUT]}")
+        raise RecordFormatError(
+            f"format of the numbers of {file} must be {channels} a line; got {header.entry(_LAYOUT)}"
+        )
     rows = len(lines) - rules[1] - 1
     repeated = rows - counts[0]
     if 0 < repeated * dt < 1.0 and len({line.rstrip() for line in lines[-repeated - 1 :]}) == 1:
@@ -263,7 +283,7 @@ def _parse_unam(text: str, source: Path, arguments: Arguments) -> tuple[Channel,
     if rows != counts[0]:
         raise RecordFormatError(f"points of {file} must be {counts[0]}, as its header says; got {rows}")
     block = read_block(lines, rules[1] + 1, rows * channels, layout, file)
-    unit = agreed_unit(_unit(header.get(_UNIT_UNAM, ""), file), arguments.unit, file)
+    unit = agreed_unit(_unit(header.entry(_UNIT_UNAM), file), arguments.unit, file)
     samples = block.values.reshape(-1, channels)
     remarks = [f"{repeated} repetitions of the last row left out"] if repeated > 0 else []
     for word in _list(header, _LENGTH, file)[:1]:
@@ -271,9 +291,9 @@ def _parse_unam(text: str, source: Path, arguments: Arguments) -> tuple[Channel,
             raise RecordFormatError(
                 f"record length of {file} must be {word} s, as its header says; got {counts[0]} points of {dt:g} s"
             )
-    if header.get(_DECIMATION, "1") not in ("", "1"):
-        remarks.append(f"decimated by {printable(header[_DECIMATION])}, as its header says")
-    peaks, places = header.get(_PEAK, "").split("/")[1:], header.get(_PEAK_AT, "").split("/")[1:]
+    if header.entry(_DECIMATION) not in ("", "1"):
+        remarks.append(f"decimated by {printable(header.entry(_DECIMATION))}, as its header says")
+    peaks, places = header.entry(_PEAK).split("/")[1:], header.entry(_PEAK_AT).split("/")[1:]
     parsed = []
     for number, component in enumerate(components):
         notes = list(remarks)
@@ -287,11 +307,11 @@ def _parse_unam(text: str, source: Path, arguments: Arguments) -> tuple[Channel,
             acceleration=values * ACCELERATION_UNITS[unit],
             dt=dt,
             name=f"{printable(source.stem)} channel {number + 1}",
-            event=printable(header.get("FECHA DEL SISMO [GMT]", "")),
-            station=printable(", ".join(filter(None, (header.get(f"{key} DE LA ESTACION", "") for key in _STATION)))),
+            event=printable(header.entry("FECHA DEL SISMO [GMT]")),
+            station=printable(", ".join(filter(None, (header.entry(f"{key} DE LA ESTACION") for key in _STATION)))),
             component=printable(component),
             azimuth=azimuth_of(component.split(";")[0]),
-            network="UNAM",
+            network=printable(header.entry(_AGENCY)) or "UNAM",
             source=source,
             file_unit=unit,
             remarks=tuple(notes),
@@ -303,28 +323,36 @@ def _parse_unam(text: str, source: Path, arguments: Arguments) -> tuple[Channel,
 _STATION: Final = ("CLAVE", "NOMBRE")
 
 
-def _header(lines: list[str]) -> dict[str, str]:
-    """Return the text after each key, in upper case; of several lines the first."""
-    entries: dict[str, str] = {}
+def _header(lines: list[str]) -> _Entries:
+    """Return the text after each key; of several lines the first."""
+    entries = _Entries()
     for line in lines:
         entry = _ENTRY.match(line[:LINE_WIDTH].strip())
         if entry:
-            entries.setdefault(" ".join(entry["key"].upper().split()), entry["value"].strip())
+            entries.setdefault(_words(entry["key"]), entry["value"].strip())
     return entries
 
 
-def _list(header: dict[str, str], key: str, file: str) -> list[str]:
+def _list(header: _Entries, key: str, file: str) -> list[str]:
     """Return the values of a list as /a/b/c."""
-    text = header.get(key, "")
-    values = [value.strip() for value in text.split("/")[1:]]
+    text = header.entry(key)
+    values = [value.strip() for value in text.rstrip("/ ").split("/")[1:]]
     if not values or not all(values):
         raise RecordFormatError(f"{key} of {file} must be as /a/b/c; got {printable(text)[:40]!r}")
     return values
 
 
+def _steps(header: _Entries, file: str) -> list[str]:
+    """Return the steps (s), or those of the samples a second where no step is stated."""
+    if header.entry(_STEP) or not header.entry(_RATE):
+        return _list(header, _STEP, file)
+    rates = _list(header, _RATE, file)
+    return [f"{1.0 / float(one):.9g}" if is_number(one) and float(one) > 0.0 else one for one in rates]
+
+
 def _whole(word: str, file: str) -> int:
     if not (word.isascii() and word.isdigit() and len(word) < 10):
-        raise RecordFormatError(f"{_POINTS} of {file} must be whole numbers; got {printable(word)[:20]!r}")
+        raise RecordFormatError(f"{_POINTS_UNAM} of {file} must be whole numbers; got {printable(word)[:20]!r}")
     return int(word)
 
 

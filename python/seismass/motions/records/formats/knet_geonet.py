@@ -174,7 +174,8 @@ KNET: Final = Format("knet", "K-NET", _recognises_knet, _parse_knet)
 
 _TEXT: Final = 16
 _HEADER: Final = 26
-_NUMBERS: Final = Layout(10, 8)
+_NUMBERS: Final = Layout(10, 8, whole_from=5)
+"""From 10 000 mm/s2, about 1 g, GeoNet's files have no decimals: -11026 beside -9865.4."""
 _FIRST = re.compile(r"\s*(?P<un>un)?corrected accelerogram\b.*GNS Science", re.IGNORECASE)
 _PEAK = re.compile(r"Acceleration:\s*Peak\s+(?P<value>\S+)\s+mm/s/s\s+at\s+(?P<time>\S+)\s*s", re.IGNORECASE)
 _SITE = re.compile(r"Site\s+(\S+)", re.IGNORECASE)

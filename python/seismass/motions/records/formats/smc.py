@@ -1,7 +1,8 @@
 """USGS SMC files: 11 lines of text, 6 of integers, 10 of reals, comments, then numbers in columns of ten, in cm/s2.
 
 Source: USGS National Strong Motion Program, "SMC-format data files": numbers are 8F10.5 or 8(1PE10.4E1), which touch;
-uncorrected records without a sampling rate are pairs of time and acceleration.
+uncorrected records without a sampling rate are pairs of time and acceleration. What reals 33 and 35 are was
+inferred from two public files and the parameters of the program BAP, which writes them (second-hand).
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ from seismass.motions.records.formats.common import (
 )
 from seismass.motions.records.formats.labels import azimuth_of, is_vertical
 from seismass.motions.records.formats.table import Block, Layout, header_values, read_block, uniform_step
+from seismass.motions.records.known import USABLE_OVER_CORNER
 from seismass.motions.records.record import Record
 
 _TEXT: Final = 11
@@ -94,10 +96,13 @@ def _parse(text: str, source: Path, arguments: Arguments) -> tuple[Channel, ...]
     station = _STATION.match(lines[5].strip()[:LINE_WIDTH])
     component = station["component"].strip() if station else ""
     agency = _SOURCE.search(lines[7][:LINE_WIDTH])
+    lowest, highest = (None, None) if quantity.startswith("un") else _band(numbers)
     record = Record(
         acceleration=block.values * ACCELERATION_UNITS["cm/s2"],
         dt=dt,
         name=printable(source.stem),
+        lowest_hz=lowest,
+        highest_hz=highest,
         event=" ".join(lines[3].split()),
         station=", ".join(part for part in (lines[2].strip("* "), station["name"] if station else "") if part),
         component=component,
@@ -129,6 +134,14 @@ def _data(lines: list[str], whole: list[float | None], file: str) -> tuple[int, 
     if lines[first + comments].startswith("|"):
         raise RecordFormatError(f"comments of {file} must be {comments}, as its header says; got more")
     return first + comments, points
+
+
+def _band(numbers: list[float | None]) -> tuple[float | None, float | None]:
+    """Return the usable band (Hz): real 33 is the corner of the low-cut filter, real 35 where the high-cut begins."""
+    corner, high = (number if 0.0 < (number or 0.0) < MISSING_NUMBER else None for number in (numbers[32], numbers[34]))
+    if corner is not None and high is not None and high <= corner:
+        return None, None
+    return None if corner is None else USABLE_OVER_CORNER * corner, high
 
 
 def _azimuth(component: str, whole: list[float | None]) -> float | None:

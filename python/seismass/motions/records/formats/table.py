@@ -336,11 +336,12 @@ LARGEST_COUNT: Final = 100_000_000
 
 @dataclass(frozen=True)
 class Layout:
-    """Numbers per line, characters per number, and whether they are integers."""
+    """Numbers per line, characters per number, whether they are integers; digits from which one may lack its point."""
 
     columns: int
     width: int
     integers: bool = False
+    whole_from: int = 99
 
 
 @dataclass(frozen=True)
@@ -401,7 +402,8 @@ def _values(fields: list[str], start: int, layout: Layout, file: str) -> NDArray
         else:
             # A field without its point would be read by Fortran as if the point stood elsewhere.
             points = joined.count(".")
-            if points == (0 if layout.integers else len(fields)) and np.isfinite(values).all():
+            sound = points == (0 if layout.integers else len(fields)) or all(_is_field(one, layout) for one in fields)
+            if sound and np.isfinite(values).all():
                 return values
     for number, field in enumerate(fields):
         if not _is_field(field, layout):
@@ -412,7 +414,9 @@ def _values(fields: list[str], start: int, layout: Layout, file: str) -> NDArray
 
 
 def _is_field(field: str, layout: Layout) -> bool:
-    if not set(field) <= _FORTRAN or ("." in field) == layout.integers:
+    pointless = "." not in field
+    wide = layout.integers or sum(map(str.isdigit, field)) >= layout.whole_from
+    if not set(field) <= _FORTRAN or (pointless and not wide) or (not pointless and layout.integers):
         return False
     try:
         float(field.replace("D", "E").replace("d", "e"))
