@@ -5,7 +5,6 @@ Unit and meaning of each column, as files carry them and the schema page lists t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import partial
 from typing import Any, Final, Literal, NamedTuple, TypeAlias
 
@@ -20,7 +19,7 @@ from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.effective_mass import effective_mass
 from seismass.effective_mass.rule import by_hand
-from seismass.media.result import stored_tables
+from seismass.media.result import stored_tables, table_schema
 from seismass.model.scene import Scene
 from seismass.motions.records import Record
 from seismass.motions.spectra import TargetSpectrum
@@ -48,31 +47,19 @@ _PER_STOREY: Final = (
 )
 """Columns of a batch that are lists per storey, or per block."""
 
-_TYPES: Final[dict[str, Any]] = {
-    "building": pl.UInt32,
-    "storeys": pl.UInt32,
-    "storey": pl.UInt32,
-    "motion": pl.UInt32,
-    "motions": pl.UInt32,
-    "run": pl.UInt32,
-    "leave_one_out_motion": pl.UInt32,
-    **{f"collapses_{model}": pl.UInt32 for model in MODELS},
-    **dict.fromkeys(("occupancy", "model", "record", "status", "reason", "leave_one_out_record", "kind"), pl.String),
-}
 
-
-def typed(columns: dict[str, Any], names: Sequence[str]) -> pl.DataFrame:
-    """Return columns as a frame, in the order of `names`; numbers are doubles unless they count, NaN is null."""
-    schema = {name: _TYPES.get(name, pl.Float64) for name in names}
+def typed(columns: dict[str, Any], table: str) -> pl.DataFrame:
+    """Return columns as a frame, in the order of a table, with its types; NaN is null."""
+    schema = table_schema("study", table)
     doubles = [name for name, kind in schema.items() if kind == pl.Float64]
-    return pl.DataFrame({name: columns[name] for name in names}, schema=schema).with_columns(
+    return pl.DataFrame({name: columns[name] for name in schema}, schema=schema).with_columns(
         pl.col(doubles).fill_nan(None)
     )
 
 
 def key_columns(buildings: list[StudyBuilding], repeats: NDArray[np.int64] | int = 1) -> dict[str, pl.Series]:
     """Return the key columns, each building's as often as `repeats` says."""
-    schema = {key: _TYPES.get(key, pl.Float64) for key in KEYS}
+    schema = {key: kind for key, kind in table_schema("study", "fractions").items() if key in KEYS}
     labels = pl.DataFrame([building.labels for building in buildings], schema=schema)
     which = np.repeat(np.arange(len(buildings), dtype=np.uint32), repeats)
     return labels[which].to_dict()
@@ -111,7 +98,7 @@ def responses_table(
         .with_columns(
             (pl.col("peak_storey_shear") / (STANDARD_GRAVITY * pl.col("storeys"))).alias("peak_shear_over_weight"),
         )
-        .select(pl.col(name).cast(_TYPES.get(name, pl.Float64)) for name in TABLES["responses"][1])
+        .select(pl.col(name).cast(kind) for name, kind in table_schema("study", "responses").items())
     )
 
 
@@ -166,7 +153,7 @@ def summary_table(
     )
     columns["mean_peak_slip"] = slips.mean(axis=1)
     columns |= _comparison(drifts, names)
-    return typed(columns, list(TABLES["summary"][1]))
+    return typed(columns, "summary")
 
 
 def _comparison(drifts: Drifts, names: list[str]) -> dict[str, Any]:
@@ -233,7 +220,7 @@ def designs_table(buildings: list[StudyBuilding], parameters: StudyParameters) -
         "elastic_shear_over_weight": stacked([building.analysis.storey_shear for building in buildings]) / weight,
         "yield_shear_over_weight": np.where(np.isfinite(strength), strength, np.nan),
     }
-    return typed(columns, list(TABLES["designs"][1]))
+    return typed(columns, "designs")
 
 
 SHARES: Final = np.linspace(0.0, 1.0, 41)
@@ -285,7 +272,7 @@ def fractions_table(
         "high": [None if one is None else one.high for one in fractions],
         "excess": [None if one is None or one.kind != "one" else one.excess for one in fractions],
     }
-    return typed(columns, list(TABLES["fractions"][1]))
+    return typed(columns, "fractions")
 
 
 def _attached_mass(scene: Scene) -> float:
