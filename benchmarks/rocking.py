@@ -26,7 +26,7 @@ import polars as pl
 
 import seismass as sm
 from seismass.assessment.building_file import example_file
-from seismass.assessment.rocking import TAKEN, WORDS
+from seismass.assessment.checks import TAKEN, WORDS
 from seismass.model.tipping import staying_part
 
 GRAVITY = 9.80665

@@ -19,6 +19,7 @@ from seismass.assessment.doubts import building_doubts
 from seismass.assessment.models import with_mass
 from seismass.assessment.structure import force_ratios
 from seismass.cli import main
+from seismass.media.result import stored_tables
 from seismass.show.assessment.page import building_page
 from seismass.show.assessment.tables import assessment_tables
 
@@ -47,6 +48,12 @@ def small() -> sm.Assessment:
 @pytest.fixture(scope="module")
 def warehouse() -> sm.Assessment:
     return sm.assess(example_file(), resamples=200)
+
+
+def test_every_column_of_every_table_is_described(small: sm.Assessment) -> None:
+    """The page's heads and the table of docs/building_file.md are made of the rows of data/tables."""
+    described = {name: list(columns) for name, (_, columns) in stored_tables("assessment").items()}
+    assert described == {name: table.columns for name, table in (small.tables | {"tipping": small.tipping}).items()}
 
 
 def mean_of(result: sm.Assessment, model: str, column: str = "mean") -> list[Any]:

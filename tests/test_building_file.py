@@ -14,8 +14,15 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass.assessment.building import DesignRule
-from seismass.assessment.building_file import KEYS, US_KEYS, example_file
+from seismass.assessment.building import DEFAULT_THETA_LIMIT, DesignRule
+from seismass.assessment.building_file import example_file
+from seismass.assessment.file_keys import KEYS, NEEDS, US_KEYS
+from seismass.base.files import stored_rows
+from seismass.base.statistics import DRIFT_CAP
+from seismass.model.building import DEFAULT_DAMPING
+from seismass.model.rack import DEFAULT_RACK_DAMPING
+from seismass.model.springs import SHAPE_FIELDS
+from seismass.motions.spectra import DEFAULT_TL
 
 G = 9.80665
 
@@ -516,3 +523,22 @@ def test_the_page_and_the_example_name_the_keys_in_us_units() -> None:
         for key in keys:
             assert f"`{key}`" in PAGE, key
             assert re.search(rf"\b{key}\b", text), key
+
+
+def test_defaults_of_the_table_of_keys_are_those_of_the_package() -> None:
+    """A file that leaves a number out is read as the rest of the package has it."""
+    defaults = {(table, key): row.number for table, rows in KEYS.items() for key, row in rows.items()}
+    assert defaults["site", "tl_s"] == DEFAULT_TL
+    assert defaults["building", "damping"] == DEFAULT_DAMPING
+    assert defaults["building", "theta_limit"] == DEFAULT_THETA_LIMIT
+    assert defaults["building", "drift_cap"] == DRIFT_CAP
+    assert defaults["on_racks", "damping"] == DEFAULT_RACK_DAMPING
+    shapes = {name: defaults["storeys", name] for name in SHAPE_FIELDS if name in KEYS["storeys"]}
+    assert shapes == {name: SHAPE_FIELDS[name].default for name in shapes}
+    assert shapes.keys() == {"overstrength", "second_slope", "third_slope"}
+
+
+def test_every_word_of_the_table_of_keys_is_known() -> None:
+    """A range that is not known would admit every number, and a table that is not known would be refused."""
+    assert {row["need"] for row in stored_rows("building_keys")} - {""} <= set(NEEDS)
+    assert set(KEYS) - {"", "on_racks", "stops", "storeys.goods", "other_direction.storeys"} <= set(KEYS[""])

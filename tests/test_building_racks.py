@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import seismass as sm
-from seismass.assessment.floors import DEFAULT_FRAME, DEFAULT_LEVELS
+from seismass.assessment.file_keys import KEYS
 
 SUITE = sm.builtin_suite("seven")[:3]
 
@@ -46,9 +46,11 @@ def test_a_direction_stands_for_a_period() -> None:
     found = [None if kind.rack is None else kind.rack.period for kind in building.kinds]
     assert found == [0.7, None, 1.5]
     assert building.kinds[0].rack is not None
-    assert building.kinds[0].rack.levels == DEFAULT_LEVELS
+    assert building.kinds[0].rack.levels == KEYS["on_racks"]["levels"].number
     assert "from memory" in building.kinds[0].rack.how
-    np.testing.assert_allclose(building.frames, DEFAULT_FRAME * building.goods_mass * [1, 0, 1], rtol=1e-14)
+    np.testing.assert_allclose(
+        building.frames, KEYS["on_racks"]["frame"].number * building.goods_mass * [1, 0, 1], rtol=1e-14
+    )
     assert building.sliding() == ((1, 0), (0, 1), (0, 2), (0, 3), (2, 1), (2, 2), (2, 3))
 
 

@@ -11,7 +11,7 @@ import pytest
 
 import seismass as sm
 from seismass.assessment.building_file import read_building
-from seismass.base.digest import LABELS, fields_of, inputs_digest, motion_contents
+from seismass.base.stored_results import LABELS, fields_of, inputs_digest, motion_contents
 from seismass.base.values import Value
 from seismass.motions.records.builtin import data_directory
 

@@ -21,7 +21,7 @@ from seismass.model.tipping import BlockSize
 from seismass.motions.matching.match import matching_remarks
 from seismass.motions.records.read import suspicions
 from seismass.studies.fragility import HuntAndFill
-from seismass.studies.slip.estimates import Base, newmark_bound, newmark_pulse
+from seismass.studies.slip.runs import Base, newmark_bound, newmark_pulse
 
 TWO_STOREYS = Path(__file__).with_name("data") / "two_storeys.json"
 BUILDING = sm.Building.uniform(2, 0.3, mass=1e5)

@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 import seismass as sm
 from seismass.motions.records import Record, intensity_table
 from seismass.motions.records.intensity import integrals, peak_displacement, peak_velocity
-from seismass.motions.records.measures import MEASURES, drift_remarks
+from seismass.motions.records.rotd import MEASURES, drift_remarks
 
 G = sm.STANDARD_GRAVITY
 ARIAS = math.pi / (2.0 * G)

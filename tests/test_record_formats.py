@@ -27,8 +27,8 @@ from seismass.base.errors import RecordFormatError
 from seismass.base.units import STANDARD_GRAVITY, unit_by_name
 from seismass.motions.records import Record, read_record, read_records, read_suite
 from seismass.motions.records.formats import FORMATS, NotRead, recognise
-from seismass.motions.records.formats.fixed import layout_of
 from seismass.motions.records.formats.labels import azimuth_of, is_vertical
+from seismass.motions.records.formats.table import layout_of
 from seismass.motions.records.read import suspicions
 from seismass.motions.records.suite import suite_of_file
 

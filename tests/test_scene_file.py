@@ -17,7 +17,8 @@ import pytest
 import seismass as sm
 from seismass._kernel import MAX_STOREYS
 from seismass.model.springs import SHAPE_FIELDS, SPRING_FIELDS
-from seismass.runs.scene_file import KEYS, scene_without_motion
+from seismass.runs.scene_file import scene_without_motion
+from seismass.runs.scene_goods import KEYS
 
 ROOT = Path(__file__).parents[1]
 PAGE = (ROOT / "docs" / "scene_file.md").read_text(encoding="utf-8")

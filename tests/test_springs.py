@@ -15,7 +15,7 @@ import seismass as sm
 from seismass import _kernel
 from seismass.model.springs import SHAPE_FIELDS, SPRING_FIELDS
 from seismass.runs.grid.columns import TABLE_COLUMNS
-from seismass.runs.scene_file import KEYS
+from seismass.runs.scene_goods import KEYS
 
 PACKAGE = Path(sm.__file__).parent
 ROOT = Path(__file__).parents[1]

@@ -12,9 +12,8 @@ import pytest
 from polars.testing import assert_frame_equal
 
 import seismass as sm
-from seismass.base.digest import inputs_digest
 from seismass.base.files import Directory
-from seismass.base.stored_results import StoredResults, result_store
+from seismass.base.stored_results import StoredResults, inputs_digest, result_store
 from seismass.studies.study import StudyParameters, run_study
 
 TABLE = pl.DataFrame({"numbers": [1.0, 2.0], "words": ["a", None]})

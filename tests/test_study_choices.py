@@ -17,9 +17,8 @@ from seismass.show.study.figures import sensitivity_figure, slip_demand, study_f
 from seismass.show.study.tables import OPTIONAL_TABLES, study_tables
 from seismass.show.study.write import sensitivity_markdown, sensitivity_text, write_study
 from seismass.studies.study import MODELS, StudyParameters, StudyResult, run_study, study_sensitivity
-from seismass.studies.study.columns import TABLES
 from seismass.studies.study.sensitivity import MATCHED_TOLERANCE
-from seismass.studies.study.tables import SHARES, findings
+from seismass.studies.study.tables import SHARES, TABLES, findings
 from seismass.studies.validation import validate
 
 TARGET = sm.TargetSpectrum.asce7()

@@ -15,20 +15,22 @@ from seismass.base.units import STANDARD_GRAVITY
 from seismass.cli import main
 from seismass.motions.records import Record, builtin_record, builtin_suite
 from seismass.motions.records.builtin import data_directory
-from seismass.motions.records.synthetic.process import asce7_shape, end_state, pulse, spectrum
-from seismass.motions.records.synthetic.seven import (
+from seismass.motions.records.synthetic.eleven import (
     ALL_RECIPES,
     LISTS,
     RECIPES,
+    SITE_RECIPES,
     Recipe,
+    SiteRecipe,
     at2_text,
     envelope,
+    generate_site,
     made,
     version,
     write_list,
     write_motion,
 )
-from seismass.motions.records.synthetic.site import SITE_RECIPES, SiteRecipe, generate_site
+from seismass.motions.records.synthetic.process import asce7_shape, end_state, pulse, spectrum
 
 STORED = data_directory() / "synthetic"
 
@@ -105,8 +107,8 @@ def test_site_motions_are_the_same_with_other_instructions(tmp_path: Path) -> No
     code = (
         "import sys; import numpy as np\n"
         "from pathlib import Path\n"
-        "from seismass.motions.records.synthetic.seven import at2_text\n"
-        "from seismass.motions.records.synthetic.site import SITE_RECIPES, generate_site\n"
+        "from seismass.motions.records.synthetic.eleven import at2_text\n"
+        "from seismass.motions.records.synthetic.eleven import SITE_RECIPES, generate_site\n"
         "for recipe in SITE_RECIPES:\n"
         "    record = generate_site(recipe)\n"
         "    np.save(Path(sys.argv[1]) / recipe.name, record.acceleration)\n"

@@ -14,8 +14,14 @@ import seismass as sm
 from seismass.motions.records.builtin import MICRO, data_directory
 from seismass.motions.records.synthetic import scenarios
 from seismass.motions.records.synthetic.process import end_state
-from seismass.motions.records.synthetic.scenarios import RISE, SCENARIOS, START, generate_scenario, two_period_shape
-from seismass.motions.records.synthetic.second import generate_second
+from seismass.motions.records.synthetic.scenarios import (
+    RISE,
+    SCENARIOS,
+    START,
+    generate_scenario,
+    generate_second,
+    two_period_shape,
+)
 from seismass.motions.spectra import corner_period, mean_spectrum, response_spectrum
 
 SUITE = sm.builtin_suite("forty")

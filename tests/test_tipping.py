@@ -15,8 +15,8 @@ import pytest
 
 import seismass as sm
 from seismass.assessment.building_file import example_file
+from seismass.assessment.checks import TAKEN, WORDS, other_models
 from seismass.assessment.doubts import building_doubts
-from seismass.assessment.rocking import TAKEN, WORDS, other_models
 from seismass.base.errors import InvalidBuildingFile, InvalidScene
 from seismass.cli import main
 from seismass.effective_mass.models import goods_mass

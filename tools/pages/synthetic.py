@@ -13,8 +13,7 @@ import seismass as sm
 from pages.parts import Page, table
 from seismass.media.roles import BLUE, GREY, INK, VERMILION
 from seismass.media.style import STYLE
-from seismass.motions.records.synthetic.seven import ALL_RECIPES, Recipe
-from seismass.motions.records.synthetic.site import SITE_RECIPES
+from seismass.motions.records.synthetic.eleven import ALL_RECIPES, SITE_RECIPES, Recipe
 from seismass.studies.study import run_study
 from seismass.studies.study.tables import findings
 

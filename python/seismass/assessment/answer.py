@@ -15,10 +15,16 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass.assessment.building import OwnBuilding
-from seismass.assessment.checks import ANALYSES, drifts_of, friction_words, largest_change, largest_excess
+from seismass.assessment.checks import (
+    ANALYSES,
+    drifts_of,
+    friction_words,
+    largest_change,
+    largest_excess,
+    tipping_sentences,
+)
 from seismass.assessment.floors import by_floor
 from seismass.assessment.models import ADVISED, ATTACHED, BARE, SLIDING_ALL
-from seismass.assessment.rocking import tipping_sentences
 from seismass.assessment.statement import NO_MATTER, PresentGoods, collapsing, statement_of
 from seismass.base.arguments import ProgressLike
 from seismass.base.statistics import capped, few_collapses

@@ -13,6 +13,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from seismass.assessment.file_keys import KEYS
 from seismass.assessment.floors import CountedFraction, FloorCode, FloorGoods, by_floor, counted_fractions
 from seismass.base.errors import InvalidOption
 from seismass.base.input_table import Table
@@ -43,9 +44,6 @@ from seismass.model.tipping import Tipping
 from seismass.motions.spectra import TargetSpectrum
 from seismass.motions.spectra.target import target_of_parameters
 
-PROJECT: Final = ("name", "number", "client", "revision", "author", "checker", "date")
-"""Keys of the table."""
-
 
 @dataclass(frozen=True)
 class Project:
@@ -75,7 +73,7 @@ NO_PROJECT: Final = Project()
 def project_of(table: Table) -> Project:
     """Return what a table [project] says."""
     return Project(
-        **{key: printable(table.text(key)) for key in PROJECT if key != "date"},
+        **{key: printable(table.text(key)) for key in KEYS["project"] if key != "date"},
         date=_date(table),
     )
 

@@ -1,92 +1,261 @@
-"""Parts of a building file: goods, racks, walls, the second direction, the base."""
+"""Parts of a building file: site, period, limits, code, goods, racks, walls, the second direction, the base."""
 
 from __future__ import annotations
 
 import copy
-import math
-from collections.abc import Mapping
-from typing import Any, Final, NamedTuple, NoReturn, get_args
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Final, NamedTuple, get_args
 
 import numpy as np
+import polars as pl
 
-from seismass.assessment.file_site import PERIOD
-from seismass.assessment.floors import DEFAULT_FRAME, DEFAULT_LEVELS, NOTHING_STATED, FloorGoods, GoodsRack, GoodsStops
+from seismass.assessment.building import limit_at_level
+from seismass.assessment.file_keys import KEYS, held, keys_of, known, missing, needed, number, optional, spelled
+from seismass.assessment.floors import NOTHING_STATED, FloorCode, FloorGoods, GoodsRack, GoodsStops
 from seismass.base.errors import InvalidBuildingFile, InvalidOption, SeismassError
-from seismass.base.input_table import NOT_NEGATIVE, POSITIVE, SHARE, Need, Table
+from seismass.base.input_table import Need, Table
+from seismass.base.statistics import QUANTILES, quantile
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, as_array, printable
-from seismass.design import Wall, vibration_modes
+from seismass.base.values import FloatArray, as_array, brief, printable
+from seismass.design import (
+    DRIFT_LIMIT_CODES,
+    PERIOD_CODES,
+    DriftLimit,
+    PeriodRule,
+    Wall,
+    code_period,
+    drift_limit,
+    drift_limit_table,
+    period_table,
+    vibration_modes,
+)
+from seismass.design.rules import CATEGORIES
+from seismass.design.scaling.asce7 import spectra_of
+from seismass.design.scaling.by_code import SCALING_CODES
 from seismass.model.block import SlidingBase
 from seismass.model.building import Building
+from seismass.model.codes import AS_STATED, CodeFraction, code_fraction
 from seismass.model.friction import BOUND_FACTORS, bound_factors, friction_pair
 from seismass.model.occupancy import SURVEYED, surveyed_load
-from seismass.model.rack import DEFAULT_RACK_DAMPING, rack_direction
+from seismass.model.plausibility import PERIOD_RANGE
+from seismass.model.rack import rack_direction
 from seismass.model.tipping import BlockSize, Tipping
+from seismass.motions.scaling.suite import target_of
+from seismass.motions.spectra import TargetSpectrum
+from seismass.motions.spectra.tables import file_and_words
 
-STRONG: Final = Need("positive (inf: the storey stays elastic)", lambda number: number > 0.0)
-"""What a strength must be."""
-REDUCTION: Final = Need("finite and at least 1", lambda number: 1.0 <= number < math.inf)
-"""What R must be."""
-
-
-def held(tables: tuple[Table, ...], group: tuple[str, ...]) -> tuple[Table, str] | None:
-    """Return where a value stands: in the first of the tables that has it, a storey's own before the defaults."""
-    for table in tables:
-        for key in group:
-            if key in table.values:
-                return table, key
-    return None
+PERIOD_MASSES: Final = ("bare", "code share", "all")
+"""What a period is the period of: the building without goods, with the code's share of them, or with all present."""
 
 
-def key_of(storey: Table, default: Table, group: tuple[str, ...]) -> str:
-    """Return the key that states a value of a storey; empty where none does."""
-    place = held((storey, default), group)
-    return "" if place is None else place[1]
+def site_of(site: Table, folder: Path) -> TargetSpectrum | None:
+    """Return the site spectrum; None where the file has none."""
+    if not site.values:
+        return None
+    for whole in ("target", "spectrum_csv"):
+        for key in KEYS["site"]:
+            if key not in (whole, "s1_g"):
+                site.excluded(key, whole)
+    if "target" in site.values:
+        try:
+            return target_of(site.text("target"), folder)
+        except InvalidOption as error:
+            requirement = str(error).partition(" must be ")[2].rpartition("; got ")[0]
+            site.refuse("target", requirement if "one of asce7" in requirement else f"valid: {error}", "another")
+    if "spectrum_csv" in site.values:
+        file, words = file_and_words(site.text("spectrum_csv"), folder)
+        return TargetSpectrum.from_csv(file, **words)
+    for key in ("sds_g", "sd1_g"):
+        if key not in site.values:
+            others = f"{site.key('spectrum_csv')} or {site.key('target')} for the whole spectrum"
+            site.refuse(key, f"given, or {others}", "nothing")
+    short, one, tl = (number(site, key) for key in ("sds_g", "sd1_g", "tl_s"))
+    if tl < one / short:
+        site.refuse("tl_s", f"at least T_S = S_D1/S_DS = {one / short:g} s", f"{tl:g}")
+    return TargetSpectrum.asce7(short, one, tl)
 
 
-def number_of(place: tuple[Table, str], need: Need) -> float:
-    """Return the number that stands at a place."""
-    table, key = place
-    return table.number(key, need=need)
+class StatedPeriod(NamedTuple):
+    """First period of a building file (s; None where stiffnesses are stated), which goods act as mass in it (one of
+    `PERIOD_MASSES`), and the row of the code that gave it.
+    """
+
+    value: float | None
+    mass: str
+    rule: PeriodRule | None
 
 
-def stated(storey: Table, default: Table, key: str, need: Need, value: float) -> float:
-    """Return a number of a storey or of the defaults, or the value that stands for a missing one."""
-    place = held((storey, default), (key,))
-    return value if place is None else number_of(place, need)
+def period_of(building: Table, heights: FloatArray | None, storeys: int, code: CodeFraction) -> StatedPeriod:
+    """Return the first period: as stated, or by the formula of a code for a structural system and the height."""
+    if "system" not in building.values or "period_s" in building.values:
+        if "system" not in building.values:
+            building.left_out(("period_code",), f"{building.key('system')} is not given")
+        else:  # it limits the period of the design, by the code of the file
+            building.left_out(("period_code",), f"{building.key('period_s')} is given", "both")
+            building.choice("system", period_table()["system"].unique(maintain_order=True))
+        if "period_mass" in building.values:
+            building.needed("period_s", "system")
+        return StatedPeriod(optional(building, "period_s"), _mass(building, "bare"), None)
+    code_id = _code_id(building, "period_code", code, PERIOD_CODES, "approximate period is known here")
+    if heights is None:
+        building.refuse("height_m", f"given where {building.key('system')} is", "nothing")
+    try:
+        rule = code_period(code_id, building.text("system"), height=float(heights.sum()), storeys=storeys)
+    except InvalidOption as error:
+        building.refuse_as("system", error)
+    return StatedPeriod(rule.approximate, _mass(building, "code share"), rule.rule)
 
 
-def positive(storey: Table, default: Table, key: str, value: float | None = None) -> float:
-    """Return a positive number of a storey or of the defaults; a missing one is refused where there is no value."""
-    if value is not None:
-        return stated(storey, default, key, POSITIVE, value)
-    place = held((storey, default), (key,))
-    if place is None:
-        storey.refuse(key, f"given, or {default.key(key)} for all storeys", "nothing")
-    return number_of(place, POSITIVE)
+def _mass(building: Table, default: str) -> str:
+    mass = building.text("period_mass") if "period_mass" in building.values else default
+    if mass not in PERIOD_MASSES:
+        building.refuse("period_mass", f"one of {', '.join(PERIOD_MASSES)}", brief(mass))
+    return mass
 
 
-def missing(storey: Table, default: Table, group: tuple[str, ...]) -> NoReturn:
-    """Refuse a quantity that is stated nowhere."""
-    others = "".join(f", or {key}" for key in group[1:])
-    storey.refuse(group[0], f"given{others}, here or in {default.place}", "nothing")
+def limit_of(building: Table, code: CodeFraction, scaling: str) -> tuple[float, DriftLimit | None]:
+    """Return the limit of the drift ratio at the level of a rule of scaling, and the row of the code that gave it (of
+    ASCE 7-10 where the code has none); None where it was stated.
+    """
+    by_code = ("drift_class", "drift_limit_code")
+    category = category_of(building)
+    asked = any(key in building.values for key in by_code)
+    if "drift_limit" in building.values:
+        building.left_out(by_code, f"{building.key('drift_limit')} is given", "both")
+        return number(building, "drift_limit"), None
+    if not asked and code.code_id not in DRIFT_LIMIT_CODES:
+        row = drift_limit(DEFAULT_CODE, category)
+        return limit_at_level(row, scaling), row
+    code_id = _code_id(building, "drift_limit_code", code, DRIFT_LIMIT_CODES, "drift limits are known here")
+    of_code = drift_limit_table().filter(code_id=code_id)
+    structure = building.choice("drift_class", of_code["structure"].unique(maintain_order=True), "other")
+    row = drift_limit(code_id, category, structure)
+    return limit_at_level(row, scaling), row
+
+
+def category_of(building: Table) -> str:
+    """Return the risk category that the file states, or II."""
+    return building.choice("risk_category", CATEGORIES, "II")
+
+
+def scaling_of(table: Table) -> str:
+    """Return the rule of scaling that the file states; empty where it states none."""
+    if "scaling" not in table.values:
+        return ""
+    return table.choice("scaling", SCALING_CODES)
+
+
+def check_period(building: Table, period: StatedPeriod, stiffness: FloatArray, geometric: FloatArray) -> None:
+    """Refuse a period so long that P-Delta takes the whole stiffness of a storey: `geometric` is P/h with the goods
+    present (N/m), shape (storeys,).
+    """
+    ratio = geometric / stiffness
+    storey = int(np.argmax(ratio))
+    if period.value is None or ratio[storey] < 1.0:
+        return
+    longest = period.value / np.sqrt(ratio[storey])
+    if longest < PERIOD_RANGE[0]:  # no building has one so short: the loads are wrong, which the scene says
+        return
+    sentence = (
+        f"below {longest:.3g} s, where the gravity load P/h of storey {storey + 1} takes its whole stiffness (are "
+        "loads and heights in the units of their keys?)"
+    )
+    if period.rule is None:
+        building.refuse("period_s", sentence, f"{period.value:g}")
+    building.refuse("system", f"one whose period is {sentence}", f"{period.value:.3g} s")
+
+
+def _code_id(building: Table, key: str, code: CodeFraction, known: tuple[str, ...], what: str) -> str:
+    """The code that a key names, or else that of the file, whose rules must be known."""
+    code_id = building.text(key).lower() if key in building.values else code.code_id
+    if code_id in known:
+        return code_id
+    building.refuse(key, f"one of the codes whose {what}: {', '.join(known)}", brief(code_id) if code_id else "none")
+
+
+DEFAULT_CODE: Final = "asce7-10"
+"""Code whose fraction is taken where the file names none."""
+
+
+def code_of(table: Table) -> CodeFraction:
+    """Return the code of the file, or a fraction of your own."""
+    if "fraction" in table.values:
+        table.excluded("id", "fraction")
+        table.excluded("use", "fraction")
+        value = number(table, "fraction")
+        return CodeFraction("own", "a fraction that the user states", "storage", value, value, value, "", "", AS_STATED)
+    names = {key: table.text(key) for key in ("id", "use")}
+    try:
+        row = code_fraction(names["id"] or DEFAULT_CODE)
+        return code_fraction(row.code_id, names["use"] or "storage")  # type: ignore[arg-type]
+    except InvalidOption as error:
+        key = "use" if str(error).startswith("use") else "id"
+        table.refuse_as(key, error)
+
+
+def floor_codes(storeys: list[Table], goods: Table, code: CodeFraction) -> tuple[FloorCode, ...]:
+    """Return what the tables of the storeys, or of all goods, say for the code: `use`, or `fraction`, and `exempt`."""
+    codes = []
+    of_all = _use(goods, code)
+    for storey in storeys:
+        storey.one_of("use", "fraction")
+        exempt = storey.flag("exempt", False) if "exempt" in storey.values else None
+        if exempt:
+            storey.one_of("use", "fraction", "exempt")
+        for kind in storey.tables("goods"):
+            _use(kind, code)
+        codes.append(FloorCode(number(storey, "fraction"), _use(storey, code) or of_all, exempt))
+    return tuple(codes)
+
+
+def _use(table: Table, code: CodeFraction) -> str:
+    """The use that a table states, of which the code must say something; empty where it states none."""
+    use = table.text("use")
+    if use and code.status == AS_STATED:
+        table.refuse("use", "left out where code.fraction is given", "both")
+    if use:
+        try:
+            code_fraction(code.code_id, use)  # type: ignore[arg-type]
+        except InvalidOption as error:
+            table.refuse_as("use", error)
+    return use
+
+
+PERIODS: Final[FloatArray] = np.round(np.geomspace(0.05, 5.0, 81), 4)
+"""Periods (s) of the table."""
+DAMPING: Final = 0.05
+
+
+def spectra_table(
+    motions: Sequence[Any], target: TargetSpectrum | None, pairs: str = "srss", *, threads: int | None = None
+) -> pl.DataFrame:
+    """Return the period (s) and, in m/s2, the target and the mean, p16, median and p84 of the pseudo-acceleration of
+    scaled motions, 5 % damped; `pairs` names what stands for a pair. The target is null outside its range.
+    """
+    spectra = spectra_of(list(motions), PERIODS, DAMPING, pairs, threads=threads)
+    wanted = np.full(len(PERIODS), np.nan)
+    if target is not None:
+        covered = (target.shortest <= PERIODS) & (target.longest >= PERIODS)
+        wanted[covered] = target(PERIODS[covered])
+    columns = {"period": PERIODS, "target": wanted, "mean": spectra.mean(axis=0)}
+    columns |= {name: quantile(spectra.T, share) for name, share in QUANTILES.items()}
+    return pl.DataFrame(columns).with_columns(pl.col("target").fill_nan(None))
 
 
 SUPPORT: Final = ("on_racks", "stops")
 """Keys of how goods stand: tables, or false where a default does not hold."""
-RACK_KEYS: Final = ("direction", "period_s", "levels", "frame", "damping", "yield_shear_over_weight")
-STOP_KEYS: Final = ("clearance_m", "stiffness_kn_per_m")
 
 
 def rack_of(tables: tuple[Table, ...]) -> GoodsRack | None:
     """Return the racks under goods, by the first of `tables` that has racks; None where goods stand on the floor."""
-    table = _stated(tables, "on_racks", RACK_KEYS)
+    table = _described(tables, "on_racks")
     if table is None:
         return None
     table.needed("direction", "period_s")
     table.one_of("direction", "period_s")
     if "period_s" in table.values:
-        period, how = table.number("period_s", need=POSITIVE), "as stated"
+        period, how = number(table, "period_s"), "as stated"
     else:
         try:
             row = rack_direction(table.text("direction"))
@@ -94,29 +263,28 @@ def rack_of(tables: tuple[Table, ...]) -> GoodsRack | None:
             table.refuse_as("direction", error)
         period = row.period
         how = f"{row.name}, usually {row.low:g} to {row.high:g} s; {row.source}, {row.status}"
-    strength = "yield_shear_over_weight" in table.values
     return GoodsRack(
         period,
         how,
-        table.count("levels", least=1) if "levels" in table.values else DEFAULT_LEVELS,
-        table.number("frame", DEFAULT_FRAME, POSITIVE),
-        table.number("damping", DEFAULT_RACK_DAMPING, SHARE),
-        table.number("yield_shear_over_weight", need=POSITIVE) if strength else None,
+        table.count("levels", least=1) if "levels" in table.values else int(number(table, "levels")),
+        number(table, "frame"),
+        number(table, "damping"),
+        optional(table, "yield_shear_over_weight"),
     )
 
 
 def stops_of(tables: tuple[Table, ...]) -> GoodsStops | None:
     """Return the stops beside goods; None where there are none. The first of `tables` that describes stops counts."""
-    table = _stated(tables, "stops", STOP_KEYS)
+    table = _described(tables, "stops")
     if table is None:
         return None
     table.needed("clearance_m")
-    stated = "stiffness_kn_per_m" in table.values
-    stiffness = 1e3 * table.number("stiffness_kn_per_m", need=POSITIVE) if stated else None
-    return GoodsStops(table.number("clearance_m", np.nan, NOT_NEGATIVE), stiffness)
+    stiffness = optional(table, "stiffness_kn_per_m")
+    return GoodsStops(number(table, "clearance_m"), None if stiffness is None else 1e3 * stiffness)
 
 
-def _stated(tables: tuple[Table, ...], key: str, known: tuple[str, ...]) -> Table | None:
+def _described(tables: tuple[Table, ...], key: str) -> Table | None:
+    """The table of a key, by the first of `tables` that has it; None where it is false or nowhere."""
     place = held(tables, (key,))
     if place is None:
         return None
@@ -124,18 +292,14 @@ def _stated(tables: tuple[Table, ...], key: str, known: tuple[str, ...]) -> Tabl
     if table.values[key] is False:
         return None
     if not isinstance(table.values[key], dict):
-        table.refuse(key, f"a table with {' or '.join(known[:2])}, or false", str(table.values[key]))
+        table.refuse(key, f"a table with {' or '.join(list(KEYS[key])[:2])}, or false", str(table.values[key]))
     inner = table.table(key)
-    inner.known(known)
+    known(inner)
     return inner
 
 
-LIVE_LOAD: Final = ("live_load_kpa", "live_load_kg")
-"""Keys of the design live load of a floor."""
-FRICTION: Final = ("friction", "mu", "mu_s")
-"""Keys of its friction."""
-PRESENT: Final = ("occupied", "occupancy")
-"""Keys of how much of it is present: a share, or what surveys say."""
+LIVE_LOAD, FRICTION, PRESENT = keys_of("live_load"), keys_of("friction"), keys_of("present")
+"""Keys of the design live load of a floor, of its friction, and of how much of it is present."""
 SIZE: Final = ("width_m", "height_m", "tipping")
 """Keys of the size of the goods, and of what stands for those that tip."""
 SUM_ERROR: Final = 1e-6
@@ -148,10 +312,10 @@ def live_load_of(storey: Table, goods_table: Table, building: Table) -> float:
     if place is None:
         return 0.0
     table, key = place
-    value = table.number(key, need=NOT_NEGATIVE)
+    value = number(table, key)
     if key == "live_load_kg" or value == 0.0:
         return value
-    return 1e3 * value * positive(storey, building, "area_m2") / STANDARD_GRAVITY
+    return 1e3 * value * needed(storey, building, "area_m2") / STANDARD_GRAVITY
 
 
 def kinds_of(
@@ -167,7 +331,7 @@ def kinds_of(
         contact = _friction(levels) if live_load * share > 0.0 else ("", 0.0, 0.0)
         neighbours, size = (rack_of(levels), stops_of(levels)), size_of((goods_table,))
         return (FloorGoods(floor, "", live_load, share, how, False, *contact, *neighbours, source, uses[0], *size),)
-    shares = [table.number("share", need=SHARE) if "share" in table.values else np.nan for table in tables]
+    shares = [number(table, "share") for table in tables]
     total = sum(shares)
     if not abs(total - 1.0) <= SUM_ERROR:
         got = "a kind without one" if np.isnan(total) else f"a sum of {total:g}"
@@ -206,7 +370,7 @@ def size_of(tables: tuple[Table, ...]) -> tuple[BlockSize | None, str]:
                 f"given: {SIZE[0]} and {SIZE[1]} are the size of one of the goods (heights of storeys stand elsewhere)"
             )
             place[0].refuse(key, both, "nothing")
-    return BlockSize(*(place[0].number(key, need=POSITIVE) for key in SIZE[:2])), stated_model
+    return BlockSize(*(number(place[0], key) for key in SIZE[:2])), stated_model
 
 
 def _present(tables: tuple[Table, ...], live_load: float, area: float, use: str) -> tuple[float, str, str]:
@@ -220,7 +384,7 @@ def _present(tables: tuple[Table, ...], live_load: float, area: float, use: str)
         return usual.share, how, ""
     table, key = place
     if key == "occupied":
-        return number_of(place, SHARE), "of the design live load, as stated", ""
+        return number(table, key), "of the design live load, as stated", ""
     try:
         survey = surveyed_load(table.text(key))
     except SeismassError as error:
@@ -251,7 +415,7 @@ def _friction(tables: tuple[Table, ...]) -> tuple[str, float, float]:
         except SeismassError as error:
             table.refuse_as(key, error)
         return pair.pair_id, pair.mu_s, pair.mu_k
-    static = table.number(key, need=NOT_NEGATIVE)
+    static = number(table, key)
     if key == "mu" or "mu_k" not in table.values:
         return "", static, static
     requirement = f"from 0 to {table.key('mu_s')} = {static:g}"
@@ -267,16 +431,8 @@ def mu_factors_of(goods_table: Table) -> tuple[float, float]:
         goods_table.refuse_as("mu_factors", error)
 
 
-WALL_KEYS: Final = (
-    "flexural_rigidity_kn_m2",
-    "period_s",
-    "alpha_h",
-    "base_shear_share",
-    "stiffness_matrix_kn_per_m",
-)
-"""Keys of the table; one of them is given."""
 _BY_THEMSELVES: Final = ("flexural_rigidity_kn_m2", "period_s", "stiffness_matrix_kn_per_m")
-"""Those that do not follow the stiffness of the storeys."""
+"""Keys of walls that do not follow the stiffness of the storeys."""
 
 
 class Walls(NamedTuple):
@@ -297,9 +453,8 @@ def walls_of(
     """
     if not walls.values:
         return None
-    walls.known(WALL_KEYS)
-    walls.needed(*WALL_KEYS)
-    walls.one_of(*WALL_KEYS)
+    walls.needed(*KEYS["walls"])
+    walls.one_of(*KEYS["walls"])
     (key,) = walls.values
     by_period = period is not None
     if by_period and key in _BY_THEMSELVES:
@@ -327,29 +482,18 @@ def _matrix(key: str, walls: Table, mass: FloatArray, stiffness: FloatArray, hei
         rows = walls.per_storey(key)
         rigidity = np.full(len(mass), np.nan) if rows is None else 1e3 * rows * np.ones(len(mass))
         return Wall(heights, rigidity).stiffness_matrix, "flexural cantilever of the stated EI"
-    number = walls.number(key, need=POSITIVE)
+    value = number(walls, key)
     if key == "period_s":
-        return Wall.of_period(mass, heights, number).stiffness_matrix, f"flexural cantilever, alone {number:g} s"
+        return Wall.of_period(mass, heights, value).stiffness_matrix, f"flexural cantilever, alone {value:g} s"
     if key == "alpha_h":
-        return Wall.of_alpha_h(frame, number).stiffness_matrix, f"flexural cantilever, alpha H = {number:g}"
-    share = f"flexural cantilever with {number:g} of the base shear in the first mode"
-    return Wall.of_base_shear_share(frame, number).stiffness_matrix, share
+        return Wall.of_alpha_h(frame, value).stiffness_matrix, f"flexural cantilever, alpha H = {value:g}"
+    share = f"flexural cantilever with {value:g} of the base shear in the first mode"
+    return Wall.of_base_shear_share(frame, value).stiffness_matrix, share
 
 
-STIFFNESS: Final = ("stiffness_kn_per_m", "stiffness_n_per_m", "stiffness_kip_per_in", "stiffness")
-STRENGTH: Final = ("yield_shear_kn", "yield_shear_n", "yield_shear_over_weight", "yield_shear_kip", "yield_shear")
+PERIOD: Final = ("period_s", "system", "period_code", "period_mass")
 DESIGN: Final = ("design", "R", "design_fraction", "combination")
-OF_STOREYS: Final = (
-    *STIFFNESS,
-    "relative_stiffness",
-    *STRENGTH,
-    "overstrength",
-    "second_slope",
-    "third_slope",
-)
-"""Keys of a storey that may differ in y."""
-OTHER_DIRECTION: Final = (*PERIOD, *DESIGN, "damping", "damping_from_storey", *OF_STOREYS, "storeys")
-"""Keys of the other direction."""
+STIFFNESS, STRENGTH = spelled(keys_of("stiffness")[:2]), spelled(keys_of("strength"))
 _REPLACED: Final = ((*PERIOD, *STIFFNESS), STRENGTH)
 """Groups of keys of which one in y replaces all in x."""
 
@@ -358,7 +502,7 @@ def tables_in_y(tables: Mapping[str, Any], file: str) -> Table:
     """Return the tables of the building in y, made from `other_direction` of a file; `tables` stays as it is."""
     whole = copy.deepcopy(dict(tables))
     other = Table(whole.pop("other_direction"), "other_direction", file, InvalidBuildingFile)
-    other.known(OTHER_DIRECTION)
+    known(other, None)
     in_y = Table(whole, "", f"{file}, other_direction", InvalidBuildingFile)
     storeys = other.tables("storeys") if "storeys" in other.values else []
     for key, read in (("building", in_y.table), ("storeys", in_y.tables)):
@@ -368,9 +512,9 @@ def tables_in_y(tables: Mapping[str, Any], file: str) -> Table:
     if storeys and len(storeys) != len(storey_tables):
         other.refuse("storeys", f"as many tables as the building has storeys, {len(storey_tables)}", str(len(storeys)))
     _merge([of_building, *storey_tables], {key: value for key, value in other.values.items() if key != "storeys"})
-    for number, storey in enumerate(storeys):
-        storey.known(OF_STOREYS)
-        _merge([storey_tables[number]], storey.values)
+    for storey, of_storey in zip(storeys, storey_tables, strict=False):
+        known(storey, None)
+        _merge([of_storey], storey.values)
         if any(key in storey.values for key in (*STIFFNESS, *STRENGTH)):
             for group in _REPLACED:
                 if any(key in storey.values for key in group):
@@ -398,22 +542,16 @@ def _drop(table: dict[str, Any], keys: tuple[str, ...]) -> None:
         table.pop(key, None)
 
 
-BASE_KEYS: Final = ("mu", "mu_s", "mu_k", "radius_m", "mass_kg", "mass_ratio")
-
-
 def base_of(table: Table) -> SlidingBase | None:
     """Return the sliding base of a building file from its table `base`; None where that table is empty."""
     if not table.values:
         return None
-    table.known(BASE_KEYS)
     table.needed("mu", "mu_s")
     table.excluded("mu", "mu_s", "mu_k")
     table.one_of("mass_kg", "mass_ratio")
-    friction = {key: table.number(key, need=NOT_NEGATIVE) for key in ("mu", "mu_s", "mu_k") if key in table.values}
+    friction = {key: number(table, key) for key in ("mu", "mu_s", "mu_k") if key in table.values}
     others = {"radius_m": "radius", "mass_kg": "mass", "mass_ratio": "mass_ratio"}
-    values: dict[str, Any] = {
-        name: table.number(key, need=POSITIVE) for key, name in others.items() if key in table.values
-    }
+    values: dict[str, Any] = {name: number(table, key) for key, name in others.items() if key in table.values}
     static = friction.get("mu_s", friction.get("mu"))
     if "mu_k" in friction and static is not None and friction["mu_k"] > static:
         table.refuse("mu_k", f"at most {table.key('mu_s')}", f"{friction['mu_k']:g}")

@@ -19,10 +19,6 @@ from seismass.model.occupancy import surveyed_load
 from seismass.model.rack import Rack, RackBlock
 from seismass.model.tipping import BlockSize, Tipping, staying_part, tipping_of
 
-DEFAULT_LEVELS: Final = 3
-"""Levels of racks where none are stated, the goods evenly on them."""
-DEFAULT_FRAME: Final = 0.05
-"""Mass of the frames of racks over that of the goods present, where none is stated."""
 CONTACT_PERIOD: Final = 0.1
 """Period of goods on their stop (s), where no stiffness is stated: stiff beside the building."""
 

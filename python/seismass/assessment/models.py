@@ -11,7 +11,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass.assessment.building import OwnBuilding
-from seismass.assessment.file_site import PERIOD_MASSES
+from seismass.assessment.file_parts import PERIOD_MASSES
 from seismass.base.arguments import ProgressLike
 from seismass.base.errors import InvalidOption, SimulationError
 from seismass.base.statistics import or_infinite
@@ -21,6 +21,7 @@ from seismass.design.scaling.asce7 import period_of_mass
 from seismass.effective_mass.models import base_of_model, frame_mass
 from seismass.effective_mass.rule import by_hand
 from seismass.effective_mass.search import OWNER
+from seismass.media.result import table_schema
 from seismass.media.roles import MODELS
 from seismass.model.codes import NOT_CHECKED, VERIFIED
 from seismass.model.scene import Scene
@@ -150,13 +151,9 @@ def solve_models(
                     **of_directions,
                 }
             )
-    schema: dict[str, Any] = {"motion": pl.UInt32, "storey": pl.UInt32}
-    schema |= dict.fromkeys(("peak_drift_ratio", "peak_slip", "peak_base_slip"), pl.Float64)
-    of_kinds: dict[str, Any] = {"model": pl.String, "motion": pl.UInt32, "collapsed": pl.Boolean}
-    of_kinds |= dict.fromkeys(("kind", "level"), pl.UInt32)
     return (
-        pl.DataFrame(rows, schema_overrides=schema),
-        pl.DataFrame(slides, schema=of_kinds | dict.fromkeys(_SLIPS, pl.Float64)),
+        pl.DataFrame(rows, schema_overrides=table_schema("assessment", "runs")),
+        pl.DataFrame(slides, schema=table_schema("assessment", "slips")),
     )
 
 

@@ -10,7 +10,7 @@ from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 
-from seismass.assessment.file_parts import REDUCTION
+from seismass.assessment.file_keys import NEEDS
 from seismass.assessment.pushover_file import PushoverCurves
 from seismass.assessment.storey_table import StoreyTable
 from seismass.assessment.table_words import is_roof, plain, word_list
@@ -148,7 +148,7 @@ QUESTIONS: Final = (
     Question("period", "What is the first period without goods (s)?", "a positive number", _positive),
     Question("sds", "What is S_DS of the site (g)?", "a positive number", _positive),
     Question("sd1", "What is S_D1 of the site (g)?", "a positive number", _positive),
-    Question("reduction", "By which R are strengths designed?", "a number from 1", _number(REDUCTION), "3"),
+    Question("reduction", "By which R are strengths designed?", "a number from 1", _number(NEEDS["reduction"]), "3"),
     Question("live_load", "What is the design live load of the loaded floors (kPa)?", "a positive number", _positive),
     Question("occupied", "Which share of it is present (0 to 1)?", "a number from 0 to 1", _share, "1"),
     Question(

@@ -59,7 +59,7 @@ class Assessment(FieldValue, Result):
     slip : polars.DataFrame
         Slip demand by friction and floor; see `seismass.assessment.checks.slip_table`.
     tipping : polars.DataFrame
-        Goods that tip before they slide, and what stands for them; see `seismass.assessment.rocking.tipping_table`.
+        Goods that tip before they slide, and what stands for them; see `seismass.assessment.checks.tipping_table`.
     runs : polars.DataFrame
         Peaks of every run by storey; see `seismass.assessment.models.solve_models`.
     left_out : polars.DataFrame
@@ -69,7 +69,7 @@ class Assessment(FieldValue, Result):
     collapses : dict of str to int
         Collapsed runs of each model.
     spectra : polars.DataFrame
-        Spectra of the scaled motions; see `seismass.assessment.file_site.spectra_table`.
+        Spectra of the scaled motions; see `seismass.assessment.file_parts.spectra_table`.
     example : Shown
         The building under the motion with the median drift of those under which goods slide.
     scaling : ScalingResult or None

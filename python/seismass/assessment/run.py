@@ -23,9 +23,17 @@ from seismass.assessment.answer import (
 )
 from seismass.assessment.building import OwnBuilding, with_code
 from seismass.assessment.building_file import read_building
-from seismass.assessment.checks import checked_storeys, collapses_of, governing_table, left_out_table, slip_table
+from seismass.assessment.checks import (
+    checked_storeys,
+    collapses_of,
+    governing_table,
+    left_out_table,
+    other_models,
+    slip_table,
+    tipping_table,
+)
 from seismass.assessment.doubts import doubts_of, motion_doubts
-from seismass.assessment.file_site import spectra_table
+from seismass.assessment.file_parts import spectra_table
 from seismass.assessment.models import (
     ADVISED,
     BARE,
@@ -39,13 +47,12 @@ from seismass.assessment.models import (
     solve_models,
 )
 from seismass.assessment.result import SCHEMA_VERSION, Assessment
-from seismass.assessment.rocking import other_models, tipping_table
 from seismass.assessment.statement import PresentGoods, governing_drifts, other_amounts, present_goods
 from seismass.base.arguments import Progress, ProgressLike
-from seismass.base.digest import metadata_head, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.files import without_formulas
 from seismass.base.statistics import bootstrap_counts, few_collapses
+from seismass.base.stored_results import metadata_head, motion_contents
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.design.scaling import ScalingResult
 from seismass.effective_mass.models import DEFAULT_FRACTIONS, SHARES_BEYOND, check_cap, goes_beyond

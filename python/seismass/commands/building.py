@@ -7,8 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seismass.commands.answer_output import print_answer
-from seismass.commands.frame import Command, progress, show
+from seismass.commands.frame import Command, print_answer, progress, show
 from seismass.commands.options import (
     add_answer_options,
     add_code_options,

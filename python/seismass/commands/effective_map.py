@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from seismass.commands.answer_output import give_answer
-from seismass.commands.frame import Command, progress
+from seismass.commands.frame import Command, give_answer, progress
 from seismass.commands.options import (
     add_answer_options,
     add_motion_options,

@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from seismass._kernel import VERSION
-from seismass.commands.answer_output import give_answer
-from seismass.commands.frame import Command, progress
+from seismass.commands.frame import Command, give_answer, progress
 from seismass.commands.options import (
     add_answer_options,
     add_records_options,

@@ -10,8 +10,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from seismass.commands.answer_output import write_figure
-from seismass.commands.frame import Command, progress, show
+from seismass.commands.frame import Command, progress, show, write_figure
 from seismass.commands.options import (
     add_json_option,
     add_plot_option,

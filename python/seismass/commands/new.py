@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.commands.answer_output import write_figure
-from seismass.commands.frame import Command, show
+from seismass.commands.frame import Command, show, write_figure
 from seismass.commands.options import refuse_options
 
 if TYPE_CHECKING:

@@ -8,8 +8,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seismass.commands.answer_output import write_figure
-from seismass.commands.frame import Command, show
+from seismass.commands.frame import Command, show, write_figure
 from seismass.commands.options import (
     add_json_option,
     add_plot_option,

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 from seismass.base.files import table_content, write_file
 from seismass.commands.frame import Command, show
 from seismass.commands.options import add_json_option, add_opensees_option, add_output_option
-from seismass.runs.scene_file import KEYS, SceneFile, example_scene, read_scene
+from seismass.runs.scene_file import SceneFile, example_scene, read_scene
+from seismass.runs.scene_goods import KEYS
 
 if TYPE_CHECKING:
     from seismass.runs.plane import PlaneResponse

@@ -7,8 +7,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass.commands.answer_output import write_figure
-from seismass.commands.frame import Command, show
+from seismass.commands.frame import Command, show, write_figure
 from seismass.commands.options import (
     SPRING_OPTIONS,
     add_json_option,

@@ -6,8 +6,7 @@ import argparse
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from seismass.commands.answer_output import give_answer
-from seismass.commands.frame import Command, progress
+from seismass.commands.frame import Command, give_answer, progress
 from seismass.commands.options import add_answer_options, add_records_options, add_target_options, arguments, read_site
 from seismass.commands.scene_or_building import (
     add_file_argument,

@@ -13,8 +13,7 @@ from threading import Event
 from typing import TYPE_CHECKING
 
 from seismass._kernel import VERSION
-from seismass.commands.answer_output import print_answer, write_answer
-from seismass.commands.frame import Command, progress
+from seismass.commands.frame import Command, print_answer, progress, write_answer
 from seismass.commands.options import (
     CODE_HELP,
     SPRING_OPTIONS,

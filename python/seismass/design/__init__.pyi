@@ -5,27 +5,18 @@ from .archetype import DesignedBuilding, designed_building
 from .code_design import CodeDesign, DesignEntry, design_by_code
 from .lateral_force import (
     DISTRIBUTION_CODES,
+    PERIOD_CODES,
+    CodePeriod,
     DistributionRule,
     LateralForces,
+    PeriodRule,
+    code_period,
     distribution_table,
     equivalent_lateral_forces,
     exponent_k,
+    period_table,
     seismic_response_coefficient,
-)
-from .limits import (
-    DRIFT_LIMIT_CODES,
-    THETA_CAP,
-    THETA_THRESHOLD,
-    DriftLimit,
-    SystemFactors,
-    drift_limit,
-    drift_limit_table,
-    importance_factor,
-    stability_coefficient,
-    stability_limit,
-    storey_checks,
-    system_factors,
-    system_table,
+    upper_limit_coefficient,
 )
 from .modes import (
     MODAL_BASE_SHEAR_SHARE,
@@ -38,17 +29,25 @@ from .modes import (
     response_spectrum_analysis,
     vibration_modes,
 )
-from .periods import (
-    PERIOD_CODES,
-    CodePeriod,
-    PeriodRule,
-    code_period,
-    period_table,
-    upper_limit_coefficient,
-)
 from .pushover import Pattern, Pushover, pushover
 from .pushover_fit import PushoverFit, fit_pushover
-from .rules import CodeRule, rules_table
+from .rules import (
+    DRIFT_LIMIT_CODES,
+    THETA_CAP,
+    THETA_THRESHOLD,
+    CodeRule,
+    DriftLimit,
+    SystemFactors,
+    drift_limit,
+    drift_limit_table,
+    importance_factor,
+    rules_table,
+    stability_coefficient,
+    stability_limit,
+    storey_checks,
+    system_factors,
+    system_table,
+)
 from .walls import Wall
 from .weight import FloorUse, SeismicWeight, effective_seismic_weight
 

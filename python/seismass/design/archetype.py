@@ -14,11 +14,9 @@ from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FieldValue, FloatArray, as_array, as_number, brief, frozen, refusal
 from seismass.base.views import Card
 from seismass.design.code_design import CodeDesign, Procedure, design_by_code
-from seismass.design.lateral_force import DISTRIBUTION_CODES, equivalent_lateral_forces
-from seismass.design.limits import storey_checks
+from seismass.design.lateral_force import DISTRIBUTION_CODES, code_period, equivalent_lateral_forces
 from seismass.design.modes import positive_of_length, vibration_modes
-from seismass.design.periods import code_period
-from seismass.design.rules import known_category, rule_of
+from seismass.design.rules import known_category, rule_of, storey_checks
 from seismass.model.building import Building
 from seismass.motions.spectra import TargetSpectrum
 

@@ -15,9 +15,13 @@ from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FieldValue, FloatArray, as_one_of, as_positive, frozen, refusal
 from seismass.base.views import Card
-from seismass.design.lateral_force import equivalent_lateral_forces, seismic_response_coefficient
+from seismass.design.lateral_force import (
+    PERIOD_CODES,
+    code_period,
+    equivalent_lateral_forces,
+    seismic_response_coefficient,
+)
 from seismass.design.modes import Combination, SpectrumAnalysis, positive, response_spectrum_analysis
-from seismass.design.periods import PERIOD_CODES, code_period
 from seismass.design.rules import APPLIED, CodeRule, known_category, rule_of
 from seismass.model.codes import CODE_NAMES
 from seismass.motions.spectra import TargetSpectrum

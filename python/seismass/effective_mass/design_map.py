@@ -13,9 +13,9 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass.base.arguments import Progress, ProgressLike
-from seismass.base.digest import metadata_head
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.statistics import QUANTILES, over_records, quantile
+from seismass.base.stored_results import metadata_head
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FieldValue, FloatArray, as_count, as_number, brief, refusal
 from seismass.base.views import view

@@ -17,10 +17,10 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.arguments import Progress, ProgressLike
-from seismass.base.digest import metadata_head
 from seismass.base.distributions import Distribution
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import DRIFT_CAP, few_collapses, over_records, quantile
+from seismass.base.stored_results import metadata_head
 from seismass.base.values import FieldValue, FloatArray, as_count, as_number, brief, refusal
 from seismass.base.views import view
 from seismass.effective_mass.models import (

@@ -9,7 +9,6 @@ from typing import Any, Final
 import numpy as np
 
 from seismass.base.arguments import ProgressLike, as_bootstrap, as_progress, as_threads
-from seismass.base.digest import metadata_head, motion_contents
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import (
     DRIFT_CAP,
@@ -21,6 +20,7 @@ from seismass.base.statistics import (
     over_records,
     weighted,
 )
+from seismass.base.stored_results import metadata_head, motion_contents
 from seismass.base.values import FloatArray, brief, refusal
 from seismass.effective_mass.models import (
     FROM_ONE,

@@ -6,6 +6,7 @@ import json
 import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
@@ -14,7 +15,7 @@ import numpy as np
 
 from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
-from seismass.base.files import Content, table_content
+from seismass.base.files import Content, stored_rows, table_content
 from seismass.base.folders import write_folder
 from seismass.base.values import FloatArray, as_path
 from seismass.base.views import view
@@ -27,6 +28,27 @@ if TYPE_CHECKING:
 
 PAGE: Final = "report.html"
 """File of the page of a folder."""
+
+
+@cache
+def stored_tables(name: str) -> dict[str, tuple[str, dict[str, dict[str, str]]]]:
+    """Return what a row of each table of a result is, and its columns with unit, header and meaning, as
+    data/tables has them: a column may be of several tables, and a row without one says what a row of the table is.
+    """
+    rows = [(row["tables"].split(), row["column"], row) for row in stored_rows(f"{name}_columns")]
+    return {
+        table: (of_table["meaning"], {column: row for tables, column, row in rows if column and table in tables})
+        for (table, *_), nothing, of_table in rows
+        if not nothing
+    }
+
+
+def table_schema(name: str, table: str) -> dict[str, pl.DataType | type[pl.DataType]]:
+    """Return the types of the columns of a table of a result, in their order, as data/tables has them."""
+    import polars as pl
+
+    types = {"count": pl.UInt32, "text": pl.String, "flag": pl.Boolean, "number": pl.Float64}
+    return {column: types[row["type"]] for column, row in stored_tables(name)[table][1].items()}
 
 
 def result_files(

@@ -14,11 +14,10 @@ from numpy.typing import ArrayLike
 
 from seismass import _kernel
 from seismass.base.arguments import Progress, ProgressLike, as_progress, as_threads
-from seismass.base.digest import inputs_digest
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
 from seismass.base.files import check_files, polars_writing, write_file
 from seismass.base.fork_check import require_polars
-from seismass.base.stored_results import result_store
+from seismass.base.stored_results import inputs_digest, result_store
 from seismass.base.values import as_count, as_flag, as_list, as_path, brief, printable, refusal
 from seismass.model.scene import Scene
 from seismass.motions.motion import HasMotion, Motion, MotionLike, as_motion, motion_names

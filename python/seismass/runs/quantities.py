@@ -52,6 +52,14 @@ QUANTITIES: Final = {
 peak `_time` behind it."""
 
 
+def unit_of(column: str) -> str:
+    """Return the unit of a peak, of a value at the end or of a time in tables; empty for what has none."""
+    if column.endswith("_time"):
+        return "s"
+    row = QUANTITIES.get(column.removeprefix("peak_").removeprefix("residual_"))
+    return "" if row is None else row.unit
+
+
 class Statistics(TypedDict):
     """The work that a run took, and what it could leave out; the same for any number of threads."""
 

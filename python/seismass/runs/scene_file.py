@@ -25,9 +25,7 @@ from seismass.motions.records import Record, builtin_record, read_record
 from seismass.motions.records.builtin import builtin_names
 from seismass.runs.plane import motions_in_plane
 from seismass.runs.scene_goods import (
-    GOODS_KEYS,
-    PAIR_KEYS,
-    WALL_KEYS,
+    KEYS,
     check_walls,
     matrix_of_walls,
     pair_of_scene,
@@ -39,47 +37,6 @@ from seismass.runs.scene_goods import (
 
 _SPRING_KEYS: Final = (*SPRING_FIELDS, "heights", "gravity_load", "geometric_stiffness")
 _DAMPING_KEYS = {"modal": ("ratio",), "rayleigh": ("ratio", "modes"), "matrix": ("matrix",)}
-KEYS: Final = {
-    "": (
-        "name",
-        "note",
-        "building",
-        "walls",
-        "blocks",
-        "racks",
-        "other_direction",
-        "base",
-        "fixed_goods",
-        "motion",
-        "other_motion",
-        "pair",
-        "vertical_motion",
-        "duration",
-        "initial",
-        "collapse_drift",
-        "result",
-    ),
-    "building": (
-        "mass",
-        "stiffness",
-        "storeys",
-        "period",
-        *_SPRING_KEYS,
-        "backbone",
-        "hysteresis",
-        "yield_shear_over_weight",
-        "damping",
-        "stiffness_matrix",
-    ),
-    "building.damping": ("kind", *dict.fromkeys(key for keys in _DAMPING_KEYS.values() for key in keys)),
-    "walls": WALL_KEYS,
-    **GOODS_KEYS,
-    "motion": ("file", "builtin", "acceleration", "dt", "unit", "scale", "dt_scale"),
-    "pair": PAIR_KEYS,
-    "initial": ("drift", "velocity"),
-}
-"""Keys of each table of a scene file, the file itself first; `vertical_motion` and `other_motion` have those of
-`motion`, and `other_direction` those of `building` that may differ in y."""
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from typing import Any, Final
 import numpy as np
 
 from seismass.base.errors import InvalidOption, InvalidScene
+from seismass.base.files import stored_rows
 from seismass.base.input_table import FINITE, POSITIVE, Table
 from seismass.base.values import FloatArray, as_array, as_count, as_number, brief, refusal
 from seismass.design.modes import positive_of_length, vibration_modes
@@ -16,38 +17,22 @@ from seismass.model.block import Block, SlidingBase, Stops
 from seismass.model.building import Building, changed_building
 from seismass.model.rack import Rack, RackBlock
 from seismass.model.scene import Scene
-from seismass.model.springs import SHAPE_FIELDS, SPRING_FIELDS
+from seismass.model.springs import SHAPE_FIELDS
 from seismass.motions.records import Pair, builtin_pairs, find_pairs, read_pair
 
-_FRICTION: Final = ("mass", "mass_ratio", "mu", "mu_s", "mu_k", "velocity", "wear", "stops", "stops_y")
-GOODS_KEYS: Final = {
-    "blocks": ("floor", *_FRICTION),
-    "blocks.stops_y": ("clearance", "stiffness", "damping"),
-    "blocks.stops": ("clearance", "stiffness", "damping"),
-    "racks": (
-        "floor",
-        "levels",
-        "level_mass",
-        "level_mass_ratio",
-        "stiffness",
-        "period",
-        *SPRING_FIELDS,
-        "yield_shear_over_weight",
-        "hysteresis",
-        "damping",
-        "geometric_stiffness",
-        "blocks",
-        "other_direction",
-    ),
-    "racks.blocks": ("level", *_FRICTION, "fixed"),
-    "base": ("mu", "mu_s", "mu_k", "radius", "mass", "mass_ratio"),
+ROWS: Final = stored_rows("scene_keys")
+"""The keys of a scene file, from which the tables of docs/scene_file.md are made too."""
+KEYS: Final = {
+    table: tuple(row["key"] for row in ROWS if row["tables"] == table)
+    for table in dict.fromkeys(row["tables"] for row in ROWS)
 }
-"""Keys of the tables of goods, racks and base; stops of racks' blocks have those of `blocks.stops`."""
+"""Keys of each table, the file first; `vertical_motion` and `other_motion` have those of `motion`, stops of goods
+on racks those of `blocks.stops`, and `other_direction` those of `building` that may differ in y."""
 
 
 def read_block(table: Table, number: int) -> Block:
     """Return a block of a scene file."""
-    table.known(GOODS_KEYS["blocks"])
+    table.known(KEYS["blocks"])
     table.needed("floor")
     owner = f"block {number}"
     return Block(as_count(table.values["floor"], "floor", owner, InvalidScene), **_friction(table, owner))
@@ -78,15 +63,15 @@ def _friction(table: Table, owner: str) -> dict[str, Any]:
 
 
 def _stops(table: Table) -> Stops:
-    table.known(GOODS_KEYS["blocks.stops"])
+    table.known(KEYS["blocks.stops"])
     table.needed("clearance")
     table.needed("stiffness")
-    return Stops(**{key: table.values[key] for key in GOODS_KEYS["blocks.stops"] if key in table.values})
+    return Stops(**{key: table.values[key] for key in KEYS["blocks.stops"] if key in table.values})
 
 
 def read_base(table: Table) -> SlidingBase:
     """Return the sliding base of a scene file."""
-    keys = GOODS_KEYS["base"]
+    keys = KEYS["base"]
     table.known(keys)
     table.needed("mu", "mu_s")
     table.excluded("mu", "mu_s", "mu_k")
@@ -98,7 +83,7 @@ def read_base(table: Table) -> SlidingBase:
 
 def read_rack(table: Table, number: int) -> Rack:
     """Return a rack of a scene file."""
-    table.known(GOODS_KEYS["racks"])
+    table.known(KEYS["racks"])
     table.needed("floor")
     table.needed("levels")
     table.needed("level_mass", "level_mass_ratio")
@@ -106,7 +91,7 @@ def read_rack(table: Table, number: int) -> Rack:
     for key, other in (("level_mass_ratio", "level_mass"), ("period", "stiffness")):
         table.excluded(key, other)
     table.excluded("yield_shear_over_weight", "yield_shear")
-    goods = {key: table.values[key] for key in GOODS_KEYS["racks"] if key in table.values and key != "blocks"}
+    goods = {key: table.values[key] for key in KEYS["racks"] if key in table.values and key != "blocks"}
     for key in ("yield_shear", "yield_shear_over_weight", *SHAPE_FIELDS):
         infinite = key not in SHAPE_FIELDS or np.isinf(SHAPE_FIELDS[key].default)
         if infinite and isinstance(goods.get(key), list):  # null: a level that stays elastic
@@ -116,7 +101,7 @@ def read_rack(table: Table, number: int) -> Rack:
 
 
 def _rack_block(table: Table, number: int, rack: int) -> RackBlock:
-    table.known(GOODS_KEYS["racks.blocks"])
+    table.known(KEYS["racks.blocks"])
     table.needed("level")
     owner = f"block {number} of rack {rack}"
     level = as_count(table.values["level"], "level", owner, InvalidScene, least=1)
@@ -133,15 +118,11 @@ def _rack_block(table: Table, number: int, rack: int) -> RackBlock:
     return RackBlock(level, fixed=True, **masses)
 
 
-WALL_KEYS: Final = ("flexural_rigidity", "period", "alpha_h", "base_shear_share")
-"""Keys of the table; one of them is given."""
-
-
 def check_walls(walls: Table, building: Table) -> None:
     """Refuse tables of walls and building that do not fit together, and unknown keys."""
-    walls.known(WALL_KEYS)
-    walls.needed(*WALL_KEYS)
-    walls.one_of(*WALL_KEYS)
+    walls.known(KEYS["walls"])
+    walls.needed(*KEYS["walls"])
+    walls.one_of(*KEYS["walls"])
     if "stiffness_matrix" in building.values:
         building.refuse("stiffness_matrix", "left out where walls are given", "both")
     building.needed("heights")
@@ -192,9 +173,6 @@ def _per_storey(building: Table, key: str, count: int) -> FloatArray:
     return positive_of_length(as_number(value, key, "building", InvalidScene), key, count)
 
 
-PAIR_KEYS: Final = ("first", "second", "vertical", "folder", "name", "builtin", "rotation", "strike", "scale")
-
-
 def pair_of_scene(top: Table, scene: Scene, folder: Path) -> Pair | None:
     """Return the pair of a scene file, which stands in place of its motions; None where it has none."""
     if "pair" not in top.values:
@@ -207,8 +185,8 @@ def pair_of_scene(top: Table, scene: Scene, folder: Path) -> Pair | None:
 
 
 def pair_of_table(table: Table, folder: Path) -> Pair:
-    """Return the pair that a table with `PAIR_KEYS` names; paths are relative to `folder`."""
-    table.known(PAIR_KEYS)
+    """Return the pair that a table `pair` names; paths are relative to `folder`."""
+    table.known(KEYS["pair"])
     table.needed("first", "folder", "builtin")
     table.one_of("first", "folder", "builtin")
     if "first" in table.values:

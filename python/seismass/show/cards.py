@@ -18,7 +18,7 @@ from seismass.effective_mass.rule import RULE
 from seismass.media.result import COLOUR, SECOND, Result, card, curve, history, line, pre, rows, stroke, svg, text
 from seismass.media.text_table import column_texts
 from seismass.model.scene import floor_name, goods_names, spring_names
-from seismass.motions.records.measures import drift_remarks
+from seismass.motions.records.rotd import drift_remarks
 from seismass.show.assessment.text import storey_bars
 from seismass.show.response_text import base_line
 

@@ -30,8 +30,8 @@ from seismass.motions.pulses.extraction import (
 )
 from seismass.motions.pulses.result import BAKER, Candidate, OrientationScan, PulseResult
 from seismass.motions.records.intensity import build_up, time_of_share
-from seismass.motions.records.measures import drift_remarks
-from seismass.motions.scaling.result import ScalingResult
+from seismass.motions.records.rotd import drift_remarks
+from seismass.motions.scaling.suite import ScalingResult
 from seismass.motions.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 
 if TYPE_CHECKING:

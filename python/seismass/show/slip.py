@@ -19,7 +19,7 @@ from seismass.media.roles import GREY, INK, LIMIT, MU, SLIDE
 from seismass.media.style import SERIES, drawing, grid_lines, plain, say
 from seismass.media.svg import CAPTION_CHARACTERS
 from seismass.media.text_table import interval_text, number_text, text_line
-from seismass.studies.slip.estimates import TITLES
+from seismass.studies.slip.runs import TITLES
 
 if TYPE_CHECKING:
     from seismass.studies.slip.demand import SlipDemand

@@ -15,8 +15,14 @@ from seismass.design.rules import CodeRule, rule_of
 from seismass.model.building import Building
 from seismass.motions.motion import Motion
 from seismass.motions.records.pair import Pair
-from seismass.motions.scaling.result import ScalingResult
-from seismass.motions.scaling.suite import SuiteSpectra, checked_target, positive_number, positive_period, suite_spectra
+from seismass.motions.scaling.suite import (
+    ScalingResult,
+    SuiteSpectra,
+    checked_target,
+    positive_number,
+    positive_period,
+    suite_spectra,
+)
 from seismass.motions.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 from seismass.motions.spectra.elastic import check_not_zero
 

@@ -14,8 +14,7 @@ from seismass.design.code_design import structural_performance
 from seismass.design.rules import RULES, CodeRule, rule_of
 from seismass.design.scaling.asce7 import first_components, given_motions, is_pair, notes_7_16, scaled_suite
 from seismass.motions.records.pair import Pair
-from seismass.motions.scaling.result import ScalingResult
-from seismass.motions.scaling.suite import SuiteSpectra, checked_target, positive_period, suite_spectra
+from seismass.motions.scaling.suite import ScalingResult, SuiteSpectra, checked_target, positive_period, suite_spectra
 from seismass.motions.spectra import GroundMotion, TargetSpectrum
 
 GEOMETRIC_MEAN: Final = "geometric-mean"

@@ -17,8 +17,7 @@ from seismass.design.scaling.oscillator import FirstModeOscillator, deformation_
 from seismass.model.building import Building
 from seismass.model.scene import Scene
 from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
-from seismass.motions.scaling.result import ScalingResult
-from seismass.motions.scaling.suite import checked_target, positive_number, suite_spectra
+from seismass.motions.scaling.suite import ScalingResult, checked_target, positive_number, suite_spectra
 from seismass.motions.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 from seismass.motions.spectra.inelastic import Oscillators
 

@@ -19,7 +19,7 @@ from seismass.motions.matching.result import MatchedRecord, MatchedSuite
 from seismass.motions.matching.solver import Ratios, adjust
 from seismass.motions.records.record import Record
 from seismass.motions.records.suite import Suite
-from seismass.motions.scaling.result import FACTOR_RANGE
+from seismass.motions.scaling.suite import FACTOR_RANGE
 from seismass.motions.spectra import TargetSpectrum
 
 GROWN: Final = 1.25

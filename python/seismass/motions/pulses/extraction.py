@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 from seismass.base.errors import InvalidMotion, MissingPackage
 from seismass.base.values import FloatArray, brief, frozen, refusal
 from seismass.motions.pulses.result import BAKER, PERIOD_OF_SCALE, SHAHI_BAKER
-from seismass.motions.records.measures import drift_remarks
 from seismass.motions.records.pair import Pair
 from seismass.motions.records.record import Record
+from seismass.motions.records.rotd import drift_remarks
 
 WAVELET: Final = "db4"
 SUPPORT: Final = 7

@@ -4,11 +4,10 @@ from .builtin import builtin_pairs, builtin_record, builtin_suite
 from .catalogue import CatalogueSearch, FoundFile, catalogue
 from .catalogue_search import find_catalogue
 from .counts import read_counts
-from .measures import intensity_table
 from .pair import Pair, Pairs, find_pairs, read_pair
 from .read import read_record, read_records
 from .record import Record
-from .rotd import RotD, rotd
+from .rotd import RotD, intensity_table, rotd
 from .suite import Excluded, Suite, read_suite
 from .synthetic import NearFaultPulse, SyntheticParameters, synthetic_motion
 

@@ -64,7 +64,7 @@ def builtin_suite(suite: BuiltinName = "eleven") -> Suite:
 def builtin_pairs() -> Pairs:
     """Return the forty synthetic motions with their second horizontal components, which none recorded either.
 
-    The second ones are those of `records.synthetic.second`: of the duration and content of the first, with a
+    The second ones are those of `records.synthetic.scenarios`: of the duration and content of the first, with a
     correlation and spectra that scatter as those of recorded pairs.
     """
     from seismass.motions.records.pair import Pair, Pairs

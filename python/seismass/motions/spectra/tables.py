@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seismass import _kernel
-from seismass.base.digest import inputs_digest
 from seismass.base.errors import InvalidMotion, InvalidOption, RecordFormatError
 from seismass.base.files import read_file
 from seismass.base.limits import MOST_TABLE, within_rows
+from seismass.base.stored_results import inputs_digest
 from seismass.base.units import ACCELERATION_UNITS, FOOT, INCH, STANDARD_GRAVITY, stated_unit, unit_by_name
 from seismass.base.values import (
     FloatArray,

@@ -15,6 +15,7 @@ from seismass.assessment.models import NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
 from seismass.base.arguments import ProgressLike
 from seismass.base.files import write_file
 from seismass.base.folders import as_written, read_folder
+from seismass.base.statistics import QUANTILES
 from seismass.effective_mass.result import KIND_TEXTS
 from seismass.effective_mass.rule import RULE_IN_WORDS
 from seismass.media.page import (
@@ -27,7 +28,8 @@ from seismass.media.page import (
     table_html,
     text_html,
 )
-from seismass.media.roles import EFFECTIVE, LAMBDA, MU, OMEGA, OVER_MODEL, lettered, sentence_html
+from seismass.media.result import stored_tables
+from seismass.media.roles import EFFECTIVE, LAMBDA, OMEGA, OVER_MODEL, lettered, sentence_html
 from seismass.media.text_table import number_text
 from seismass.show.assessment.page_input import Pictures, in_motion_html, input_html, motions_html, names_of
 from seismass.show.assessment.sheet import MOST_STOREYS, NOT_COVERED, running, sheet_html, storeys_html
@@ -97,6 +99,14 @@ def _number(value: float | None, digits: int = 2) -> str:
     return number_text(value, f".{digits}f", missing="\N{EN DASH}", infinite="\N{EN DASH}")
 
 
+def _headers(name: str, table: pl.DataFrame, **units: str) -> dict[str, str]:
+    """Heads of the columns of a table of the result, with the units in which the page shows them."""
+    rows = stored_tables("assessment")[name][1]
+    known = {column: rows[column] for column in table.columns if column in rows}
+    shown = {column: f" ({units[row['unit']]})" if row["unit"] in units else "" for column, row in known.items()}
+    return {column: row["header"] + shown[column] for column, row in known.items()}
+
+
 def _interval(fraction: Fraction) -> str:
     if fraction.interval is None:
         return "\N{EN DASH}"
@@ -127,11 +137,11 @@ def _checks(result: AssessmentTables) -> Markup:
                 "source": row["source"],
             }
         )
-    schema = {"storey": pl.UInt32, "value": pl.String, "source": pl.String}
+    table = pl.DataFrame(rows, schema_overrides={"storey": pl.UInt32, "value": pl.String, "source": pl.String})
     return table_html(
-        pl.DataFrame(rows, schema_overrides=schema),
+        table,
         "Largest value over the storeys beside its limit. Drift and stability are those of the means over the motions.",
-        headers={"use": "use of the limit", "met": "verdict", "source": "limit by"},
+        headers=_headers("checks", table) | {"use": "use of the limit"},
         formats={"met": _verdict, "source": long_html},
     )
 
@@ -187,17 +197,13 @@ def _fractions(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
 def _drifts(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     ratio = result.drift_limit is not None
     scale, unit = result.units.drifts(ratio=ratio)
-    names = {name: f"{name} ({unit})" for name in ("mean", "p16", "median", "p84", "max")}
-    names |= {"mean": f"capped mean ({unit})", "p16": f"16 % ({unit})", "p84": f"84 % ({unit})"}
+    names = ("mean", *QUANTILES, "max")
     further = ["motions_above_limit", "theta"] if ratio else []
     table = result.storeys.with_columns(
         model=pl.col("model").replace_strict(NAMES, default=pl.col("model"), return_dtype=pl.String)
     ).select("model", "storey", "name", *names, *further, "collapsed")
     if not any(table["name"]):
         table = table.drop("name")
-    headers = {**names, "collapsed": "collapsed runs"}
-    if ratio:
-        headers |= {"motions_above_limit": "motions above the limit", "theta": "stability coefficient"}
     row = result.governing.sort("governing", descending=True).row(0, named=True)
     note = f"The largest is {scale * row['governing']:.2f} {unit}, storey {row['storey']}, {row['governed_by']}."
     is_tall = len(result.storey_names) > MOST_STOREYS  # the first sheet has not all of them
@@ -214,7 +220,7 @@ def _drifts(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
         table_html(
             table,
             f"Peak drift of each storey ({'% of the height' if ratio else unit}) by model over the motions.",
-            headers=headers,
+            headers=_headers("storeys", table, drift=unit),
             formats={
                 **dict.fromkeys(names, lambda value: f"{scale * value:.2f}"),
                 **({"theta": ".3f"} if ratio else {}),
@@ -254,17 +260,8 @@ def _analysis(result: AssessmentTables) -> list[Markup]:
 
 
 def _slip(result: AssessmentTables) -> list[Markup]:
-    unit = result.units.unit("slip")
-    names = {
-        "peak_mean": f"peak, mean ({unit})",
-        "peak_median": f"median ({unit})",
-        "peak_p84": f"84 % ({unit})",
-        "peak_p84_low": f"its interval, from ({unit})",
-        "peak_p84_high": f"to ({unit})",
-        "peak_max": f"largest ({unit})",
-        "residual_mean": f"residual, mean ({unit})",
-        "residual_p84": f"84 % ({unit})",
-    }
+    names = [f"peak_{name}" for name in ("mean", "median", "p84", "p84_low", "p84_high", "max")]
+    names += ["residual_mean", "residual_p84"]
     confidence = 100.0 * result.document["metadata"]["confidence"]
     table = result.slip.select("friction", "floor", "name", "goods", "mu_s", "mu_k", "motions_that_slide", *names)
     table = table.drop([name for name in ("name", "goods") if not any(table[name])])
@@ -272,12 +269,7 @@ def _slip(result: AssessmentTables) -> list[Markup]:
         table_html(
             table,
             f"Peak and residual slip over the motions; the interval is that of {confidence:g} % of the peak at 84 %.",
-            headers={
-                **names,
-                "motions_that_slide": "motions in which goods slide",
-                "mu_s": f"{MU}_s",
-                "mu_k": f"{MU}_k",
-            },
+            headers=_headers("slip", table, m=result.units.unit("slip")),
             formats={
                 **dict.fromkeys(names, lambda value: result.units.number("slip", value, ".1f")),
                 "mu_s": ".3g",

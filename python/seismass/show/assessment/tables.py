@@ -227,19 +227,8 @@ def _made(
     effective = {
         model: _fraction(values, tables["curve"].filter(model=model)) for model, values in document["effective"].items()
     }
-    return AssessmentTables(
-        document=document,
-        storeys=tables["storeys"],
-        governing=tables["governing"],
-        analysis=tables["analysis"],
-        slip=tables["slip"],
-        runs=tables["runs"],
-        checks=tables["checks"],
-        spectra=tables["spectra"],
-        animation=animation,
-        scaling=tables.get("scaling"),
-        effective=effective,
-    )
+    needed, scaling = {name: tables[name] for name in NEEDED}, tables.get("scaling")
+    return AssessmentTables(document, **needed, scaling=scaling, effective=effective, animation=animation)
 
 
 def _fraction(values: dict[str, Any], curve: pl.DataFrame) -> Fraction:

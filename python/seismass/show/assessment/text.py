@@ -21,7 +21,7 @@ from seismass.base.errors import InvalidOption
 from seismass.base.folders import check_out, write_folder
 from seismass.base.values import as_path
 from seismass.effective_mass.rule import RULE_UNKNOWN
-from seismass.media.result import PAGE, result_files
+from seismass.media.result import PAGE, result_files, stored_tables
 from seismass.media.text_table import text_table
 from seismass.model.codes import CODE_NAMES, FROM_MEMORY, MARK, NOT_CHECKED, SECOND_HAND
 from seismass.show.assessment.tables import (
@@ -231,9 +231,10 @@ def _marked(mean: float, over_limit: float | None, scale: float) -> str:
 def _slips(result: Assessment) -> list[str]:
     """Slip of each kind of goods, where a floor has several."""
     units, motions = result.building.shown, len(result.suite["motions"])
-    rows = [["floor and goods", "mu_s/mu_k", "slides in", "median", "84 %", "largest"]]
+    shown, columns = ("peak_median", "peak_p84", "peak_max"), stored_tables("assessment")["slip"][1]
+    rows = [["floor and goods", "mu_s/mu_k", "slides in", *(columns[name]["header"] for name in shown)]]
     for row in result.slip.filter(pl.col("model").is_in([SLIDING, SLIDING_LOW])).iter_rows(named=True):
-        values = (units.text("slip", row[name]) for name in ("peak_median", "peak_p84", "peak_max"))
+        values = (units.text("slip", row[name]) for name in shown)
         friction = f"{row['mu_s']:.3g}/{row['mu_k']:.3g}"
         rows.append(
             [

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any, Final
 
 import polars as pl
@@ -51,11 +51,11 @@ class StudyTables:
     designs: pl.DataFrame = field(repr=False)
     spectrum: pl.DataFrame = field(repr=False)
     scaling: pl.DataFrame = field(repr=False)
-    sensitivity: pl.DataFrame | None = field(default=None, repr=False)
-    claims: pl.DataFrame | None = field(default=None, repr=False)
-    section4: Section4 | None = field(default=None, repr=False)
-    platform: Platform | None = field(default=None, repr=False)
-    animation: dict[str, Any] | None = field(default=None, repr=False)
+    sensitivity: pl.DataFrame | None = field(repr=False)
+    claims: pl.DataFrame | None = field(repr=False)
+    section4: Section4 | None = field(repr=False)
+    platform: Platform | None = field(repr=False)
+    animation: dict[str, Any] | None = field(repr=False)
 
     @property
     def tables(self) -> dict[str, pl.DataFrame]:
@@ -84,22 +84,13 @@ def study_tables(
             "section4_synthetic": validation.section4.synthetic,
             "platform_synthetic": validation.platform.synthetic,
         }
-    made = StudyTables(
-        metadata=metadata,
-        responses=result.responses,
-        summary=result.summary,
-        fractions=result.fractions,
-        designs=result.designs,
-        spectrum=result.spectrum,
-        scaling=result.scaling.table(),
-        sensitivity=None if sensitivity is None else sensitivity.table,
-        claims=None if validation is None else claims_table(validation.claims),
-        section4=None if validation is None else validation.section4,
-        platform=None if validation is None else validation.platform,
-        animation=None if example is None else _animation(example),
-    )
-    # As they are read again, so that a page of the study and one of its folder are the same.
-    return _validated(made, made.tables)
+    tables = {name: getattr(result, name) for name in _OWN if name != "scaling"} | {"scaling": result.scaling.table()}
+    if sensitivity is not None:
+        tables["sensitivity"] = sensitivity.table
+    if validation is not None:
+        tables |= {"claims": claims_table(validation.claims)}
+        tables |= section4_tables(validation.section4) | platform_tables(validation.platform)
+    return _made(metadata, tables, None if example is None else _animation(example))
 
 
 def read_study_tables(files: ReadFolder) -> StudyTables:
@@ -110,30 +101,23 @@ def read_study_tables(files: ReadFolder) -> StudyTables:
         raise refusal(InvalidOption, "schema_version", DOCUMENT, f"{SCHEMA_VERSION}", brief(version))
     tables = {name: files.table(name) for name in _OWN}
     tables |= {name: files.table(name) for name in OPTIONAL_TABLES if f"{name}.parquet" in files}
-    read = StudyTables(
-        metadata=metadata,
-        responses=tables["responses"],
-        summary=tables["summary"],
-        fractions=tables["fractions"],
-        designs=tables["designs"],
-        spectrum=tables["spectrum"],
-        scaling=tables["scaling"],
+    return _made(metadata, tables, files.document(ANIMATION) if ANIMATION in files else None)
+
+
+def _made(metadata: dict[str, Any], tables: dict[str, pl.DataFrame], animation: dict[str, Any] | None) -> StudyTables:
+    """What tables say, whether they are those of a study or were read: a page of either is the same."""
+    section4 = platform = None
+    if set(_SECTION4 + _PLATFORM) <= set(tables) and (validation := metadata.get("validation")) is not None:
+        section4 = section4_of(tables, synthetic=validation["section4_synthetic"])
+        platform = platform_of(tables, synthetic=validation["platform_synthetic"])
+    return StudyTables(
+        metadata,
+        **{name: tables[name] for name in _OWN},
         sensitivity=tables.get("sensitivity"),
         claims=tables.get("claims"),
-        animation=files.document(ANIMATION) if ANIMATION in files else None,
-    )
-    return _validated(read, tables)
-
-
-def _validated(read: StudyTables, tables: dict[str, pl.DataFrame]) -> StudyTables:
-    """The same with the validations of the tables."""
-    validation = read.metadata.get("validation")
-    if validation is None or not set(_SECTION4 + _PLATFORM) <= set(tables):
-        return read
-    return replace(
-        read,
-        section4=section4_of(tables, synthetic=validation["section4_synthetic"]),
-        platform=platform_of(tables, synthetic=validation["platform_synthetic"]),
+        section4=section4,
+        platform=platform,
+        animation=animation,
     )
 
 

@@ -19,9 +19,9 @@ from seismass.media.result import PAGE, named_figure, result_files
 from seismass.media.text_table import change_text, text_table
 from seismass.show.study.answer import DAMPING_TEXTS, findings_text
 from seismass.show.study.tables import ANIMATION, DOCUMENT, OPTIONAL_TABLES, READ, StudyTables, read_study_tables
-from seismass.studies.study.columns import TABLES, units_of
 from seismass.studies.study.run import StudyResult, motions_text
 from seismass.studies.study.sensitivity import Sensitivity
+from seismass.studies.study.tables import TABLES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -116,24 +116,29 @@ def table_metadata(metadata: dict[str, Any], name: str, table: pl.DataFrame) -> 
     """Return the key-value metadata of the Parquet file of a table, each value a JSON text: `seismass.` with the keys
     of `made_from`, `table`, and `units`, the unit of each column.
     """
-    content = {**made_from(metadata), "table": name, "units": units_of(name, table.columns)}
+    units = {column: unit for column, (unit, _) in _facts(name, table).items()}
+    content = {**made_from(metadata), "table": name, "units": units}
     return {f"seismass.{key}": json.dumps(value) for key, value in content.items()}
 
 
 def _tables_document(metadata: dict[str, Any], tables: dict[str, pl.DataFrame]) -> dict[str, Any]:
     """What tables.json says: of each table its rows, and of each column its unit and meaning."""
-    described = {}
-    for name, table in tables.items():
-        rows, columns = TABLES[name]
-        units = units_of(name, table.columns)
-        described[name] = {
-            "rows": rows,
+    described = {
+        name: {
+            "rows": TABLES[name][0],
             "columns": {
-                column: {"unit": units[column], "meaning": columns.get(column, columns.get("motion_*", ("", "")))[1]}
-                for column in table.columns
+                column: {"unit": unit, "meaning": meaning} for column, (unit, meaning) in _facts(name, table).items()
             },
         }
+        for name, table in tables.items()
+    }
     return {**made_from(metadata), "tables": described}
+
+
+def _facts(name: str, table: pl.DataFrame) -> dict[str, tuple[str, str]]:
+    """Unit and meaning of each column of a table; those of motions have a row together."""
+    known = TABLES[name][1]
+    return {column: known[column if column in known else "motion_*"] for column in table.columns}
 
 
 _HEADS = ("choice", "setting", "largest", "smallest R", "largest R", "mass", "sliding")

@@ -13,43 +13,27 @@ import polars as pl
 
 from seismass import _kernel
 from seismass.base.arguments import ProgressLike, is_one_of
-from seismass.base.digest import inputs_digest
 from seismass.base.distributions import beta, lognormal
 from seismass.base.errors import InvalidCampaignFile, InvalidOption
 from seismass.base.input_table import Table
+from seismass.base.stored_results import inputs_digest
 from seismass.base.values import FieldValue, as_count, as_flag, as_list, as_name, as_number, brief, printable, refusal
 from seismass.motions.motion import Motion, MotionLike
 from seismass.runs.batch import checked_motions, stream_many
 from seismass.runs.grid.content import axes_table, grid_document
 from seismass.runs.grid.grid import Grid
+from seismass.runs.quantities import unit_of
 
 KEYS: Final = ("scene", "motion", "status")
 """Columns that every part has: the numbers of scene and motion, from 1, and how the run ended."""
 
-UNITS: Final[Mapping[str, str]] = MappingProxyType(
-    {
-        "scene": "",
-        "motion": "",
-        "status": "",
-        "reason": "",
-        "end_time": "s",
-        "collapsed_storey": "",
-        "peak_drift": "m",
-        "peak_drift_time": "s",
-        "peak_drift_ratio": "",
-        "residual_drift": "m",
-        "peak_floor_acceleration": "m/s2",
-        "peak_storey_shear": "N",
-        "peak_base_shear": "N",
-        "peak_slip": "m",
-        "peak_slip_time": "s",
-        "residual_slip": "m",
-        "slip_path": "m",
-        "events": "",
-        "yields": "",
-        "slips": "",
-    }
+_COLUMNS: Final = (
+    *KEYS,
+    *("reason", "end_time", "collapsed_storey", "peak_drift", "peak_drift_time", "peak_drift_ratio", "residual_drift"),
+    *("peak_floor_acceleration", "peak_storey_shear", "peak_base_shear"),
+    *("peak_slip", "peak_slip_time", "residual_slip", "slip_path", "events", "yields", "slips"),
 )
+UNITS: Final[Mapping[str, str]] = MappingProxyType({name: unit_of(name) for name in _COLUMNS})
 """Unit of each column that a part may have; empty for what has none. Lists are per storey or per block."""
 
 RESIDUALS: Final = ("residual_drift", "residual_slip")

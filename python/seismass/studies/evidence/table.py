@@ -13,9 +13,8 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass.base.arguments import Progress, ProgressLike
-from seismass.base.digest import inputs_digest, metadata_head, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.stored_results import NOTHING_STORED, StoredResults
+from seismass.base.stored_results import NOTHING_STORED, StoredResults, inputs_digest, metadata_head, motion_contents
 from seismass.base.values import FieldValue, as_flag, as_list, as_number, as_one_of, brief, refusal
 from seismass.base.views import view
 from seismass.media.result import Result, finite_values

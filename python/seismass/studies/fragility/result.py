@@ -11,9 +11,9 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.arguments import as_word, is_one_of
-from seismass.base.digest import metadata_head, motion_contents
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import quantile
+from seismass.base.stored_results import metadata_head, motion_contents
 from seismass.base.values import FieldValue, FloatArray, as_array, brief, counted, refusal
 from seismass.base.views import view
 from seismass.media.result import Result, finite_values

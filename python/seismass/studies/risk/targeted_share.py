@@ -14,8 +14,8 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.arguments import Progress, ProgressLike, as_bootstrap, as_share, as_threads
-from seismass.base.digest import metadata_head, motion_contents
 from seismass.base.errors import InvalidOption, InvalidScene
+from seismass.base.stored_results import metadata_head, motion_contents
 from seismass.base.values import FieldValue, FloatArray, as_array, as_number, brief, refusal
 from seismass.base.views import view
 from seismass.effective_mass.answer import effective_mass

@@ -3,7 +3,7 @@
 from seismass.model.tipping import BlockSize, parse_size
 from seismass.studies.slip.clearance import Clearance, exceedance_table, signed_peaks, wilson_interval
 from seismass.studies.slip.demand import SlipDemand, slip_demand
-from seismass.studies.slip.estimates import Base, asce43, newmark_bound, newmark_pulse
+from seismass.studies.slip.runs import Base, asce43, newmark_bound, newmark_pulse
 
 __all__ = [
     "Base",

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 import polars as pl
 
 from seismass.base.arguments import Progress, ProgressLike, as_bootstrap
-from seismass.base.digest import metadata_head, motion_contents
 from seismass.base.errors import InvalidOption, InvalidScene
+from seismass.base.stored_results import metadata_head, motion_contents
 from seismass.base.values import FieldValue, as_flag, brief, refusal
 from seismass.base.views import view
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, check_damping

@@ -18,8 +18,7 @@ from seismass.model.scene import Scene
 from seismass.model.tipping import BlockSize
 from seismass.runs.peaks import NamedMotions
 from seismass.studies.slip.clearance import Clearance, place_columns, place_names, places_of
-from seismass.studies.slip.estimates import log_ratio
-from seismass.studies.slip.runs import SlipRuns
+from seismass.studies.slip.runs import SlipRuns, log_ratio
 
 
 def block_table(

@@ -5,7 +5,6 @@ models it, with the fraction lambda of the blocks' mass attached and no block ("
 attached ("attached"). Attached against code is what the rest of the mass does, real against attached what sliding does.
 """
 
-from seismass.studies.study.columns import TABLES
 from seismass.studies.study.parameters import (
     KEYS,
     MODELS,
@@ -17,6 +16,7 @@ from seismass.studies.study.parameters import (
 )
 from seismass.studies.study.run import SCHEMA_VERSION, StudyResult, run_study
 from seismass.studies.study.sensitivity import Sensitivity, study_sensitivity
+from seismass.studies.study.tables import TABLES
 
 __all__ = [
     "KEYS",

@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 
 from seismass import _kernel
 from seismass.base.arguments import ProgressLike
-from seismass.base.digest import inputs_digest, metadata_head, motion_contents
 from seismass.base.errors import InvalidMotion, InvalidOption
-from seismass.base.stored_results import NOTHING_STORED, StoredResults
+from seismass.base.stored_results import NOTHING_STORED, StoredResults, inputs_digest, metadata_head, motion_contents
 from seismass.base.values import FieldValue, FloatArray, as_flag, as_one_of, brief, printable, refusal
 from seismass.base.views import view
 from seismass.design.scaling import ScalingResult, scale_asce7_10

@@ -21,10 +21,9 @@ from seismass.media.result import Result, finite_values
 from seismass.motions.matching import match_suite
 from seismass.motions.records import Suite
 from seismass.motions.spectra import TargetSpectrum
-from seismass.studies.study.columns import SENSITIVITY_COLUMNS
 from seismass.studies.study.parameters import MODELS, DampingBase, StudyParameters
 from seismass.studies.study.run import StudyResult, checked_study, run_study
-from seismass.studies.study.tables import Drifts, collapsed_of, drifts_of
+from seismass.studies.study.tables import TABLES, Drifts, collapsed_of, drifts_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -175,7 +174,7 @@ def study_sensitivity(
         counts = {f"collapses_{model}": np.delete(fell, left_out, axis=1).sum(axis=1) for model, fell in fallen.items()}
         rows += _rows("one record left out", name, summary.with_columns(**counts), others, np.mean)
     whole.tell()
-    rows_of_changes = pl.DataFrame(rows, schema=list(SENSITIVITY_COLUMNS), orient="row").with_columns(
+    rows_of_changes = pl.DataFrame(rows, schema=list(TABLES["sensitivity"][1]), orient="row").with_columns(
         pl.col("collapses").cast(pl.UInt32)
     )
     return Sensitivity(rows_of_changes, as_is.metadata)

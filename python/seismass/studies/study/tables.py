@@ -1,4 +1,7 @@
-"""The tables of a study from the rows of its batch: responses, summary with its scatter, and designs."""
+"""The tables of a study from the rows of its batch: responses, summary with its scatter, and designs.
+
+Unit and meaning of each column, as files carry them and the schema page lists them, are rows of data/tables.
+"""
 
 from __future__ import annotations
 
@@ -17,11 +20,17 @@ from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.effective_mass import effective_mass
 from seismass.effective_mass.rule import by_hand
+from seismass.media.result import stored_tables
 from seismass.model.scene import Scene
 from seismass.motions.records import Record
 from seismass.motions.spectra import TargetSpectrum
-from seismass.studies.study.columns import DESIGN_COLUMNS, FRACTION_COLUMNS, RESPONSE_COLUMNS, SUMMARY_COLUMNS
 from seismass.studies.study.parameters import KEYS, MODELS, Model, StudyBuilding, StudyParameters
+
+TABLES: Final = {
+    table: (words, {name: (row["unit"], row["meaning"]) for name, row in columns.items()})
+    for table, (words, columns) in stored_tables("study").items()
+}
+"""What a row of each table is, and its columns with unit ("" where there is none, "1" for ratios) and meaning."""
 
 Drifts: TypeAlias = dict[Model, FloatArray]
 """Capped peak drifts (m) by model, shape (rows, motions), until a collapse; NaN where a run failed."""
@@ -102,7 +111,7 @@ def responses_table(
         .with_columns(
             (pl.col("peak_storey_shear") / (STANDARD_GRAVITY * pl.col("storeys"))).alias("peak_shear_over_weight"),
         )
-        .select(pl.col(name).cast(_TYPES.get(name, pl.Float64)) for name in RESPONSE_COLUMNS)
+        .select(pl.col(name).cast(_TYPES.get(name, pl.Float64)) for name in TABLES["responses"][1])
     )
 
 
@@ -157,7 +166,7 @@ def summary_table(
     )
     columns["mean_peak_slip"] = slips.mean(axis=1)
     columns |= _comparison(drifts, names)
-    return typed(columns, list(SUMMARY_COLUMNS))
+    return typed(columns, list(TABLES["summary"][1]))
 
 
 def _comparison(drifts: Drifts, names: list[str]) -> dict[str, Any]:
@@ -224,7 +233,7 @@ def designs_table(buildings: list[StudyBuilding], parameters: StudyParameters) -
         "elastic_shear_over_weight": stacked([building.analysis.storey_shear for building in buildings]) / weight,
         "yield_shear_over_weight": np.where(np.isfinite(strength), strength, np.nan),
     }
-    return typed(columns, list(DESIGN_COLUMNS))
+    return typed(columns, list(TABLES["designs"][1]))
 
 
 SHARES: Final = np.linspace(0.0, 1.0, 41)
@@ -276,7 +285,7 @@ def fractions_table(
         "high": [None if one is None else one.high for one in fractions],
         "excess": [None if one is None or one.kind != "one" else one.excess for one in fractions],
     }
-    return typed(columns, list(FRACTION_COLUMNS))
+    return typed(columns, list(TABLES["fractions"][1]))
 
 
 def _attached_mass(scene: Scene) -> float:

@@ -27,8 +27,8 @@ from seismass.motions.records.formats.common import (
     digit_of_peak,
     refuse_skip,
 )
-from seismass.motions.records.formats.fixed import Block, header_values, layout_of, read_block
 from seismass.motions.records.formats.labels import azimuth_of, direction_remark, is_vertical
+from seismass.motions.records.formats.table import Block, header_values, layout_of, read_block
 from seismass.motions.records.record import Record
 
 _FIRST = re.compile(

@@ -34,8 +34,8 @@ from seismass.motions.records.formats.common import (
     refuse_skip,
     to_float,
 )
-from seismass.motions.records.formats.fixed import Layout, header_values, layout_of, read_block, uniform_step
 from seismass.motions.records.formats.labels import azimuth_of, direction_remark
+from seismass.motions.records.formats.table import Layout, header_values, layout_of, read_block, uniform_step
 from seismass.motions.records.record import Record
 
 _FIRST = re.compile(r"\s*(?P<un>UN)?CORRECTED ACCELEROGRAM\b", re.IGNORECASE)

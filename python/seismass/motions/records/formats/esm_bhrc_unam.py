@@ -38,8 +38,8 @@ from seismass.motions.records.formats.common import (
     step_in_seconds,
     to_float,
 )
-from seismass.motions.records.formats.fixed import Layout, header_values, layout_of, read_block
 from seismass.motions.records.formats.labels import azimuth_of
+from seismass.motions.records.formats.table import Layout, header_values, layout_of, read_block
 from seismass.motions.records.record import Record
 
 _KEY = re.compile(r"[A-Z][A-Z0-9_/^-]*(?=:)")

@@ -35,9 +35,8 @@ from seismass.motions.records.formats.common import (
     refuse_skip,
     to_float,
 )
-from seismass.motions.records.formats.fixed import uniform_step
 from seismass.motions.records.formats.labels import azimuth_of
-from seismass.motions.records.formats.table import Table, is_row_of_numbers, numbers_of, split
+from seismass.motions.records.formats.table import Table, is_row_of_numbers, numbers_of, split, uniform_step
 from seismass.motions.records.record import Record
 
 MOST_LINES: Final = 200

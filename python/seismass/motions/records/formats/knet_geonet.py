@@ -31,8 +31,8 @@ from seismass.motions.records.formats.common import (
     refuse_skip,
     to_float,
 )
-from seismass.motions.records.formats.fixed import Layout, header_values, read_block
 from seismass.motions.records.formats.labels import azimuth_of
+from seismass.motions.records.formats.table import Layout, header_values, read_block
 from seismass.motions.records.record import Record
 
 _KEYS: Final = (

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from seismass.base.errors import RecordFormatError
 from seismass.base.units import is_plain, unit_by_name
 from seismass.motions.records.formats.common import LINE_WIDTH, LONGEST_STEP, SHORTEST_STEP, last_digits
-from seismass.motions.records.formats.fixed import uniform_step
+from seismass.motions.records.formats.table import uniform_step
 
 _WORDS_DIRECTIONS: Final = {
     **dict.fromkeys(("N", "NS", "KG", "NORTH", "NORTE", "NORD", "KUZEY"), 0.0),

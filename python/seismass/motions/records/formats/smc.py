@@ -29,8 +29,8 @@ from seismass.motions.records.formats.common import (
     last_digit,
     refuse_skip,
 )
-from seismass.motions.records.formats.fixed import Block, Layout, header_values, read_block, uniform_step
 from seismass.motions.records.formats.labels import azimuth_of, is_vertical
+from seismass.motions.records.formats.table import Block, Layout, header_values, read_block, uniform_step
 from seismass.motions.records.known import USABLE_OVER_CORNER
 from seismass.motions.records.record import Record
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from seismass.motions.records.synthetic.seven import write_suite
+from seismass.motions.records.synthetic.eleven import write_suite
 
 if __name__ == "__main__":
     if len(sys.argv) != 2:

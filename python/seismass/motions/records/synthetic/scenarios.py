@@ -1,4 +1,5 @@
-"""The forty motions of the default suite: the site-based stochastic model over classes of event, distance and site.
+"""The forty motions of the default suite, and their second components: the site-based stochastic model over classes of
+event, distance and site.
 
 Method
 ------
@@ -19,6 +20,20 @@ Medians and spreads were chosen such that spectra, peaks, durations and effectiv
 with those of the recordings (docs/default_suite.md). They are of no published relation, no source and no path:
 "magnitude 7.2 at 30 km" says what a class is meant to be like, no more. Seeds count from `FIRST_SEED`. Six first seeds
 were compared while medians and spreads were chosen, and the details by the suite of the first one; no seed was.
+
+Second components
+-----------------
+A second component has the parameters of the first: duration, course of intensity, filter and high-pass, which hardly
+differ between the components of a recording (Rezaeian and Der Kiureghian 2012, Earthquake Engng Struct. Dyn. 41:335).
+Two things differ.
+
+1. Its noise is that of the first times rho, and noise of its own times sqrt(1 - rho^2). Axes of instruments have no
+   relation to the principal axes of the motion (Penzien and Watabe 1975), so that rho is drawn again for each pair.
+2. Its target is that of the first times a lognormal level and wander over period.
+
+The spreads were chosen such that the correlation of the accelerations and ln Sa2/Sa1 scatter as those of the 18 FEMA
+P-695 far-field pairs as recorded (docs/synthetic.md). That the correlation is the same at all times and frequencies is
+an assumption. Seeds count from `SECOND_FIRST_SEED`; none was chosen.
 """
 
 from __future__ import annotations
@@ -160,7 +175,10 @@ SCENARIOS: Final = tuple(
 def quantiles_in_random_order(columns: int) -> Array:
     """Return the quantiles of the normal distribution, one for each motion, in an order of its own for each row."""
     count = len(SCENARIOS)
-    source, quantiles = random.Random(FIRST_SEED - 1), [NormalDist().inv_cdf((i + 0.5) / count) for i in range(count)]
+    source, quantiles = (
+        random.Random(FIRST_SEED - 1),
+        [NormalDist().inv_cdf((i + 0.5) / count) for i in range(count)],
+    )
     # Of the methods of Random, Python promises the numbers of random() alone to be the same in all its versions.
     return np.array([sorted(quantiles, key=lambda _: source.random()) for _ in range(columns)])
 
@@ -217,3 +235,41 @@ def wander_of(source: random.Random, log_period: Array) -> Array:
     weights = np.exp(-(((log_period[:, None] - knots) / WANDER_LENGTH) ** 2))
     wander: Array = np.sum(weights * normals(source, len(knots)), axis=1) / np.sqrt(np.sum(weights**2, axis=1))
     return wander
+
+
+SECOND_FIRST_SEED: Final = 5000
+CORRELATION_SPREAD: Final = 0.20
+"""Standard deviation of the coefficient of correlation, whose mean is zero: recorded 0.20."""
+MOST_CORRELATED: Final = 0.6
+"""Largest coefficient: that of the recorded ones is 0.42."""
+SECOND_LEVEL_SPREAD: Final = 0.10
+"""Lognormal spread of the second component's level over the first's."""
+SECOND_WANDER_SPREAD, LONG_PERIOD_GROWTH = 0.56, 0.30
+"""Lognormal spread of the wander over period, at 1 s, and its growth with ln T."""
+
+
+def seed_of(scenario: Scenario) -> int:
+    """Return the seed of the second component of a motion."""
+    return SECOND_FIRST_SEED + scenario.number - 1
+
+
+def generate_second(scenario: Scenario) -> Record:
+    """Make the second component of a motion; the same on every machine to rounding."""
+    parameters, target, first, _ = scenario.drawn
+    source = random.Random(seed_of(scenario))
+    correlated, level = normals(source, 2).tolist()
+    rho = max(-MOST_CORRELATED, min(CORRELATION_SPREAD * correlated, MOST_CORRELATED))
+    log_period = np.log(MATCHED_PERIODS)
+    growth = np.maximum(1.0 + LONG_PERIOD_GROWTH * log_period, 0.3)
+    while True:
+        wander = SECOND_WANDER_SPREAD * growth * wander_of(source, log_period)
+        noise = rho * first + math.sqrt(1.0 - rho**2) * normals(source, len(first))
+        record = made_of(parameters, target * np.exp(SECOND_LEVEL_SPREAD * level + wander), noise)
+        if is_within_recordings(record):
+            break
+    note = f"SYNTHETIC motion, not a recording; seed {seed_of(scenario)}; second component of {scenario.name}"
+    return record.replace(
+        name=f"{scenario.name}-second",
+        component="second horizontal",
+        remarks=(note, f"noise correlated by {rho:.3f} with that of the first; {record.remarks[-1]}"),
+    )
