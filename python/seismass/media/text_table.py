@@ -10,6 +10,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import Final
 
+from seismass.base.values import signed
+
 
 def text_line(cells: Iterable[str], widths: Iterable[int], *, indent: int = 2, gap: int = 0) -> str:
     """Return cells as one line of columns; a cell wider than its column moves what follows. Cells are aligned to the
@@ -49,7 +51,8 @@ def number_text(
         return missing
     if infinite is not None and not math.isfinite(value):
         return infinite
-    return f"{scale * value:{form}}"
+    text = signed(scale * value, f"#{form}" if form.endswith("g") else form)
+    return text.removesuffix(".")  # of 120. and 3.00e-05, the digits that a form asks for
 
 
 def column_texts(
@@ -67,7 +70,7 @@ def column_texts(
         form = f".{min(max(digits - before, 0), 6)}f"
         if largest > 0.0 and float(f"{largest:{form}}") >= 10.0**before:  # 9.996 is 10.00 in four digits
             form = f".{min(max(digits - before - 1, 0), 6)}f"
-    return [missing if value is None else f"{value:{form}}{unit}" for value in scaled]
+    return [missing if value is None else signed(value, form) + unit for value in scaled]
 
 
 def ends_text(
@@ -86,7 +89,7 @@ def interval_text(value: float | None, low: float | None, high: float | None, fo
 
 def change_text(percent: float | None) -> str:
     """Return a change in whole percent with its sign: "+12 %", "0 %"; "-" where it is None."""
-    return "-" if percent is None else f"{round(percent):+d} %".replace("+0 %", "0 %")
+    return "-" if percent is None else f"{signed(percent)} %"
 
 
 def numbers_text(values: Iterable[float]) -> str:

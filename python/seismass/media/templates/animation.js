@@ -456,7 +456,7 @@
         context.moveTo(x0, yOf(value));
         context.lineTo(x1, yOf(value));
         context.stroke();
-        const words = value === 0 ? "0" : value.toFixed(panel.digits).replace("-", "\u2212");
+        const words = value === 0 ? "0" : value.toFixed(panel.digits).replace(/^-(?=[0.]*$)/, "").replace("-", "\u2212");
         text(context, words, x0 - 6, yOf(value) + 4, { size: 11, colour: colours.soft, align: "right", fit: x0 - 8 });
       }
       let x = x1;

@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib import get_data_path
 from PIL import Image, ImageDraw, ImageFont
 
-from seismass.base.values import FloatArray
-from seismass.media.roles import ATTACHED, BARE, BLOCK_COLOURS, CODE, SLIDE, YIELDS, Role
+from seismass.base.values import FloatArray, signed
+from seismass.media.roles import ATTACHED, BARE, BLOCK_COLOURS, CODE, SLIDE, YIELDS, Role, lettered
 from seismass.model.scene import rack_levels
 from seismass.show.animation.animation import GROUND_HEIGHT, Good, Run, standing_goods
 
@@ -394,7 +394,7 @@ class Picture(Frames):
                 y = low - (value - ends[0]) / (ends[1] - ends[0]) * (low - top)
                 self._line(draw, [(52, y), (WIDTH - 12, y)], LINE, 1)
                 if value == 0.0 or abs(value) > 0.2 * (ends[1] - ends[0]):
-                    words = "0" if value == 0.0 else f"{value:.3g}".replace("-", "\N{MINUS SIGN}")
+                    words = lettered(signed(value, ".3g"))
                     self._text(draw, (46, y), words, SOFT, 11, "rm")
             for values, colour, _ in curves:
                 across: FloatArray = low - (values - ends[0]) / (ends[1] - ends[0]) * (low - top)

@@ -226,7 +226,7 @@ def _drift_panel(axes: Axes, result: AssessmentTables, rows: list[StoreyDrifts],
         places = [scale * value for value in row.analyses.values()]
         apart_by = 0.17 if len(places) > 1 and abs(places[0] - places[1]) < near else 0.0
         for number, (digit, place) in enumerate(zip(row.analyses, places, strict=True)):
-            height, face = row.storey + (apart_by, -apart_by)[number], "lightgrey" if digit == "1" else PAPER
+            height, face = row.storey + (apart_by, -apart_by)[number], GREY if digit == "1" else PAPER
             axes.plot(place, height, "o", markersize=9.5, color=INK, markerfacecolor=face, zorder=4)
             axes.annotate(digit, (place, height), fontsize=7.0, ha="center", va="center_baseline", zorder=5)
         text = f"{scale * row.largest:.0f} %" if limit is not None else f"{scale * row.largest:.2f} {unit}"
