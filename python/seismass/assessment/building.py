@@ -359,6 +359,11 @@ class OwnBuilding(FieldValue, Card):
         return self.code.fraction if uniform or total == 0.0 else float(self.code_mass.sum()) / total
 
     @property
+    def present_code_share(self) -> float:
+        """What the code counts over the goods present, at most 1; 0 where there are none."""
+        return min(1.0, self.code_share / self.present_share) if self.present_share > 0.0 else 0.0
+
+    @property
     def design_mass(self) -> FloatArray:
         """Mass of the live load in the design (kg): the fraction that is stated, else what the code counts."""
         stated = None if self.design is None else self.design.fraction

@@ -207,9 +207,9 @@ def _animation(result: Assessment) -> dict[str, Any] | None:
     from seismass.show.animation import animate
     from seismass.show.animation.html import element_content
 
-    share = building.code_share / building.present_share if building.present_share > 0.0 else 0.0
-    fraction = min(1.0, share)
-    animation = animate(shown.scene, shown.motion, fraction=fraction, title=building.name)
+    fraction = building.present_code_share
+    name = building.code.code
+    animation = animate(shown.scene, shown.motion, fraction=fraction, code_name=name, title=building.name)
     facts = {
         "motion": result.suite["motions"][shown.number - 1],
         "number": shown.number,

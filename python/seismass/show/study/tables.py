@@ -96,7 +96,7 @@ def study_tables(
         claims=None if validation is None else claims_table(validation.claims),
         section4=None if validation is None else validation.section4,
         platform=None if validation is None else validation.platform,
-        animation=None if example is None else _animation(example),
+        animation=None if example is None else _animation(example, metadata["code"]["name"]),
     )
     # As they are read again, so that a page of the study and one of its folder are the same.
     return _validated(made, made.tables)
@@ -137,12 +137,13 @@ def _validated(read: StudyTables, tables: dict[str, pl.DataFrame]) -> StudyTable
     )
 
 
-def _animation(example: Example) -> dict[str, Any]:
+def _animation(example: Example, code: str) -> dict[str, Any]:
     labels, name = example.labels, example.name
     animation = animate(
         example.scene,
         example.record.motion,
         fraction=labels["lambda_analysis"],
+        code_name=code,
         title=f"{labels['storeys']} storeys, R = {labels['R']:g}",
     )
     facts = {
