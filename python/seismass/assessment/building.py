@@ -343,8 +343,7 @@ class OwnBuilding(FieldValue, Card):
     @property
     def code_mass(self) -> FloatArray:
         """What the code counts of the live load on each floor (kg), shape (storeys,)."""
-        counted: FloatArray = np.array([one.fraction for one in self.counted]) * self.live_load
-        return counted
+        return self.live_load * np.array([one.fraction for one in self.counted])
 
     @property
     def counted(self) -> tuple[CountedFraction, ...]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -20,6 +19,7 @@ from seismass.commands.options import (
     read_site,
     refuse_options,
 )
+from seismass.commands.parser import tell
 from seismass.commands.scene_or_building import add_scaling_options, add_site_options, is_building_file, motions_of_file
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
     target = args.out or Path(scene.name).with_suffix(".html")
     shown = shown_of(args, scene)
     for remark in shown.remarks:
-        print(f"seismass: {remark}", file=sys.stderr)
+        tell(remark)
     played = arguments(args, "start", "end")
     options = shown.options | arguments(args, "code", "use", fraction="code_share") | played
     animation: Animation | PlaneAnimation
@@ -75,7 +75,7 @@ def run(args: argparse.Namespace) -> int:
         animation = animate(shown.scene, shown.motion, title=shown.title, note=shown.note, **options)
     chaotic = digits_remarks(animation.response)
     for remark in chaotic:
-        print(f"seismass: {remark}", file=sys.stderr)
+        tell(remark)
     animation = replace(animation, note="; ".join(part for part in (shown.note, *chaotic) if part))
     animation.write(target, frames_per_second=args.fps, speed=args.speed)
     show("\n".join([*shown.about_motion, *animation.sentences]))

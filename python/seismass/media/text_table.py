@@ -7,6 +7,7 @@ import re
 import textwrap
 import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 from itertools import pairwise
 from typing import Final
 
@@ -105,6 +106,8 @@ MOST_FILLED: Final = 120
 NARROWEST: Final = 40
 """No text is fitted to less."""
 _FILLER: Final = "\0"
+_wrapped: Final = partial(textwrap.wrap, break_on_hyphens=False, break_long_words=False)
+_QUOTED: Final = re.compile(r"'[^'\n]*'|\"[^\"\n]*\"|`[^`\n]*`")
 _LABEL: Final = re.compile(r" *(?:- )?(?:\S+(?: \S+)* {2,})?")
 """Indentation of a line, with its dash or its label where it has one."""
 _GAP: Final = re.compile(r"\S( {2,})(?=\S)")
@@ -115,6 +118,15 @@ def fit_text(text: str, width: int) -> str:
     on in parts below, each with its first column; a column that is too wide is wrapped.
     """
     return "\n".join(line for _, fitted in fitted_blocks(text, width) for line in fitted)
+
+
+def folded(text: str, width: int | None) -> str:
+    """Return a message whose lines go on below where a width has no room; words and what is quoted stay whole."""
+    if width is None:
+        return text
+    whole = _QUOTED.sub(lambda match: match[0].replace(" ", _FILLER), text)
+    lines = ("\n".join(_wrapped(line, width, subsequent_indent="  ")) for line in whole.split("\n"))
+    return "\n".join(lines).replace(_FILLER, " ")
 
 
 def fitted_blocks(text: str, width: int) -> Iterator[tuple[list[str], list[str]]]:
@@ -182,14 +194,7 @@ def _fitted(block: list[str], width: int) -> Iterator[str]:
         if start > width // 2:  # a label that leaves no room is a part of the sentence
             start = _indent(block[0])
         words = " ".join([block[0][start:], *(line.strip() for line in block[1:])])
-        yield from textwrap.wrap(
-            words,
-            width,
-            initial_indent=block[0][:start],
-            subsequent_indent=" " * start,
-            break_on_hyphens=False,
-            break_long_words=False,
-        )
+        yield from _wrapped(words, width, initial_indent=block[0][:start], subsequent_indent=" " * start)
 
 
 def _table(rows: list[str], width: int) -> Iterator[str]:
@@ -225,7 +230,7 @@ def _row(head: str, last: str, width: int) -> Iterator[str]:
     if len((head + last).rstrip()) <= width:
         yield (head + last).rstrip()
         return
-    pieces = textwrap.wrap(last.strip(), max(width - len(head), NARROWEST // 2), break_long_words=False)
+    pieces = _wrapped(last.strip(), max(width - len(head), NARROWEST // 2))
     indent = " " * _indent(last)
     head = head + indent if len(head + indent) + max(map(len, pieces)) <= width else head
     yield head + pieces[0]
