@@ -343,7 +343,7 @@ class OwnBuilding(FieldValue, Card):
     @property
     def code_mass(self) -> FloatArray:
         """What the code counts of the live load on each floor (kg), shape (storeys,)."""
-        return self.live_load * np.array([one.fraction for one in self.counted])
+        return self.live_load * np.array([one.fraction for one in self.counted], dtype=np.float64)
 
     @property
     def counted(self) -> tuple[CountedFraction, ...]:

@@ -163,10 +163,15 @@ def storey_drifts(storeys: pl.DataFrame, governing: pl.DataFrame) -> list[Storey
                 scatter=None if None in ends else (ends[0] / unit, ends[1] / unit),
                 code=means.get(CODE),
                 largest=row["governing"] / unit,
-                model=row["governed_by"],
+                model=short_words(row["governed_by"]),
             )
         )
     return rows
+
+
+def short_words(model: str | None) -> str:
+    """Return what governs a storey as a column or the edge of a row has room for it: "slide, mu x 1.5"."""
+    return (model or "").replace("goods slide", "slide").replace("mu as stated", "mu").removeprefix("the analysis")
 
 
 def most_slip(slip: pl.DataFrame) -> dict[int, dict[str, Any]]:
