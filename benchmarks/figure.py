@@ -11,29 +11,30 @@ from matplotlib.figure import Figure
 
 from front import points
 from scenes import BenchmarkScene
+from seismass.media.roles import GREY, INK, KINDS, SLIDE
 
 mpl.use("Agg")
 
 STYLES: Final[tuple[tuple[str, str, str, str], ...]] = (
-    ("seismass, exact", "#D55E00", "*", "-"),
-    ("leapfrog, Rust", "#0072B2", "o", "-"),
-    ("leapfrog, numba", "#0072B2", "s", "--"),
-    ("Gauss-Legendre 4, located", "#009E73", "^", "-"),
-    ("Gauss-Legendre 4", "#009E73", "v", ":"),
-    ("Newmark, located", "#CC79A7", "^", "-"),
-    ("Newmark", "#CC79A7", "v", ":"),
-    ("Newmark, friction spring", "#CC79A7", "x", ""),
-    ("OpenSees, friction spring", "#E69F00", "o", "-"),
-    ("OpenSees, CoulombDamper", "#E69F00", "s", "--"),
-    ("OpenSees, central difference", "#E69F00", "^", ":"),
-    ("OpenSees, modalDamping", "#E69F00", "x", ""),
-    ("SciPy DOP853, events and samples", "#56B4E9", "o", "-"),
-    ("SciPy DOP853, events", "#56B4E9", "s", "--"),
-    ("SciPy DOP853, tanh friction", "#8C8C8C", "o", ":"),
-    ("SciPy Radau, tanh friction", "#8C8C8C", "s", ":"),
-    ("SciPy LSODA, tanh friction", "#8C8C8C", "^", ":"),
-    ("heyoka, events and samples", "#222222", "D", "-"),
-    ("diffsol, events and samples", "#222222", "v", "--"),
+    ("seismass, exact", SLIDE.colour, "*", "-"),
+    ("leapfrog, Rust", KINDS[3], "o", "-"),
+    ("leapfrog, numba", KINDS[3], "s", "--"),
+    ("Gauss-Legendre 4, located", INK, "^", "-"),
+    ("Gauss-Legendre 4", INK, "v", ":"),
+    ("Newmark, located", KINDS[1], "^", "-"),
+    ("Newmark", KINDS[1], "v", ":"),
+    ("Newmark, friction spring", KINDS[1], "x", ""),
+    ("OpenSees, friction spring", KINDS[0], "o", "-"),
+    ("OpenSees, CoulombDamper", KINDS[0], "s", "--"),
+    ("OpenSees, central difference", KINDS[0], "^", ":"),
+    ("OpenSees, modalDamping", KINDS[0], "x", ""),
+    ("SciPy DOP853, events and samples", KINDS[2], "o", "-"),
+    ("SciPy DOP853, events", KINDS[2], "s", "--"),
+    ("SciPy DOP853, tanh friction", KINDS[2], "o", ":"),
+    ("SciPy Radau, tanh friction", KINDS[2], "s", ":"),
+    ("SciPy LSODA, tanh friction", KINDS[2], "^", ":"),
+    ("heyoka, events and samples", GREY, "D", "-"),
+    ("diffsol, events and samples", GREY, "v", "--"),
 )
 """Family, colour, marker, line."""
 LABEL: Final = "largest error of the drift history / peak drift"

@@ -9,13 +9,15 @@ from typing import Any, Final
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
+from seismass.media.roles import GREY, KINDS, SLIDE
+
 mpl.use("Agg")
 
 STYLES: Final = (
-    ("Rayleigh, calm", "#D55E00", "o", "-"),
-    ("Rayleigh, strong", "#D55E00", "s", "--"),
-    ("modal, calm", "#0072B2", "o", "-"),
-    ("modal, strong", "#0072B2", "s", "--"),
+    ("Rayleigh, calm", SLIDE.colour, "o", "-"),
+    ("Rayleigh, strong", SLIDE.colour, "s", "--"),
+    ("modal, calm", KINDS[0], "o", "-"),
+    ("modal, strong", KINDS[0], "s", "--"),
 )
 """Curve, colour, marker, line."""
 SLOPES: Final = ((1.0, "n"), (2.0, "n$^2$"))
@@ -44,8 +46,8 @@ def storeys_figure(data: Mapping[str, Any], path: Path) -> None:
     for power, label in SLOPES:
         ends = (storeys[0], storeys[-1])
         reference = [0.6 * start * (n / storeys[0]) ** power for n in ends]
-        axes.loglog(ends, reference, color="#8C8C8C", linewidth=0.8, linestyle=":")
-        axes.annotate(label, (ends[1], reference[1]), fontsize=8, color="#8C8C8C")
+        axes.loglog(ends, reference, color=GREY, linewidth=0.8, linestyle=":")
+        axes.annotate(label, (ends[1], reference[1]), fontsize=8, color=GREY)
     axes.set_xlabel("storeys")
     axes.set_ylabel("time per sample (us)")
     axes.set_title("Single runs, peaks only; calm: without events", fontsize=10, loc="left")

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import copy
 import os
+import re
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
+from html.parser import HTMLParser
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -14,12 +16,100 @@ from typing import Any
 import numpy as np
 import pytest
 from hypothesis import settings
+from jinja2 import Template
+from matplotlib.axes import Axes
+from matplotlib.axis import XTick, YTick
+from matplotlib.collections import QuadMesh
+from matplotlib.colors import to_hex, to_rgba_array
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.spines import Spine
 
 import seismass as sm
+from seismass.media.roles import BLOCK_COLOURS, DARK, MODELS
 
 SLOW = Path(__file__).with_name("slow.txt")
 """Files and tests that `make test` leaves to `make test-all`, one a line: what the id of a test begins with."""
 UNUSED = pytest.StashKey[list[str]]()
+
+
+@pytest.fixture(autouse=True, scope="session")
+def figures_have_colours_of_the_table() -> Iterator[None]:
+    """Every figure that a test has written is drawn in the colours of the table of roles, and a line that is called as
+    a role in its own. A map lies between them.
+    """
+    own = {role.name: role.colour.lower() for role in MODELS.values()}
+    table = [*(hue for hue, _ in DARK.values()), *BLOCK_COLOURS, *(role.text for role in MODELS.values())]
+    known = {hue.lower() for hue in table} | {"#000000", "#cccccc"}  # and Matplotlib's, of axes that a user gave
+    write = Figure.savefig
+
+    def checked(figure: Figure, *arguments: Any, **options: Any) -> None:
+        write(figure, *arguments, **options)
+        if not known.issuperset(colours_of(figure)):
+            pytest.fail(f"colours that roles have not: {colours_of(figure) - known}")
+        for line in figure.findobj(Line2D):
+            if to_hex(line.get_color()) != own.get(label := str(line.get_label()), to_hex(line.get_color())):
+                pytest.fail(f"{label} in {line.get_color()}")
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Figure, "savefig", checked)
+        yield
+
+
+@pytest.fixture(autouse=True, scope="session")
+def numbers_of_pages_have_one_sign() -> Iterator[None]:
+    """Every page that a test renders has a true minus before numbers, but for code, and no signed zero."""
+    render = Template.render
+
+    def checked(template: Template, *arguments: Any, **given: Any) -> str:
+        page = render(template, *arguments, **given)
+        if page.lstrip().lower().startswith("<!doctype"):
+            found = [text for text in Words(page).texts if HYPHEN.search(text) or SIGNED_ZERO.search(text)]
+            if found:
+                pytest.fail(f"signs of numbers: {found}")
+        return page
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Template, "render", checked)
+        yield
+
+
+HYPHEN = re.compile(r"(?:^|[\s(\[,:;=+/])-\.?\d|\de-\d")
+SIGNED_ZERO = re.compile(r"(?:^|[\s(\[,:;=/])[\N{MINUS SIGN}+-]0(?:\.0*)?(?![\d.]*\d)")
+
+
+class Words(HTMLParser):
+    """Texts of a page that people read as words, not as code."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__(convert_charrefs=True)
+        self.texts: list[str] = []
+        self._code: list[str] = []
+        self.feed(page)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        if tag in ("code", "pre", "script", "style", "textarea", "bdi"):
+            self._code.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        if self._code[-1:] == [tag]:
+            self._code.pop()
+
+    def handle_data(self, data: str) -> None:
+        if not self._code:
+            self.texts.append(data)
+
+
+def colours_of(figure: Figure) -> set[str]:
+    """Colours of all lines, areas and words that a figure shows."""
+    found: set[str] = set()
+    for artist in figure.findobj(lambda one: one.get_visible() and not isinstance(one, QuadMesh)):
+        for part in ("color", "markerfacecolor", "markeredgecolor", "facecolor", "edgecolor"):
+            value = getattr(artist, f"get_{part}", lambda: "none")()
+            shown = value is not None and not isinstance(artist, Figure | Axes | Spine | XTick | YTick)
+            rows = to_rgba_array(value) if shown else []
+            found |= {to_hex(row[:3]) for row in rows if row[3] > 0.0}
+    return found
 
 
 @pytest.fixture

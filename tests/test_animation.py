@@ -130,6 +130,7 @@ def test_model_is_that_of_the_code_or_of_the_share() -> None:
         ({"code": "nbc"}, f"{sm.codes.code_fraction('nbc').code} model", 0.6),
         ({"use": "ordinary"}, "ASCE/SEI 7-10 model", 0.0),
         ({"fraction": 1.0}, "model", 1.0),
+        ({"fraction": 0.3, "code_name": "NSR-10"}, "NSR-10 model", 0.3),
     ):
         run = sm.animate(SCENE, PULSE, **options).shown.runs[1]  # type: ignore[arg-type]
         assert (run.label, run.attached) == (label, share)
@@ -196,6 +197,35 @@ def test_gif_has_a_frame_per_time_step(tmp_path: Path) -> None:
         assert image.info["duration"] == 100
         assert image.info["loop"] == 0
     assert [file.name for file in tmp_path.iterdir()] == ["storage.gif"]
+
+
+def test_a_gif_is_cut_and_begins_shortly_before_the_ground_shakes(tmp_path: Path) -> None:
+    """A page plays the same seconds, and shows all."""
+    quiet = sm.Motion([0.0] * 200 + [3.0, -3.0] * 50 + [0.0] * 100, 0.02)  # it shakes from 4 to 6 s of 8
+    for given, played in (({}, (3.0, 7.98)), ({"start": 1.0, "end": 2.0}, (1.0, 2.0)), ({"end": 90.0}, (3.0, 7.98))):
+        animation = sm.animate(SCENE, quiet, **given)  # type: ignore[arg-type]
+        assert animation.shown.played == pytest.approx(played, abs=0.05)
+        assert data_of(animation)["played"] == pytest.approx(played, abs=0.05)
+        path = tmp_path / "cut.gif"
+        animation.write(path, frames_per_second=10.0)
+        with Image.open(path) as image:
+            assert image.n_frames == pytest.approx(10.0 * (played[1] - played[0]) + 1.0, abs=1.0)
+    for start, end in ((-1.0, None), (2.0, 1.0), (9.0, None)):
+        with pytest.raises(sm.errors.InvalidOption, match="start of animation must be from 0 and before its end"):
+            sm.animate(SCENE, quiet, start=start, end=end)
+
+
+def test_drifts_of_a_picture_are_those_of_its_page() -> None:
+    """Over the height where it is known, else in mm."""
+    known, unknown = (sm.Building.uniform(1, 0.4, yield_shear_over_weight=0.2, heights=h) for h in (4.0, None))
+    for building, title, factor in (
+        (known, "drift of storey 1 (% of height)", 25.0),
+        (unknown, "drift of storey 1 (mm)", 1e3),
+    ):
+        animation = sm.animate(sm.Scene(building, [sm.Block(1, mass_ratio=1.0, mu=0.2)]), PULSE)
+        (found,) = [curves for words, curves in Picture(animation)._curves() if words == title]
+        peak = animation.response.peak_drift[0]
+        assert np.abs(found[0][0]).max() == pytest.approx(factor * peak, rel=0.02)
 
 
 @pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="no ffmpeg on the path: no film is made")

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import argparse
 import importlib
 import json
 import re
 import shlex
 import shutil
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,6 +22,7 @@ from seismass.motions.matching.result import write_record
 from seismass.motions.records.builtin import builtin_record, data_directory
 from seismass.show.explore import page as compiled
 
+ROOT = Path(__file__).parents[1]
 RUN = [
     "new own.toml --from storeys.csv --area 1200 --sds 1.0 --sd1 0.6 --live-load 7.2 --friction 0.3",
     "new shed.toml --from storeys.csv --pushover push.csv --area 1200 --sds 1 --sd1 0.6 --live-load 7.2 --friction 0.3",
@@ -39,7 +42,7 @@ RUN = [
     "run scene.json --json > response.json",
     "animate --example",
     "records records/ --json",
-    "spectrum record.AT2 --damping 0.02 0.05",
+    "spectrum record.AT2 --damping 0.02,0.05",
     "target ec8:1:C:0.3",
     "scale --records suite.csv --sds 1.0 --sd1 0.6 --period 0.6",
     "match record.AT2 --out matched.AT2 --plot matched.png",
@@ -109,3 +112,22 @@ def test_example_runs(
         json.loads(printed.out)
     if "--example >" in line:
         tomllib.loads(printed.out)
+
+
+def lists_of(command: Any) -> Iterator[str]:
+    """Options of a command that take several numbers."""
+    parser = argparse.ArgumentParser()
+    command.options(parser)
+    for action in parser._actions:
+        if getattr(action.type, "__qualname__", "").startswith("numbers_option"):
+            yield from action.option_strings
+
+
+def test_numbers_are_typed_in_help_and_documentation_as_their_placeholder_says() -> None:
+    """With commas between, as in LOW,HIGH; spaces are read too."""
+    commands = [importlib.import_module(f"seismass.commands.{module}").COMMAND for module, _ in COMMANDS.values()]
+    options = {option for command in commands for option in lists_of(command)}
+    assert {"--mu-factors", "--range", "--ductility"} <= options
+    pages = (page.read_text("utf-8") for page in (ROOT / "README.md", *(ROOT / "docs").glob("*.md")))
+    for text in (*(command.epilog for command in commands), *pages):
+        assert not re.search(rf"seismass [^\n]*(?:{'|'.join(options)}) -?[\d.]+ -?[\d.]+", text), text

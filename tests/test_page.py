@@ -13,7 +13,10 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from seismass.base.errors import InvalidOption
+from seismass.base.values import signed
 from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
+from seismass.media.roles import INK, lettered
+from seismass.media.text_table import ends_text, interval_text
 
 VOID = {"meta", "link", "input", "br", "hr", "img"}
 
@@ -56,7 +59,7 @@ class Reader(HTMLParser):
 def drawn() -> Figure:
     figure = Figure(figsize=(4.0, 3.0))
     axes = figure.add_subplot()
-    axes.plot([0.0, 1.0], [1.0, 3.0], marker="o", label="drift")
+    axes.plot([0.0, 1.0], [1.0, 3.0], marker="o", color=INK, label="drift")
     axes.legend()
     return figure
 
@@ -186,3 +189,34 @@ def test_figure_that_is_none_is_refused(figure: str) -> None:
 def test_figure_without_a_description_is_refused() -> None:
     with pytest.raises(InvalidOption, match="alt of figure must be a description"):
         figure_html(drawn(), "Drift.", " ")
+
+
+@pytest.mark.parametrize("words", ["falls by -3 %", "a change of \N{MINUS SIGN}0.0 %", "+0.00 mm", "3e-05 a year"])
+def test_a_page_with_a_hyphen_or_a_signed_zero_is_seen(words: str) -> None:
+    """Every test that renders a page asks it: `numbers_of_pages_have_one_sign`; as code it may stand."""
+    with pytest.raises(pytest.fail.Exception):
+        page_html("Signs", [Section("Result", [text_html(words)])])
+    page_html("Signs", [Section("Result", [Markup("<code>{}</code>").format(words)])])
+
+
+@pytest.mark.parametrize(
+    ("value", "form", "text"),
+    [
+        (-0.04, "+.1f", "0.0"),
+        (0.04, "+.1f", "0.0"),
+        (-0.0, ".3g", "0"),
+        (-3e-5, ".3g", "\N{MINUS SIGN}3e\N{MINUS SIGN}05"),
+    ],
+)
+def test_signs_of_numbers(value: float, form: str, text: str) -> None:
+    assert lettered(signed(value, form)) == text
+    assert ">" + text + "<" in table_html(pl.DataFrame({"a": [value]}), "Numbers.", formats={"a": form})
+    assert lettered("ASCE 7-10, 2-1, 2026-11-25, RSN-5, (-2 to -1)") == (
+        "ASCE 7-10, 2-1, 2026-11-25, RSN-5, (\N{MINUS SIGN}2 to \N{MINUS SIGN}1)"
+    )
+
+
+def test_digits_of_intervals_are_equal() -> None:
+    assert interval_text(4.731e-5, 3.19e-5, 7e-5, ".3g") == "4.73e-05 [3.19e-05, 7.00e-05]"
+    assert interval_text(120.0, 99.96, 140.0, ".3g") == "120 [100, 140]"
+    assert ends_text(-0.001, 0.2, "+.1f") == " [0.0, +0.2]"

@@ -8,6 +8,7 @@ import re
 from pathlib import Path
 
 import pytest
+from matplotlib.figure import Figure
 
 import seismass
 from seismass.assessment import models
@@ -30,41 +31,45 @@ from seismass.media.style import SERIES
 
 PACKAGE = Path(seismass.__file__).parent
 SHOWN = sorted((PACKAGE / "show").rglob("*.py"))
+ROOT = Path(__file__).parents[1]
+DRAWING = [
+    *(file for file in sorted(PACKAGE.rglob("*.py")) if file.name != "roles.py"),
+    *(file for part in ("benchmarks", "tools", "docs/gallery") for file in sorted((ROOT / part).rglob("*.py"))),
+    ROOT / "docs/conf.py",
+]
+"""Files that may draw: the package but for the table, benchmarks, figures of the documentation, its gallery."""
 HUES = {"BLUE", "VERMILION", "GREEN", "PURPLE", "ORANGE", "SKY", "DEEP_BLUE", "MAGENTA"}
-WITHOUT_MODELS = {
-    "show/animation/picture.py": "paper, slabs, pale flashes",
-    "show/effective_mass.py": "classes of R",
-    "show/evidence.py": "definitions of a share",
-    "show/motions.py": "records, their target, pulses",
-    "show/plots/batches.py": "fractiles of runs",
-    "show/plots/floor_plan.py": "aisles, places of goods, and who has passed an edge",
-    "show/plots/histories.py": "one run: quantities, stops, kinds of events and of energy",
-    "show/plots/hysteresis.py": "one run, backbones, kinds of contact, a curve and what happens on it",
-    "show/plots/profiles.py": "one run",
-    "show/pushover_fit.py": "a measured curve and its fit",
-    "show/study/answer.py": "motions and their target",
-    "show/study/figures.py": "shades of one colour for alpha",
-    "show/validation.py": "programs",
-}
-"""Files that may name hues, and what these stand for: none of it is a model."""
 LITERALS = {"show/animation/picture.py", "show/explore/page.py"}
 """Files with colours of their own: of paper, slabs, an empty bar, and pale ones that flash."""
+COLOUR = re.compile(r"#[0-9a-fA-F]{6}\b|^(tab:\w+|white|black|\w*grey|\w*gray|red|green|blue|orange)$")
 
 
 def name_of(path: Path) -> str:
     return path.relative_to(PACKAGE).as_posix()
 
 
-def test_no_figure_names_the_colour_of_a_model_by_itself() -> None:
-    for path in SHOWN:
-        text = path.read_text(encoding="utf-8")
-        if name_of(path) not in LITERALS:
-            assert not re.findall(r"#[0-9a-fA-F]{6}\b", text), path
-        imported = {
-            alias.name for node in ast.walk(ast.parse(text)) if isinstance(node, ast.ImportFrom) for alias in node.names
-        }
-        if imported & HUES:
-            assert name_of(path) in WITHOUT_MODELS, f"{path} names {imported & HUES}"
+@pytest.mark.parametrize("path", DRAWING, ids=lambda path: path.relative_to(ROOT).as_posix())
+def test_no_figure_has_a_colour_of_its_own(path: Path) -> None:
+    """Each comes from a role, from the shades of blocks or the kinds that are no model, and has no name there."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.module == "seismass.media.roles":
+            assert not {alias.name for alias in node.names} & HUES, path
+    if path.is_relative_to(PACKAGE) and name_of(path) in LITERALS:
+        return
+    documentation = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in documentation:
+            assert not COLOUR.search(node.value), f"{path}: {node.lineno}: {node.value}"
+
+
+def test_a_figure_in_a_colour_that_roles_have_not_is_seen(tmp_path: Path) -> None:
+    """Every test that writes a figure asks it: `figures_have_colours_of_the_table`."""
+    for look in ({"color": "#123456"}, {"color": roles.CODE.colour, "label": roles.ATTACHED.name}):
+        figure = Figure()
+        figure.subplots().plot([0.0, 1.0], **look)
+        with pytest.raises(pytest.fail.Exception):
+            figure.savefig(tmp_path / "figure.png")
 
 
 def test_no_template_names_the_colour_of_a_model_by_itself() -> None:

@@ -151,6 +151,10 @@ def check(result: sm.Assessment) -> set[str]:
     kinds = {*_checks(result, sheet, page), *_analyses(result, sheet, page, text), *_storeys(result, text)}
     kinds |= _answer(result, sheet, page, text)
     _units(result, page, text)
+    body, _, listed = sheet.partition("References.")
+    numbers = re.findall(r"\[\d\]", listed)
+    assert sorted(set(numbers)) == numbers == sorted(set(re.findall(r"\[\d\]", body)))
+    assert set(re.findall(r"\d(?: of the design live load)? (\[\d\])", body)) == set(numbers), "beside its number"
     assert not re.search(r"\bnan\b|\bNone\b|\binf\b", f"{page} {text}".replace("None.", ""))
     return kinds
 

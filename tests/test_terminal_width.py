@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+import shlex
 import shutil
 import sys
 from collections.abc import Iterator
@@ -152,3 +153,33 @@ def test_into_a_pipe_lines_are_as_long_as_they_are_or_as_columns_states(
         longest = max(map(len, capsys.readouterr().out.split("\n")))
         assert longest <= width
         assert longest > 0.6 * width
+
+
+@pytest.mark.parametrize("width", [50, 80])
+@pytest.mark.parametrize(
+    "line",
+    [
+        "buildng w.toml",
+        "building 'no such file here.toml'",
+        "building warehouse.toml --code 'of a very long name'",
+        "slip",
+    ],
+)
+def test_errors_fit_and_keep_words_and_what_is_quoted_whole(
+    line: str, width: int, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(folder)
+
+    def said() -> str:
+        try:
+            assert main(shlex.split(line)) == 2
+        except SystemExit as error:
+            assert error.code == 2
+        return capsys.readouterr().err.partition("seismass")[2].rpartition("error: ")[2]
+
+    whole = said()
+    monkeypatch.setenv("COLUMNS", str(width))
+    fitted = said()
+    assert whole.split() == fitted.split()
+    assert set(re.findall("'[^']*'", whole)) == set(re.findall("'[^'\n]*'", fitted))
+    assert max(map(len, fitted.split("\n"))) <= width

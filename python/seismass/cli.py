@@ -11,7 +11,7 @@ import threading
 from collections.abc import Sequence
 
 from seismass.base.errors import SeismassError, SimulationError
-from seismass.commands.parser import BAD_INPUT, DONE, FAILED, INTERRUPTED, parse
+from seismass.commands.parser import BAD_INPUT, DONE, FAILED, INTERRUPTED, parse, tell
 
 
 def _make_output_safe() -> None:
@@ -53,7 +53,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
         failed = isinstance(error, SimulationError)
         kind = "run failed" if failed else "error"
-        print(f"seismass: {kind}: {printable(str(error), lines=True)}", file=sys.stderr)
+        tell(f"{kind}: {printable(str(error), lines=True)}")
         return FAILED if failed else BAD_INPUT
     except KeyboardInterrupt:
         # On a terminal a progress bar, or the ^C itself, has begun the line.

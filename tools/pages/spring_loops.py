@@ -11,7 +11,7 @@ import polars as pl
 from matplotlib.figure import Figure
 
 from pages.parts import ROOT, Page, table
-from seismass.media.roles import BLUE, GREY, VERMILION
+from seismass.media.roles import GREY, KINDS, SLIDE
 from seismass.media.style import STYLE
 
 sys.path.append(str(ROOT / "benchmarks"))
@@ -65,8 +65,8 @@ def figure() -> Figure:
         for panel, case in zip(panels, drawn, strict=True):
             x = np.concatenate(([0.0], path)) / YIELD_DRIFT
             ours, other = (np.concatenate(([0.0], force)) / YIELD for force in (case.forces(path), theirs[case.name]))
-            panel.plot(x, ours, color=BLUE, linewidth=2.4, alpha=0.45, label="seismass")
-            panel.plot(x, other, color=VERMILION, linewidth=0.8, label="OpenSees")
+            panel.plot(x, ours, color=SLIDE.colour, linewidth=2.4, alpha=0.45, label="seismass")
+            panel.plot(x, other, color=KINDS[0], linewidth=0.8, label="OpenSees")
             panel.axhline(0.0, color=GREY, linewidth=0.5)
             panel.axvline(0.0, color=GREY, linewidth=0.5)
             panel.set_title(case.title, fontsize=8.0)

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 import seismass as sm
 from pages.parts import Page, table
-from seismass.media.roles import BLUE, GREY, INK, VERMILION
+from seismass.media.roles import GREY, INK, SPECTRUM, TARGET
 from seismass.media.style import STYLE
 from seismass.motions.records.synthetic.eleven import ALL_RECIPES, SITE_RECIPES, Recipe
 from seismass.studies.study import run_study
@@ -108,7 +108,7 @@ def histories_figure(suite: sm.Suite) -> Figure:
         longest = max(record.duration for record in suite)
         for (left, right), record, recipe in zip(axes, suite, ALL_RECIPES, strict=True):
             left.plot(record.time, record.acceleration / sm.STANDARD_GRAVITY, color=INK, linewidth=0.35)
-            right.plot(record.time, record.velocity, color=BLUE, linewidth=0.8)
+            right.plot(record.time, record.velocity, color=SPECTRUM.colour, linewidth=0.8)
             for one in (left, right):
                 one.axhline(0.0, color=GREY, linewidth=0.4)
                 one.set_xlim(0.0, longest)
@@ -141,10 +141,12 @@ def spectra_figure(suite: sm.Suite, target: sm.TargetSpectrum) -> Figure:
             label = {1: "motions 1 to 7", 8: "motions 8 to 11"}.get(number)
             axes.plot(periods, spectrum, color=GREY, linewidth=0.8, linestyle=style, label=label)
         bounds = (middle * np.exp(-scatter), middle * np.exp(scatter))
-        axes.fill_between(periods, *bounds, color=BLUE, alpha=0.15, linewidth=0.0, label="one deviation of ln Sa")
-        axes.plot(periods, spectra.mean(axis=0), color=BLUE, linewidth=2.0, label="mean of eleven")
+        axes.fill_between(
+            periods, *bounds, color=SPECTRUM.colour, alpha=0.15, linewidth=0.0, label="one deviation of ln Sa"
+        )
+        axes.plot(periods, spectra.mean(axis=0), color=SPECTRUM.colour, linewidth=2.0, label="mean of eleven")
         goal = target(periods) / sm.STANDARD_GRAVITY
-        axes.plot(periods, goal, color=VERMILION, linewidth=1.8, linestyle=(0, (5, 2)), label="default target")
+        axes.plot(periods, goal, **TARGET.look, linewidth=1.8, label="default target")
         axes.set_xscale("log")
         axes.set_xlim(periods[0], periods[-1])
         axes.set_ylim(0.0, 1.08 * float(spectra.max()))

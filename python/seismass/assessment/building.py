@@ -341,8 +341,7 @@ class OwnBuilding(FieldValue, Card):
     @property
     def code_mass(self) -> FloatArray:
         """What the code counts of the live load on each floor (kg), shape (storeys,)."""
-        counted: FloatArray = np.array([one.fraction for one in self.counted]) * self.live_load
-        return counted
+        return self.live_load * np.array([one.fraction for one in self.counted], dtype=np.float64)
 
     @property
     def counted(self) -> tuple[CountedFraction, ...]:
@@ -355,6 +354,11 @@ class OwnBuilding(FieldValue, Card):
         total = float(self.live_load.sum())
         uniform = all(one.fraction == self.code.fraction for one in self.counted)
         return self.code.fraction if uniform or total == 0.0 else float(self.code_mass.sum()) / total
+
+    @property
+    def present_code_share(self) -> float:
+        """What the code counts over the goods present, at most 1; 0 where there are none."""
+        return min(1.0, self.code_share / self.present_share) if self.present_share > 0.0 else 0.0
 
     @property
     def design_mass(self) -> FloatArray:

@@ -8,7 +8,7 @@ from typing import Any, Final
 
 from seismass import _kernel
 from seismass.base.errors import SeismassError
-from seismass.base.values import brief, refusal
+from seismass.base.values import brief, refusal, signed
 
 STANDARD_GRAVITY: Final = _kernel.STANDARD_GRAVITY
 """Standard gravity (m/s2), 3rd CGPM 1901: the g of every number in this package."""
@@ -55,7 +55,7 @@ class Units:
     def number(self, quantity: str, value: float, form: str = "") -> str:
         """Return a value in SI units as a number; with its own digits where no form is asked for."""
         _, size, usual = self.of(quantity)
-        return f"{value / size:{form or usual}}"
+        return signed(value / size, form or usual)
 
     def text(self, quantity: str, value: float, form: str = "") -> str:
         """Return a value in SI units as a number with its unit."""

@@ -317,6 +317,12 @@ def read_only(array: NDArray[_S]) -> NDArray[_S]:
     return np.frombuffer(array.tobytes(), dtype=array.dtype).reshape(array.shape)
 
 
+def signed(value: float, form: str = "+.0f") -> str:
+    """Return a number in a format of Python's; what is written as zero has no sign."""
+    text = f"{value:{form}}"
+    return text if text.strip("+-0.e") else text.lstrip("+-")
+
+
 def counted(number: int, one: str, several: str | None = None) -> str:
     """Return a number with its noun: 1 pass, 2 passes."""
     return f"{number} {one if number == 1 else several or one + 's'}"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -20,6 +19,7 @@ from seismass.commands.options import (
     read_site,
     refuse_options,
 )
+from seismass.commands.parser import tell
 from seismass.commands.scene_or_building import add_scaling_options, add_site_options, is_building_file, motions_of_file
 
 if TYPE_CHECKING:
@@ -38,6 +38,11 @@ def options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--fps", type=positive_option, metavar="N", help="frames per second of a GIF (12.5) or film (25)"
     )
+    for name, dest, words in (
+        ("--from", "start", "second from which it plays (shortly before the ground shakes strongly)"),
+        ("--to", "end", "second up to which it plays (the end)"),
+    ):
+        parser.add_argument(name, dest=dest, type=float, metavar="SECONDS", help=words)
     parser.add_argument("--speed", type=positive_option, default=1.0, metavar="X", help="speed of a GIF or film (1)")
     motions = parser.add_argument_group("motions of a building file, scaled to its site; one of them is shown")
     add_records_options(motions)
@@ -58,18 +63,19 @@ def run(args: argparse.Namespace) -> int:
     target = args.out or Path(scene.name).with_suffix(".html")
     shown = shown_of(args, scene)
     for remark in shown.remarks:
-        print(f"seismass: {remark}", file=sys.stderr)
-    options = shown.options | arguments(args, "code", "use", fraction="code_share")
+        tell(remark)
+    played = arguments(args, "start", "end")
+    options = shown.options | arguments(args, "code", "use", fraction="code_share") | played
     animation: Animation | PlaneAnimation
     if shown.scene.engine == "plane":
         refuse_options(args, ("code", "use", "code_share"), "animate", "in two directions, where no model is shown")
         target = args.out or target.with_suffix(".gif")  # there is no page of it
-        animation = animate_plane(shown.scene, shown.motion, title=shown.title, note=shown.note)
+        animation = animate_plane(shown.scene, shown.motion, title=shown.title, note=shown.note, **played)
     else:
         animation = animate(shown.scene, shown.motion, title=shown.title, note=shown.note, **options)
     chaotic = digits_remarks(animation.response)
     for remark in chaotic:
-        print(f"seismass: {remark}", file=sys.stderr)
+        tell(remark)
     animation = replace(animation, note="; ".join(part for part in (shown.note, *chaotic) if part))
     animation.write(target, frames_per_second=args.fps, speed=args.speed)
     show("\n".join([*shown.about_motion, *animation.sentences]))
@@ -113,8 +119,9 @@ def _of_building(args: argparse.Namespace, path: Path) -> _Shown:
         f"{motion.motion.name} x {motion.factor:.3g}, motion {motion.number} of {len(motions.suite)}, that with the "
         "median drift of those under which goods slide"
     )
-    share = building.code_share / building.present_share if building.present_share > 0.0 else 0.0
-    options = {} if args.code is not None or args.use is not None else {"fraction": min(1.0, share)}
+    options: dict[str, Any] = {}
+    if args.code is None and args.use is None and args.code_share is None:
+        options = {"fraction": building.present_code_share, "code_name": building.code.code}
     notes = (f"Motion: {note}.", f"Scaling: {motions.scaling}.")
     return _Shown(scene, motion.motion, building.name, f"{note}; {motions.scaling}", scene.remarks, options, notes)
 
@@ -128,7 +135,7 @@ COMMAND = Command(
 animate --example
 animate scene.toml
 animate warehouse.toml
-animate scene.toml --code ec8 --out scene.gif
+animate scene.toml --code ec8 --out scene.gif --from 4 --to 12
 animate scene.toml --code-share 0.5 --out scene.mp4 --speed 0.5
 """,
     options=options,

@@ -154,7 +154,7 @@ building warehouse.toml --mass-source warehouse.e2k --live-pattern Storage
 building warehouse.toml --sds 0.8 --sd1 0.5
 building warehouse.toml --show us
 building warehouse.toml --target ec8:1:C:0.3 --code ec8
-building warehouse.toml --mu-factors 1 1 --json > answer.json
+building warehouse.toml --mu-factors 1,1 --json > answer.json
 building --codes
 building --frictions
 building --occupancies

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import os
 import re
-import shutil
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -15,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
 from seismass.commands.options import check_outputs, left_out, warn_left_out
-from seismass.commands.parser import ANY_COMMAND, HelpText
+from seismass.commands.parser import ANY_COMMAND, HelpText, columns
 from seismass.media.text_table import fitted_blocks, is_row
 
 if TYPE_CHECKING:
@@ -73,14 +72,6 @@ def _path(text: str) -> Path:
 def seconds(args: argparse.Namespace) -> str:
     """Return how long the command has taken, as it is printed."""
     return f"{time.perf_counter() - args.started:.1f} s"
-
-
-def columns() -> int | None:
-    """Return the width of the terminal, which COLUMNS may state; into a file or pipe what COLUMNS states, else None."""
-    if sys.stdout.isatty():
-        return shutil.get_terminal_size().columns
-    stated = os.environ.get("COLUMNS", "")
-    return int(stated) if stated.isdecimal() and int(stated) > 0 else None
 
 
 def shows_bold() -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from seismass.commands.frame import columns
+from seismass.commands.parser import columns
 from seismass.media.text_table import text_table
 from seismass.model.codes import MARK, NOT_CHECKED, code_legend, code_table
 from seismass.model.friction import friction_table

@@ -204,7 +204,7 @@ COMMAND = Command(
     ),
     examples="""
 match record.AT2 --out matched.AT2 --plot matched.png
-match record.AT2 --target uniform_hazard.csv --range 0.1 3.0
+match record.AT2 --target uniform_hazard.csv --range 0.1,3.0
 match suite.csv --target ec8:1:C:0.3 --out matched/ --json
 """,
     options=options,

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 import math
-import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal, cast, get_args
 
 from seismass.base.files import check_files
+from seismass.commands.parser import tell
 from seismass.motions.scaling import TARGET_HELP
 
 if TYPE_CHECKING:
@@ -148,14 +148,14 @@ def read_pairs(args: argparse.Namespace) -> Pairs:
 def warn_left_out(suite: Suite | Pairs) -> None:
     """Print on standard error what the suite left out, where standard output is for machines."""
     for line in left_out(suite):
-        print(f"seismass: {line}", file=sys.stderr)
+        tell(line)
 
 
 def warn_remarks(suite: Suite) -> None:
     """Print on standard error what the records say of themselves, where standard output has no place for it."""
     for number, record in enumerate(suite, start=1):
         for remark in record.remarks:
-            print(f"seismass: motion {number}, {record.name}: {remark}", file=sys.stderr)
+            tell(f"motion {number}, {record.name}: {remark}")
 
 
 def left_out(suite: Suite | Pairs) -> list[str]:

@@ -6,10 +6,13 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import os
 import re
+import shutil
+import sys
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Final
+from typing import Final, NoReturn, TextIO
 
 from seismass._kernel import VERSION
 from seismass.base.errors import did_you_mean
@@ -28,6 +31,34 @@ EXAMPLE: Final = "  seismass "
 """How a line begins that is typed."""
 _HANGING: Final = re.compile(r" +(?:\S+(?: \S+)* {2,})?")
 """Indentation of a line in a list, with its first column where there is one."""
+
+
+def columns(stream: TextIO | None = None) -> int | None:
+    """Return the width of the terminal, which COLUMNS may state; into a file or pipe what COLUMNS states, else None."""
+    if (stream or sys.stdout).isatty():
+        return shutil.get_terminal_size().columns
+    stated = os.environ.get("COLUMNS", "")
+    return int(stated) if stated.isdecimal() and int(stated) > 0 else None
+
+
+def tell(message: str) -> None:
+    """Print a message about a command to standard error, in lines that fit it."""
+    print(_folded(f"seismass: {message}"), file=sys.stderr)
+
+
+def _folded(text: str) -> str:
+    from seismass.media.text_table import folded  # numpy, which --help does not need
+
+    return folded(text, columns(sys.stderr))
+
+
+class Parser(argparse.ArgumentParser):
+    """Says what is wrong with a command line in lines that fit."""
+
+    def error(self, message: str) -> NoReturn:
+        """Print usage and message, and exit."""
+        self.print_usage(sys.stderr)
+        self.exit(BAD_INPUT, f"{_folded(f'{self.prog}: error: {message}')}\n")
 
 
 class HelpText(argparse.HelpFormatter):
@@ -139,9 +170,7 @@ _EPILOG: Final = (
 
 def build_parser(only: str | None = None) -> argparse.ArgumentParser:
     """Return the parser of the command line; with `only`, that subcommand alone has its options."""
-    parser = argparse.ArgumentParser(
-        prog="seismass", description=_DESCRIPTION, epilog=_EPILOG, formatter_class=grouped(GROUPS)
-    )
+    parser = Parser(prog="seismass", description=_DESCRIPTION, epilog=_EPILOG, formatter_class=grouped(GROUPS))
     parser.add_argument("--version", action="version", version=f"seismass {VERSION}")
     subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name, (module, text) in COMMANDS.items():

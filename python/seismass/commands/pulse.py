@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +16,7 @@ from seismass.commands.options import (
     reading,
     warn_left_out,
 )
+from seismass.commands.parser import tell
 
 if TYPE_CHECKING:
     from seismass.motions.pulses import OrientationScan, PulseResult
@@ -97,7 +97,7 @@ def _warn_remarks(groups: list[Record | Pair]) -> None:
     for group in groups:
         for record in (group,) if isinstance(group, Record) else (group.first, group.second):
             for remark in record.remarks:
-                print(f"seismass: {record.name}: {remark}", file=sys.stderr)
+                tell(f"{record.name}: {remark}")
 
 
 def _one_file(path: Path, options: dict[str, Any]) -> Record | Pair:

@@ -9,8 +9,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from seismass.commands.frame import Command, columns, show
+from seismass.commands.frame import Command, show
 from seismass.commands.options import add_json_option, add_reading_options, reading
+from seismass.commands.parser import columns
 
 if TYPE_CHECKING:
     from seismass.motions.records import Record, Suite

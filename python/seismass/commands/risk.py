@@ -79,7 +79,7 @@ def run(args: argparse.Namespace) -> int:
     if building is not None:
         drift_limit = f"drift_ratio={building.drift_limit:g}"
         if args.code_share is None and building.present_share > 0.0:
-            args.code_share = min(1.0, building.code_share / building.present_share)
+            args.code_share = building.present_code_share
     suite = read_motions(args)
     limit = parse_limit(args.limit or drift_limit)
     doubts = doubts_of_input(scene, building, target, [(limit.quantity, limit.value)])

@@ -119,12 +119,12 @@ COMMAND = Command(
         "or inelastic for given strengths or ductilities."
     ),
     examples="""
-spectrum record.AT2 --damping 0.02 0.05
+spectrum record.AT2 --damping 0.02,0.05
 spectrum column.txt --dt 0.01 --unit cm/s2
-spectrum suite.csv --period 0.2 1.0 --kind sd
+spectrum suite.csv --period 0.2,1.0 --kind sd
 spectrum records/ > spectra.csv
-spectrum record.AT2 --strength 0.1 0.2
-spectrum record.AT2 --ductility 2 4 --overstrength 1 --second-slope 0
+spectrum record.AT2 --strength 0.1,0.2
+spectrum record.AT2 --ductility 2,4 --overstrength 1 --second-slope 0
 """,
     options=options,
     run=run,

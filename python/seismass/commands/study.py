@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import sys
 from concurrent.futures import CancelledError, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,7 +26,7 @@ from seismass.commands.options import (
     read_motions,
     read_target,
 )
-from seismass.commands.parser import DONE, FAILED
+from seismass.commands.parser import DONE, FAILED, tell
 
 if TYPE_CHECKING:
     from seismass.base.stored_results import StoredResults
@@ -108,7 +107,7 @@ def run(args: argparse.Namespace) -> int:
     metadata = answer.tables.metadata
     if args.json:
         for remark in metadata["remarks"]:
-            print(f"seismass: {remark}", file=sys.stderr)
+            tell(remark)
     print_answer(args, answer, suite, files, indent=9, answer="  largest underestimation")
     return FAILED if metadata["counts"]["failed"] else DONE
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from seismass.commands.frame import Command, show
 from seismass.commands.options import add_output_option, numbers_option
-from seismass.commands.parser import RUNS
+from seismass.commands.parser import RUNS, tell
 from seismass.motions.scaling import TARGET_HELP
 
 
@@ -35,7 +35,7 @@ def run(args: argparse.Namespace) -> int:
 
     target = target_of(args.spectrum) if args.building is None else read_building(args.building).site_spectrum()
     for remark in target_remarks(target):
-        print(f"seismass: {remark}", file=sys.stderr)
+        tell(remark)
     table = target.table(args.period)
     if args.out is None:
         sys.stdout.write(table.write_csv())
@@ -53,7 +53,7 @@ COMMAND = Command(
     examples="""
 target ec8:1:C:0.3
 target nzs1170:C:0.4 --out site.csv
-target asce7:1.0:0.6 --period 0.2 0.5 1 2
+target asce7:1.0:0.6 --period 0.2,0.5,1,2
 target --building warehouse.toml --out site.csv
 """,
     options=options,

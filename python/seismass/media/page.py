@@ -32,8 +32,8 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import refusal
-from seismass.media.roles import SLIDE, css, isolated
+from seismass.base.values import refusal, signed
+from seismass.media.roles import SLIDE, css, isolated, lettered
 from seismass.media.svg import figure_html
 
 __all__ = ["Format", "Section", "facts_html", "figure_html", "page_html", "table_html", "templates", "text_html"]
@@ -113,11 +113,11 @@ def _text(value: Any, form: Format | None) -> str:
     if isinstance(value, pl.Series | list):
         return ", ".join(_text(item, form) for item in value)
     if form is not None:
-        return format(value, form).replace("-", "\N{MINUS SIGN}") if _is_number(value) else format(value, form)
+        return lettered(signed(value, form)) if _is_number(value) else format(value, form)
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
-        return f"{value:.4g}".replace("-", "\N{MINUS SIGN}")
+        return lettered(signed(value, ".4g"))
     return str(value)
 
 

@@ -68,6 +68,22 @@ YIELDS: Final = Role("yields", MAGENTA, "#a4276f", "#ff8ac6")
 
 BLOCK_COLOURS: Final = (BLUE, "#6BB5E3", DEEP_BLUE, "#3489BF", "#94CDEF", "#00527F")
 """Colours of block 1, 2, 3 and on, of floors and of storeys where each has its own: shades of that of sliding goods."""
+KINDS: Final = (PURPLE, ORANGE, SKY, DEEP_BLUE)
+"""Colours of what is no model: another program is the first; methods, kinds of contact and of energy."""
+DARK: Final = {
+    "ink": (INK, ADVISED.dark),
+    "paper": (PAPER, "#16181c"),
+    "grey": (GREY, "#9a9a9a"),
+    "blue": (BLUE, SLIDE.dark),
+    "vermilion": (VERMILION, CODE.dark),
+    "green": (GREEN, ATTACHED.dark),
+    "purple": (PURPLE, "#e0a3c6"),
+    "orange": (ORANGE, "#f0b440"),
+    "sky": (SKY, SLIDE_LOW.dark),
+    "deep-blue": (DEEP_BLUE, SLIDE_HIGH.dark),
+    "magenta": (MAGENTA, YIELDS.dark),
+}
+"""Colours of figures by their name in CSS, on white and on dark paper."""
 CSS_NAMES: Final = {
     "--slide": SLIDE,
     "--code": CODE,
@@ -104,12 +120,13 @@ SHARE: Final = f"share {LAMBDA} of the goods attached as mass"
 """Name of the axis of shares."""
 
 _LETTERS: Final = {"alpha": ALPHA, "eta": ETA, "lambda": LAMBDA, "mu": MU, "Omega": OMEGA}
+_MINUS: Final = re.compile(r"(?:(?<![\w.)\]-])|(?<=\de))-(?=\.?\d)")
 _WORD: Final = re.compile(rf"\b({'|'.join(_LETTERS)})(?=\b|_)")
 
 
 def lettered(text: str) -> str:
-    """Return a text of the package in which symbols that a terminal spells out are Greek letters."""
-    return _WORD.sub(lambda match: _LETTERS[match[1]], text)
+    """Return a text of the package in which symbols are Greek letters and a minus is no hyphen, as on no terminal."""
+    return _MINUS.sub("\N{MINUS SIGN}", _WORD.sub(lambda match: _LETTERS[match[1]], text))
 
 
 def model_name(model: str) -> str:

@@ -14,6 +14,7 @@ import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.rcsetup import cycler
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import brief, counted, is_list, refusal
@@ -37,6 +38,7 @@ STYLE: Final[Any] = {
     "font.size": 9.0,
     "axes.titlesize": 9.0,
     "axes.labelsize": 9.0,
+    "axes.prop_cycle": cycler(color=BLOCK_COLOURS),
     "axes.edgecolor": GREY,
     "axes.labelcolor": INK,
     "axes.linewidth": 0.7,

@@ -7,8 +7,11 @@ import re
 import textwrap
 import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 from itertools import pairwise
 from typing import Final
+
+from seismass.base.values import signed
 
 
 def text_line(cells: Iterable[str], widths: Iterable[int], *, indent: int = 2, gap: int = 0) -> str:
@@ -49,7 +52,8 @@ def number_text(
         return missing
     if infinite is not None and not math.isfinite(value):
         return infinite
-    return f"{scale * value:{form}}"
+    text = signed(scale * value, f"#{form}" if form.endswith("g") else form)
+    return text.removesuffix(".")  # of 120. and 3.00e-05, the digits that a form asks for
 
 
 def column_texts(
@@ -67,7 +71,7 @@ def column_texts(
         form = f".{min(max(digits - before, 0), 6)}f"
         if largest > 0.0 and float(f"{largest:{form}}") >= 10.0**before:  # 9.996 is 10.00 in four digits
             form = f".{min(max(digits - before - 1, 0), 6)}f"
-    return [missing if value is None else f"{value:{form}}{unit}" for value in scaled]
+    return [missing if value is None else signed(value, form) + unit for value in scaled]
 
 
 def ends_text(
@@ -86,7 +90,7 @@ def interval_text(value: float | None, low: float | None, high: float | None, fo
 
 def change_text(percent: float | None) -> str:
     """Return a change in whole percent with its sign: "+12 %", "0 %"; "-" where it is None."""
-    return "-" if percent is None else f"{round(percent):+d} %".replace("+0 %", "0 %")
+    return "-" if percent is None else f"{signed(percent)} %"
 
 
 def numbers_text(values: Iterable[float]) -> str:
@@ -102,6 +106,8 @@ MOST_FILLED: Final = 120
 NARROWEST: Final = 40
 """No text is fitted to less."""
 _FILLER: Final = "\0"
+_wrapped: Final = partial(textwrap.wrap, break_on_hyphens=False, break_long_words=False)
+_QUOTED: Final = re.compile(r"'[^'\n]*'|\"[^\"\n]*\"|`[^`\n]*`")
 _LABEL: Final = re.compile(r" *(?:- )?(?:\S+(?: \S+)* {2,})?")
 """Indentation of a line, with its dash or its label where it has one."""
 _GAP: Final = re.compile(r"\S( {2,})(?=\S)")
@@ -112,6 +118,15 @@ def fit_text(text: str, width: int) -> str:
     on in parts below, each with its first column; a column that is too wide is wrapped.
     """
     return "\n".join(line for _, fitted in fitted_blocks(text, width) for line in fitted)
+
+
+def folded(text: str, width: int | None) -> str:
+    """Return a message whose lines go on below where a width has no room; words and what is quoted stay whole."""
+    if width is None:
+        return text
+    whole = _QUOTED.sub(lambda match: match[0].replace(" ", _FILLER), text)
+    lines = ("\n".join(_wrapped(line, width, subsequent_indent="  ")) for line in whole.split("\n"))
+    return "\n".join(lines).replace(_FILLER, " ")
 
 
 def fitted_blocks(text: str, width: int) -> Iterator[tuple[list[str], list[str]]]:
@@ -179,14 +194,7 @@ def _fitted(block: list[str], width: int) -> Iterator[str]:
         if start > width // 2:  # a label that leaves no room is a part of the sentence
             start = _indent(block[0])
         words = " ".join([block[0][start:], *(line.strip() for line in block[1:])])
-        yield from textwrap.wrap(
-            words,
-            width,
-            initial_indent=block[0][:start],
-            subsequent_indent=" " * start,
-            break_on_hyphens=False,
-            break_long_words=False,
-        )
+        yield from _wrapped(words, width, initial_indent=block[0][:start], subsequent_indent=" " * start)
 
 
 def _table(rows: list[str], width: int) -> Iterator[str]:
@@ -222,7 +230,7 @@ def _row(head: str, last: str, width: int) -> Iterator[str]:
     if len((head + last).rstrip()) <= width:
         yield (head + last).rstrip()
         return
-    pieces = textwrap.wrap(last.strip(), max(width - len(head), NARROWEST // 2), break_long_words=False)
+    pieces = _wrapped(last.strip(), max(width - len(head), NARROWEST // 2))
     indent = " " * _indent(last)
     head = head + indent if len(head + indent) + max(map(len, pieces)) <= width else head
     yield head + pieces[0]

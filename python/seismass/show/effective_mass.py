@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterator, Mapping
+from itertools import cycle
 from typing import Final
 
-import matplotlib as mpl
 import numpy as np
 import polars as pl
 from matplotlib.axes import Axes
@@ -26,6 +26,7 @@ from seismass.media.roles import (
     ALPHA,
     ATTACHED,
     BARE,
+    BLOCK_COLOURS,
     EFFECTIVE,
     ETA,
     GREY,
@@ -34,10 +35,11 @@ from seismass.media.roles import (
     MU,
     OMEGA,
     OVER_MODEL,
+    PAPER,
     SHARE,
-    SKY,
     SLIDE,
     SLIDE_HIGH,
+    SLIDE_LOW,
     lettered,
 )
 from seismass.media.style import drawing
@@ -174,7 +176,7 @@ def storeys_figure(result: EffectiveMass) -> Figure:
             linestyle=style,
             linewidth=1.4,
             markersize=5.0,
-            markerfacecolor="white" if role in (BARE, ATTACHED) else role.colour,
+            markerfacecolor=PAPER if role in (BARE, ATTACHED) else role.colour,
             label=label,
         )
     low, high = axes.get_xlim()
@@ -236,7 +238,7 @@ def uncertainty_figure(result: LiveLoadUncertainty, name: str | None = None) -> 
             ha="center",
             va="top",
             fontsize=7.0,
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0, "alpha": 0.85},
+            bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 1.0, "alpha": 0.85},
         )
     upper.set_ylim(0.0, 1.0)
     upper.set_xlim(-0.01, 1.01)
@@ -273,7 +275,7 @@ LARGEST_SHOWN: Final = 1.2
 NEAR: Final = 0.1
 """Difference of a fraction from the rule up to which it agrees."""
 _GROUPS: Final = (
-    ("elastic", 0.0, 1.0, SKY, "^"),
+    ("elastic", 0.0, 1.0, SLIDE_LOW.colour, "^"),
     ("R up to 3", 1.0, 3.0, SLIDE.colour, "s"),
     ("R above 3", 3.0, np.inf, GREY, "o"),
 )
@@ -313,7 +315,7 @@ def collapse_figure(result: EffectiveMassMap) -> Figure:
         )
     ends = np.linspace(0.0, LARGEST_SHOWN, 400)
     rule = share_by_hand(ends, 1.0)
-    axes.plot(ends, rule, color="white", linewidth=4.0, zorder=3)
+    axes.plot(ends, rule, color=PAPER, linewidth=4.0, zorder=3)
     axes.plot(ends, rule, color=INK, linewidth=2.2, zorder=4, label=lettered(RULE))
     for name, share in {"none: ASCE 7 ordinary": 0.0, **STORAGE_CODES, "all": 1.0}.items():
         axes.plot([0.985, 1.0], [share, share], transform=axes.get_yaxis_transform(), color=INK, linewidth=1.6)
@@ -401,11 +403,10 @@ def intensity_figure(result: EffectiveMassMap) -> Figure:
     confidence = result.metadata["parameters"]["confidence"]
     columns = min(len(factors), 4)
     rows = -(-len(factors) // columns)
-    shades = mpl.colormaps["viridis"](np.linspace(0.0, 0.9, len(mus)))
     figure = Figure(figsize=(1.0 + 2.1 * columns, 1.5 + 2.1 * rows), layout="constrained")
     grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
     for axes, factor in zip(grid.flat, factors, strict=False):
-        for colour, marker, mu in zip(shades, _INTENSITY_LOOKS * len(mus), mus, strict=False):
+        for colour, marker, mu in zip(cycle(BLOCK_COLOURS), cycle(_INTENSITY_LOOKS), mus, strict=False):
             line = here.filter((pl.col("R") == factor) & (pl.col("mu") == mu))
             if line["low"].null_count() == 0:
                 ends = (line[name].to_numpy() for name in ("intensity", "low", "high"))

@@ -18,7 +18,7 @@ from seismass.base.folders import write_folder
 from seismass.base.values import as_path
 from seismass.media.page import Section, bullets_html, page_html, table_html, text_html
 from seismass.media.result import PAGE, named_figure, result_files
-from seismass.media.roles import ADVISED, CODE, GREEN, GREY, INK, PURPLE, SLIDE, VERMILION
+from seismass.media.roles import ADVISED, ATTACHED, CODE, GREY, INK, KINDS, SLIDE
 from seismass.media.style import drawing
 from seismass.media.svg import figure_html, figure_svgs
 from seismass.media.text_table import number_text, text_table
@@ -38,8 +38,8 @@ _UNSAFE, _OVERSAFE = 1.2, 1.5
 """Rates, real over model, beyond which the sentences name an occupancy as unsafe, and the inverse as over-safe."""
 _MARKS: Final = {
     "a_mean": ("o", SLIDE.colour, "(a) mean drift"),
-    "base_shear": ("s", GREEN, "base shear"),
-    "e_d": ("^", PURPLE, "(e) in the design"),
+    "base_shear": ("s", KINDS[1], "base shear"),
+    "e_d": ("^", KINDS[0], "(e) in the design"),
     "d": ("D", INK, "(d) rate, 90 % interval"),
 }
 
@@ -212,7 +212,7 @@ def _draw_shares(axes: Axes, result: Evidence, archetypes: pl.DataFrame, places:
         axes.plot(rows["share"], heights, marker, color=colour, markersize=3.4, markerfacecolor=face, label=label)
     full = result.tables["full"].drop_nulls("d")
     heights = [places[name] for name in full["archetype"]]
-    axes.plot(full["d"], heights, "|", color=VERMILION, markersize=8.0, label="(d), full floors")
+    axes.plot(full["d"], heights, "|", color=KINDS[3], markersize=8.0, label="(d), full floors")
     labels: dict[str, str | None] = {"present": "present, mean", "code": result.metadata["codes"][0]}
     for occupancy, rows in archetypes.group_by("occupancy", maintain_order=True):
         ends = [places[name] for name in rows["archetype"]]
@@ -231,7 +231,12 @@ def _draw_rates(axes: Axes, result: Evidence, places: dict[str, float]) -> None:
     """Annual rate, real over model, with fractions of codes."""
     code = result.metadata["codes"][0]
     rates = result.tables["codes"].filter(suite="first", quantity="rate").drop_nulls("real_over_model")
-    looks = {code: ("D", CODE.colour), "0.6 everywhere": ("|", GREEN), "1 everywhere": ("|", PURPLE), ROUND: ("o", INK)}
+    looks = {
+        code: ("D", CODE.colour),
+        "0.6 everywhere": ("|", KINDS[1]),
+        "1 everywhere": ("|", ATTACHED.colour),
+        ROUND: ("o", INK),
+    }
     axes.axvspan(*RIGHT, color=ADVISED.colour, alpha=0.08, linewidth=0.0)
     axes.axvline(1.0, color=INK, linewidth=0.7)
     for rule, (marker, colour) in looks.items():

@@ -306,7 +306,7 @@ def _exceedance(row: dict[str, Any], reference: str) -> str:
         return f"  at intensity {row['intensity']:.3g}: {model_name(reference)} {percent('reference')}"
     difference = ""
     if row["difference"] is not None:
-        points = f"{100.0 * row['difference']:+.1f} points"
+        points = f"{number_text(row['difference'], '+.1f', scale=100.0)} points"
         ends = ends_text(row["difference_low"], row["difference_high"], "+.1f", scale=100.0, infinite="none")
         difference = f"; {points}{ends}"
     share = "unknown" if row["probability"] is None else f"{100.0 * row['probability']:.1f} %"

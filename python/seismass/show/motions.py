@@ -16,7 +16,7 @@ from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_list, as_one_of, brief, counted, refusal
 from seismass.media.result import named_figure
-from seismass.media.roles import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
+from seismass.media.roles import GREY, INK, KINDS, PAPER, SPECTRUM, TARGET
 from seismass.media.style import PERIOD_TICKS, drawing, plain
 from seismass.media.svg import CAPTION_CHARACTERS
 from seismass.media.text_table import text_line
@@ -41,8 +41,9 @@ if TYPE_CHECKING:
 
 BAND: Final = 0.05
 """Half-width of the band about the target."""
-BEFORE: Final[dict[str, Any]] = {"color": ORANGE, "linewidth": 1.6}
-AFTER: Final[dict[str, Any]] = {"color": BLUE, "linewidth": 0.9}
+BEFORE: Final[dict[str, Any]] = {"color": KINDS[1], "linewidth": 1.6}
+AFTER: Final[dict[str, Any]] = {"color": SPECTRUM.colour, "linewidth": 0.9}
+_BAND: Final[dict[str, Any]] = {"color": TARGET.colour, "alpha": 0.18, "linewidth": 0.0}
 _WIDTH: Final = 9.6
 
 
@@ -58,8 +59,8 @@ def matching_figure(matched: MatchedRecord) -> Figure:
     handles = [
         Line2D([], [], **BEFORE, label=f"scaled by {matched.factor:.4g}"),
         Line2D([], [], **AFTER, label="matched"),
-        Line2D([], [], color=VERMILION, linewidth=1.4, linestyle=(0, (1, 1)), label="target"),
-        Patch(color=VERMILION, alpha=0.18, linewidth=0.0, label=f"target \N{PLUS-MINUS SIGN} {100.0 * BAND:g} %"),
+        Line2D([], [], color=TARGET.colour, linewidth=1.4, linestyle=(0, (1, 1)), label="target"),
+        Patch(**_BAND, label=f"target \N{PLUS-MINUS SIGN} {100.0 * BAND:g} %"),
     ]
     figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
     misfit = matched.misfit
@@ -76,7 +77,7 @@ def matching_figure(matched: MatchedRecord) -> Figure:
 
 def _spectra(matched: MatchedRecord, axes: Axes) -> None:
     wide_periods = matched.wide_periods
-    axes.axvspan(matched.matched_periods[0], matched.matched_periods[-1], color=BLUE, alpha=0.07, linewidth=0.0)
+    axes.axvspan(*matched.matched_periods[[0, -1]], color=SPECTRUM.colour, alpha=0.07, linewidth=0.0)
     axes.plot(wide_periods, matched.wide_before / STANDARD_GRAVITY, **BEFORE)
     # Within the range every period that was judged, outside the few that are at hand.
     outside = (wide_periods < matched.periods[0]) | (wide_periods > matched.periods[-1])
@@ -85,10 +86,8 @@ def _spectra(matched: MatchedRecord, axes: Axes) -> None:
     after = np.concatenate([matched.wide_after[outside], matched.ordinates * matched.ratio_after])
     axes.plot(periods[order], after[order] / STANDARD_GRAVITY, **AFTER)
     target = matched.ordinates / STANDARD_GRAVITY
-    axes.fill_between(
-        matched.periods, target * (1.0 - BAND), target * (1.0 + BAND), color=VERMILION, alpha=0.18, linewidth=0.0
-    )
-    axes.plot(matched.periods, target, color=VERMILION, linewidth=1.4, linestyle=(0, (1, 1)))
+    axes.fill_between(matched.periods, target * (1.0 - BAND), target * (1.0 + BAND), **_BAND)
+    axes.plot(matched.periods, target, color=TARGET.colour, linewidth=1.4, linestyle=(0, (1, 1)))
     _period_axis(axes, wide_periods[0], wide_periods[-1])
     axes.set_ylim(0.0, None)
     axes.set_xlabel("period (s)")
@@ -96,7 +95,7 @@ def _spectra(matched: MatchedRecord, axes: Axes) -> None:
 
 
 def _ratios(matched: MatchedRecord, axes: Axes) -> None:
-    axes.axhspan(1.0 - BAND, 1.0 + BAND, color=VERMILION, alpha=0.18, linewidth=0.0)
+    axes.axhspan(1.0 - BAND, 1.0 + BAND, **_BAND)
     axes.plot(matched.periods, matched.ratio_before, **BEFORE)
     axes.plot(matched.periods, matched.ratio_after, **AFTER)
     reach = max(0.12, 1.3 * matched.misfit.largest)
@@ -192,8 +191,8 @@ def pulse_figure(result: PulseResult) -> Figure:
     most = 1.15 * CENTIMETRES * max(np.max(np.abs(shown)) for shown in (one.velocity, one.pulse, one.residual))
     rows = (
         ("velocity", one.velocity, INK, "-"),
-        ("extracted pulse", one.pulse, VERMILION, _PULSE_STYLE),
-        ("residual", one.residual, BLUE, "-"),
+        ("extracted pulse", one.pulse, KINDS[0], _PULSE_STYLE),
+        ("residual", one.residual, SPECTRUM.colour, "-"),
     )
     for axes, (name, history, colour, line) in zip(panels[:3], rows, strict=True):
         axes.axhline(0.0, color=GREY, linewidth=0.5)
@@ -213,26 +212,25 @@ def pulse_figure(result: PulseResult) -> Figure:
 def _arrival(axes: Axes, method: str, one: Candidate, time: FloatArray) -> None:
     """Cumulative squared velocities of record and pulse, and where the method compares them."""
     axes.plot(time, 100.0 * cumulative_share(one.velocity), color=INK, linewidth=1.4)
-    axes.plot(time, 100.0 * cumulative_share(one.pulse), color=VERMILION, linewidth=1.6, linestyle=_PULSE_STYLE)
+    axes.plot(time, 100.0 * cumulative_share(one.pulse), color=KINDS[0], linewidth=1.6, linestyle=_PULSE_STYLE)
     of_pulse, limit = ARRIVAL[method]
-    axes.axvline(one.arrival, color=GREEN, linewidth=1.0, linestyle=":")
-    axes.axhline(100.0 * limit, color=GREEN, linewidth=1.0)
-    axes.plot(one.arrival, 100.0 * one.energy_before, "o", color=GREEN, markeredgecolor=INK, clip_on=False, zorder=5)
+    axes.axvline(one.arrival, color=INK, linewidth=1.0, linestyle=":")
+    axes.axhline(100.0 * limit, color=INK, linewidth=1.0)
+    axes.plot(one.arrival, 100.0 * one.energy_before, "o", color=INK, clip_on=False, zorder=5)
     axes.set_ylim(0.0, 104.0)
     axes.set_ylabel("cumulative\nsquared velocity (%)")
     axes.set_xlabel("time (s)")
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     handles = [
         Line2D([], [], color=INK, linewidth=1.4, label="velocity"),
-        Line2D([], [], color=VERMILION, linewidth=1.6, linestyle=_PULSE_STYLE, label="pulse"),
-        Line2D([], [], color=GREEN, linewidth=1.0, linestyle=":", label=f"pulse at {100.0 * of_pulse:g} %"),
+        Line2D([], [], color=KINDS[0], linewidth=1.6, linestyle=_PULSE_STYLE, label="pulse"),
+        Line2D([], [], color=INK, linewidth=1.0, linestyle=":", label=f"pulse at {100.0 * of_pulse:g} %"),
         Line2D(
             [],
             [],
-            color=GREEN,
+            color=INK,
             linewidth=1.0,
             marker="o",
-            markeredgecolor=INK,
             label=f"velocity there {100.0 * one.energy_before:.0f} %, "
             f"{'early: below' if one.early else 'late: not below'} {100.0 * limit:g} %",
         ),
@@ -277,7 +275,7 @@ def orientation_figure(scan: OrientationScan) -> Figure:
         ("pgv", CENTIMETRES * table["pgv"].to_numpy(), "peak velocity (cm/s)"),
         ("period", table["period"].to_numpy(), "period of wavelet (s)"),
     )
-    markers = {"pulse": ("o", VERMILION), "ambiguous": ("s", "white"), "no pulse": ("x", GREY)}
+    markers = {"pulse": ("o", KINDS[0]), "ambiguous": ("s", PAPER), "no pulse": ("x", GREY)}
     for axes, (name, values, label) in zip(panels, rows, strict=True):
         axes.plot(angles, values, color=GREY, linewidth=0.7, zorder=1)
         for kind, (marker, colour) in markers.items():
@@ -288,8 +286,8 @@ def orientation_figure(scan: OrientationScan) -> Figure:
         axes.set_ylim(0.0, 1.04 if name == "indicator" else 1.15 * values.max())
         axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     for limit in (NO_PULSE_BELOW, PULSE_ABOVE):
-        panels[0].axhline(limit, color=GREEN, linewidth=1.0, linestyle=_PULSE_STYLE)
-    panels[1].axhline(CENTIMETRES * LEAST_PGV, color=GREEN, linewidth=1.0, linestyle=_PULSE_STYLE)
+        panels[0].axhline(limit, color=INK, linewidth=1.0, linestyle=_PULSE_STYLE)
+    panels[1].axhline(CENTIMETRES * LEAST_PGV, color=INK, linewidth=1.0, linestyle=_PULSE_STYLE)
     panels[2].set_xlabel("orientation (degrees from the first component to the second)")
     panels[2].set_xlim(-3.0, 180.0)
     panels[2].set_xticks(range(0, 181, 30))
@@ -299,7 +297,7 @@ def orientation_figure(scan: OrientationScan) -> Figure:
         else Line2D([], [], linestyle="none", marker=marker, color=colour, label=kind)
         for kind, (marker, colour) in markers.items()
     ]
-    handles.append(Line2D([], [], color=GREEN, linewidth=1.0, linestyle=_PULSE_STYLE, label="limits of the method"))
+    handles.append(Line2D([], [], color=INK, linewidth=1.0, linestyle=_PULSE_STYLE, label="limits of the method"))
     figure.legend(handles=handles, loc="outside upper center", ncols=4, frameon=False)
     names = " and ".join(name or "(unnamed)" for name in scan.names)
     caption = f"{names}, {BAKER}: pulse-like in {scan.pulses} of {len(scan.results)} orientations"
@@ -340,7 +338,7 @@ def _draw(record: Record, panels: list[Axes]) -> None:
         ("displacement (m)", record.displacement, f"PGD = {record.pgd:.3f} m"),
     )
     for axes, (label, values, peak) in zip(panels, histories, strict=False):
-        axes.plot(time, values, color=BLUE, linewidth=0.7)
+        axes.plot(time, values, color=SPECTRUM.colour, linewidth=0.7)
         axes.axhline(0.0, color=GREY, linewidth=0.6)
         where = int(np.argmax(np.abs(values)))
         axes.plot(time[where], values[where], "o", markerfacecolor="none", color=INK, markersize=5.0)
@@ -364,12 +362,12 @@ def _draw(record: Record, panels: list[Axes]) -> None:
 
 
 def _arias(record: Record, axes: Axes, built: FloatArray) -> None:
-    axes.plot(record.time, built, color=BLUE, linewidth=1.2)
+    axes.plot(record.time, built, color=SPECTRUM.colour, linewidth=1.2)
     bounds = [time_of_share(record.acceleration, record.dt, share) for share in (0.05, 0.95)]
-    look: Any = {"color": VERMILION, "linestyle": (0, (4, 2)), "linewidth": 1.0}
+    look: Any = {"color": INK, "linestyle": (0, (4, 2)), "linewidth": 1.0}
     for bound in bounds:
         axes.axvline(bound, **look)
-    axes.axvspan(*bounds, color=VERMILION, alpha=0.08, linewidth=0.0)
+    axes.axvspan(*bounds, color=GREY, alpha=0.08, linewidth=0.0)
     axes.set_ylim(0.0, 1.08 * record.arias or 1.0)
     axes.set_ylabel("Arias (m/s)")
     _note(axes, f"Arias = {record.arias:.3f} m/s, D5-95 = {bounds[1] - bounds[0]:.2f} s (dashed)")
@@ -381,7 +379,6 @@ def _note(axes: Axes, text: str) -> None:
 
 
 _DASHED = (0, (5, 2))
-_DOTTED = (0, (1.2, 1.6))
 _WIDER = (0.05, 4.0)
 """Periods (s) of a figure that has the suite and the target."""
 
@@ -400,19 +397,23 @@ def scaling_figure(
     spread = np.exp(np.log(spectra).std(axis=0, ddof=1)) if len(spectra) > 1 else np.ones(len(periods))
     figure = Figure(figsize=(7.0, 6.2), layout="constrained")
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1.2))
-    for row in spectra:
-        upper.plot(periods, row / STANDARD_GRAVITY, color=GREY, linewidth=0.7, alpha=0.8)
-    for edge in (middle / spread, middle * spread):
-        upper.plot(periods, edge / STANDARD_GRAVITY, color=GREEN, linewidth=1.2, linestyle=_DOTTED)
-    upper.plot(periods, mean / STANDARD_GRAVITY, color=BLUE, linewidth=2.0)
-    upper.plot(periods, wanted / STANDARD_GRAVITY, color=VERMILION, linewidth=1.8, linestyle=_DASHED)
-    lower.plot(periods, mean / wanted, color=BLUE, linewidth=2.0)
-    lower.axhline(1.0, color=VERMILION, linewidth=1.2, linestyle=_DASHED)
-    lower.plot(scaling.governing_period, scaling.least_ratio, "o", color=BLUE, markersize=5.0)
     first, last = float(scaling.periods[0]), float(scaling.periods[-1])
-    for axes in (upper, lower):
-        axes.axvline(scaling.period, color=GREY, linewidth=0.8, linestyle=_DASHED)
-        axes.axvspan(first, last, color=BLUE, alpha=0.07, linewidth=0.0)
+    upper.plot(periods, mean / STANDARD_GRAVITY, **SPECTRUM.look, linewidth=2.0, label=f"mean of {len(spectra)} scaled")
+    upper.plot(periods, wanted / STANDARD_GRAVITY, **TARGET.look, linewidth=1.8, label=TARGET.name)
+    lines = upper.plot(periods, spectra.T / STANDARD_GRAVITY, color=GREY, linewidth=0.7, alpha=0.8, zorder=1)
+    lines[0].set_label("each motion, scaled")
+    edges = np.transpose([middle / spread, middle * spread]) / STANDARD_GRAVITY
+    upper.plot(periods, edges, ":", color=SPECTRUM.colour, linewidth=1.2)[0].set_label("16 and 84 %, lognormal")
+    lower.plot(periods, mean / wanted, **SPECTRUM.look, linewidth=2.0)
+    lower.axhline(1.0, **TARGET.look, linewidth=1.2)
+    least = f"least ratio, {scaling.least_ratio:.3f}"
+    lower.plot(scaling.governing_period, scaling.least_ratio, **SPECTRUM.mark, markersize=5.0, label=least)
+    for axes, (period, compared) in (
+        (upper, (f"T = {scaling.period:.3g} s", f"compared, {first:.3g} to {last:.3g} s")),
+        (lower, ("", "")),
+    ):
+        axes.axvline(scaling.period, color=GREY, linewidth=0.8, linestyle=_DASHED, label=period)
+        axes.axvspan(first, last, color=SPECTRUM.colour, alpha=0.07, linewidth=0.0, label=compared)
         axes.set_xscale("log")
         axes.set_xlim(periods[0], periods[-1])
         axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
@@ -430,16 +431,7 @@ def scaling_figure(
     lower.set_xlabel("period (s)")
     upper.set_ylabel(f"pseudo-acceleration, {100.0 * scaling.damping:g} % damping (g)")
     lower.set_ylabel("mean over target")
-    handles = [
-        Line2D([], [], color=BLUE, linewidth=2.0, label=f"mean of {len(spectra)} scaled"),
-        Line2D([], [], color=VERMILION, linewidth=1.8, linestyle=_DASHED, label="target"),
-        Line2D([], [], color=GREY, linewidth=0.7, label="each motion, scaled"),
-        Line2D([], [], color=GREEN, linewidth=1.2, linestyle=_DOTTED, label="16 and 84 %, lognormal"),
-        Line2D([], [], color=GREY, linewidth=0.8, linestyle=_DASHED, label=f"T = {scaling.period:.3g} s"),
-        Line2D([], [], color=BLUE, marker="o", linewidth=0.0, label=f"least ratio, {scaling.least_ratio:.3f}"),
-        Line2D([], [], color=BLUE, alpha=0.12, linewidth=8.0, label=f"compared, {first:.3g} to {last:.3g} s"),
-    ]
-    figure.legend(handles=handles, loc="outside upper center", ncols=3, frameon=False)
+    figure.legend(loc="outside upper center", ncols=3, frameon=False)
     text = f"Method: {scaling.method}. Target: {plain(scaling.target_label)}"
     figure.supxlabel(textwrap.fill(text, 95), fontsize=7.5)
     return figure

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from seismass.design import PushoverFit
 from seismass.media.result import named_figure
-from seismass.media.roles import BLUE, INK, VERMILION
+from seismass.media.roles import INK, SLIDE, YIELDS
 from seismass.media.style import columns, drawing, grid_lines
 from seismass.media.text_table import text_table
 
@@ -71,11 +71,11 @@ def pushover_fit_figure(fit: PushoverFit, name: str | None = None) -> Figure:
         corner_drifts, force = ([], []) if fit.of_roof else _corners(fit, number)
         along = np.argsort([*drift, *corner_drifts], kind="stable")
         bent = np.array([*drift, *corner_drifts])[along], np.array([*fitted, *force])[along]
-        line = axes.plot(*bent, color=BLUE, linewidth=1.5, label="springs")[0]
+        line = axes.plot(*bent, color=SLIDE.colour, linewidth=1.5, label="springs")[0]
         corner = None
         if corner_drifts:
             corner = axes.plot(
-                corner_drifts, force, "o", markersize=7.0, markerfacecolor="none", color=VERMILION, label="corner"
+                corner_drifts, force, "o", markersize=7.0, markerfacecolor="none", color=YIELDS.colour, label="corner"
             )[0]
         axes.set_ylim(bottom=0.0)
         axes.set_xlim(left=0.0)

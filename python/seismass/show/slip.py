@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 
 from seismass.base.values import counted
 from seismass.media.result import named_figure
-from seismass.media.roles import GREY, INK, LIMIT, MU, SLIDE
+from seismass.media.roles import GREY, INK, LIMIT, MU, PAPER, SLIDE
 from seismass.media.style import SERIES, drawing, grid_lines, plain, say
 from seismass.media.svg import CAPTION_CHARACTERS
 from seismass.media.text_table import interval_text, number_text, text_line
@@ -56,7 +56,7 @@ def slip_demand_figure(result: SlipDemand, name: str | None = None) -> Figure:
             [],
             color=GREY,
             marker="o",
-            markerfacecolor="white",
+            markerfacecolor=PAPER,
             linestyle="",
             markersize=5.0,
             label="the same block on the ground",
@@ -83,7 +83,7 @@ def _by_block(axes: Axes, result: SlipDemand) -> None:
         lost = result.runs.filter(block=row["block"], collapsed=True).height
         for column, offset, colour, fill in (
             ("peak_slip", 0.14, SLIDE.colour, SLIDE.colour),
-            ("ground_slip", -0.14, GREY, "white"),
+            ("ground_slip", -0.14, GREY, PAPER),
         ):
             values = 1e3 * runs[column].to_numpy()
             axes.plot(

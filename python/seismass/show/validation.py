@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from seismass.media.result import named_figure
-from seismass.media.roles import ALPHA, ATTACHED, BLOCK_COLOURS, BLUE, GREY, INK, MU, SLIDE, VERMILION
+from seismass.media.roles import ALPHA, ATTACHED, BLOCK_COLOURS, GREY, INK, KINDS, MU, SLIDE
 from seismass.media.style import drawing
 from seismass.media.text_table import text_line
 from seismass.studies.validation import Claim, Validation
@@ -29,8 +29,8 @@ from seismass.studies.validation.three_storeys import (
 )
 
 _LINES: Final = {
-    EXACT: {"color": BLUE, "linewidth": 3.0, "alpha": 0.4},
-    OPENSEES: {"color": VERMILION, "linewidth": 1.3},
+    EXACT: {"color": SLIDE.colour, "linewidth": 3.0, "alpha": 0.4},
+    OPENSEES: {"color": KINDS[0], "linewidth": 1.3},
 }
 _SPRINGS: Final = {"color": INK, "linewidth": 0.7, "linestyle": (0, (4, 4))}
 _STILL: Final = 0.02

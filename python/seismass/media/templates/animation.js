@@ -10,7 +10,7 @@
 
   // ---- data -------------------------------------------------------------------------------------------------------
   let [data, ground, runs] = [null, null, []];
-  let [storeys, levels, blockCount, END] = [0, 0, 0, 0]; // levels: of all racks together
+  let [storeys, levels, blockCount, BEGIN, STOP, END] = [0, 0, 0, 0, 0, 0]; // levels: of all racks together
   let racks = []; // with the index of their lowest level among all
 
   const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer;
@@ -59,6 +59,7 @@
       return { ...rack, first: levels - rack.levels };
     });
     END = (data.rows - 1) * data.step;
+    [BEGIN, STOP] = data.played || [0, END];
     runs = data.runs.map(opened);
     blockCount = runs[0].blocks;
     slider.max = String(END);
@@ -456,7 +457,7 @@
         context.moveTo(x0, yOf(value));
         context.lineTo(x1, yOf(value));
         context.stroke();
-        const words = value === 0 ? "0" : value.toFixed(panel.digits).replace("-", "\u2212");
+        const words = value === 0 ? "0" : value.toFixed(panel.digits).replace(/^-(?=[0.]*$)/, "").replace("-", "\u2212");
         text(context, words, x0 - 6, yOf(value) + 4, { size: 11, colour: colours.soft, align: "right", fit: x0 - 8 });
       }
       let x = x1;
@@ -570,12 +571,13 @@
     if (since === null) return;
     const passed = Math.min(now - since, 250) / 1000;
     since = now;
+    const before = time;
     goTo(time + passed * Number(speed.value));
-    if (time >= END) setPlaying(false);
+    if (time >= END || (before < STOP && time >= STOP)) setPlaying(false);
     else requestAnimationFrame(frame);
   }
   function setPlaying(on) {
-    if (on && time >= END) time = 0;
+    if (on && time >= END) time = BEGIN;
     const was = since !== null;
     since = on ? performance.now() : null;
     play.textContent = on ? "Pause" : "Play";
@@ -622,7 +624,7 @@
   // On paper stands the instant of the largest drift, unless another one was chosen.
   window.addEventListener("beforeprint", () => {
     isInSight = true;
-    if (time === 0 && data !== null) time = runs[0].largest.indexOf(Math.max(...runs[0].largest)) * data.step;
+    if (time === BEGIN && data !== null) time = runs[0].largest.indexOf(Math.max(...runs[0].largest)) * data.step;
     redraw();
     requestAnimationFrame(redraw);
   });
@@ -638,7 +640,10 @@
     if (isInSight) draw();
   }).observe(plots);
   const stored = JSON.parse(root.querySelector('script[type="application/json"]').textContent);
-  if (stored !== null) open(stored);
+  if (stored !== null) {
+    open(stored);
+    time = BEGIN;
+  }
   // For a page that solves while it is shown: other runs, at the time that is shown or another one; where things stand in
   // the picture of the first run (`places`); keys, where its parts stand outside the element.
   root.show = (given, at = time) => {

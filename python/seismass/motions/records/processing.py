@@ -14,7 +14,7 @@ import numpy as np
 
 from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FloatArray, as_count, as_flag, as_number, brief, refusal
+from seismass.base.values import FloatArray, as_count, as_flag, as_number, brief, refusal, signed
 from seismass.motions.records.intensity import integrals
 
 HIGHEST_ORDER: Final = 10
@@ -181,7 +181,9 @@ def resampled(record: R, dt: float) -> R:
     if record.pga == 0.0:
         return changed
     loss = 100.0 * (changed.pga / record.pga - 1.0)
-    remark = f"resampling from {record.dt:g} to {step:g} s changed PGA from {record.pga_g:.4f} g by {loss:+.2f} %"
+    remark = (
+        f"resampling from {record.dt:g} to {step:g} s changed PGA from {record.pga_g:.4f} g by {signed(loss, '+.2f')} %"
+    )
     return changed.replace(remarks=(*changed.remarks, remark))
 
 

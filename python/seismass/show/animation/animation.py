@@ -12,7 +12,7 @@ import numpy as np
 from seismass.base.arguments import as_share
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FieldValue, FloatArray, as_count, brief, refusal
+from seismass.base.values import FieldValue, FloatArray, as_count, as_number, brief, refusal
 from seismass.base.views import Card, view
 from seismass.effective_mass.models import attached_scene
 from seismass.media.roles import SLIDE
@@ -41,6 +41,8 @@ LARGEST_SWAY: Final = 0.15
 """Largest displacement of a floor or block as drawn, over the height of the building."""
 LARGEST_SLIDE: Final = 0.4
 """The same of blocks on the ground alone, over the height of their picture."""
+STRONG, BEFORE = 0.1, 1.0
+"""Share of the peak of the ground acceleration from which it is strong, and how long before (s) an animation begins."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,6 +115,8 @@ class Shown:
         By which displacements are enlarged as a rule.
     storey : int
         Index of the storey whose drifts are compared: the one that drifts most.
+    played : tuple of float
+        First and last time that are played (s).
     """
 
     runs: tuple[Run, ...]
@@ -123,6 +127,7 @@ class Shown:
     heights: FloatArray
     factor: float
     storey: int
+    played: tuple[float, float]
 
     @property
     def sentences(self) -> tuple[str, ...]:
@@ -151,7 +156,20 @@ class Shown:
         return f"{name}: {', '.join(parts) or 'nothing moves'}."
 
 
-def shown(scenes: list[tuple[str, float | None, Scene]], motion: Motion) -> Shown:
+def seconds_played(start: float | None, end: float | None, ground: FloatArray, step: float) -> tuple[float, float]:
+    """Return the first and the last time that are played (s) of the size of a ground acceleration."""
+    last = step * (len(ground) - 1)
+    before = max(0.0, step * float(np.argmax(ground >= STRONG * ground.max())) - BEFORE)
+    first = before if start is None else as_number(start, "start", OWNER, InvalidOption)
+    stop = last if end is None else min(as_number(end, "end", OWNER, InvalidOption), last)
+    if not 0.0 <= first < max(stop, 1e-9):
+        raise refusal(InvalidOption, "start", OWNER, "from 0 and before its end", f"{first:g} to {stop:g} s")
+    return first, stop
+
+
+def shown(
+    scenes: list[tuple[str, float | None, Scene]], motion: Motion, start: float | None = None, end: float | None = None
+) -> Shown:
     """Solve scenes under one motion and return what an animation shows of them; the first is the real building."""
     values = max(len(spring_names(scene)) + len(scene.goods) for _, _, scene in scenes) or 1
     every = max(1, round(1.0 / (ROWS_PER_SECOND * motion.dt)), math.ceil(motion.samples * values / MOST_VALUES))
@@ -172,7 +190,8 @@ def shown(scenes: list[tuple[str, float | None, Scene]], motion: Motion) -> Show
     storey = int(np.argmax(ratio)) if len(ratio) else 0
     room = LARGEST_SWAY * float(heights.sum()) if len(heights) else LARGEST_SLIDE * GROUND_HEIGHT
     factor = _factor(runs, room)
-    return Shown(tuple(runs), every * motion.dt, rows, low, high, heights, factor, storey)
+    played = seconds_played(start, end, np.maximum(-low, high), every * motion.dt)
+    return Shown(tuple(runs), every * motion.dt, rows, low, high, heights, factor, storey, played)
 
 
 def _ranges(values: FloatArray, every: int, rows: int) -> tuple[FloatArray, FloatArray]:
@@ -291,8 +310,11 @@ def animate(
     code: str = DEFAULT_CODE,
     use: Use = "storage",
     fraction: float | None = None,
+    code_name: str = "",
     title: str | None = None,
     note: str | None = None,
+    start: float | None = None,
+    end: float | None = None,
 ) -> Animation:
     """Solve a scene, and the model of a code beside it, and return their animation.
 
@@ -312,8 +334,12 @@ def animate(
         Use of the floors, for the code.
     fraction : float, optional
         A share in place of the code's, from 0 to 1. Blocks are taken as the whole live load.
+    code_name : str, optional
+        What the code of that share is called.
     title, note : str, optional
         What it is called, and a line below; by default the names of scene and record.
+    start, end : float, optional
+        Times between which it plays (s); by default from 1 s before the ground shakes strongly, to the end.
 
     Raises
     ------
@@ -341,14 +367,14 @@ def animate(
             row = code_fraction(code, use)
             share, label = row.fraction, f"{row.code} model"
         else:
-            share, label = as_share(fraction, "fraction", "animation"), "model"
+            share, label = as_share(fraction, "fraction", "animation"), f"{code_name} model".lstrip()
         scenes.append((label, share, attached_scene(scene, share)))
     source: Any = getattr(motion, "name", "")
     return Animation(
         title=title if title is not None else scene.name or "Animation of a building",
         note=note if note is not None else ", ".join(part for part in (scene.note, str(source)) if part),
         scene=scene,
-        shown=shown(scenes, motion_shown),
+        shown=shown(scenes, motion_shown, start, end),
     )
 
 
@@ -389,6 +415,8 @@ class PlaneAnimation(FieldValue, Card):
         Rows up to its end, or to a collapse.
     factor : float
         By which displacements are enlarged.
+    played : tuple of float
+        First and last time that are played (s).
     """
 
     title: str
@@ -398,6 +426,7 @@ class PlaneAnimation(FieldValue, Card):
     step: float
     rows: int
     factor: float
+    played: tuple[float, float]
 
     @property
     def floor_displacement(self) -> FloatArray:
@@ -457,7 +486,14 @@ class PlaneAnimation(FieldValue, Card):
 
 
 def animate_plane(
-    scene: Scene, motions: MotionPair, *, floor: int | None = None, title: str | None = None, note: str = ""
+    scene: Scene,
+    motions: MotionPair,
+    *,
+    floor: int | None = None,
+    title: str | None = None,
+    note: str = "",
+    start: float | None = None,
+    end: float | None = None,
 ) -> PlaneAnimation:
     """Solve a scene in two directions and return its animation: a floor from above beside the building from the side.
 
@@ -471,6 +507,8 @@ def animate_plane(
         The floor that is seen from above; by default that under the block that slides farthest.
     title, note : str, optional
         What it is called, and a line below; by default the names of scene and pair.
+    start, end : float, optional
+        Times between which it plays (s), as of `animate`.
 
     Raises
     ------
@@ -503,6 +541,7 @@ def animate_plane(
     largest = max((float(np.abs(each).max()) for each in (sway, response.slip[:rows]) if each.size), default=0.0)
     fitting = [factor for factor in FACTORS if factor * largest <= LARGEST_SWAY * _SIDE]
     source: Any = getattr(motions, "name", "")
+    ground = np.hypot(*(motion.acceleration for motion in both))
     return PlaneAnimation(
         title=scene.name or "Two directions" if title is None else title,
         note=note or ", ".join(part for part in (scene.note, str(source)) if part),
@@ -511,6 +550,7 @@ def animate_plane(
         step=every * both[0].dt,
         rows=rows,
         factor=float(fitting[-1] if fitting else FACTORS[0]),
+        played=seconds_played(start, end, ground[: every * rows : every], every * both[0].dt),
     )
 
 

@@ -117,6 +117,7 @@ def _data(animation: Animation) -> dict[str, Any]:
     return {
         "step": shown.step,
         "rows": shown.rows,
+        "played": [round(time, 3) for time in shown.played],
         "heights": [round(float(height), 4) for height in shown.heights],
         "known": known,
         "factor": shown.factor,

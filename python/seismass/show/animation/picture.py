@@ -10,13 +10,13 @@ import numpy as np
 from matplotlib import get_data_path
 from PIL import Image, ImageDraw, ImageFont
 
-from seismass.base.values import FloatArray
-from seismass.media.roles import ATTACHED, BARE, BLOCK_COLOURS, CODE, SLIDE, YIELDS, Role
+from seismass.base.values import FloatArray, signed
+from seismass.media.roles import ATTACHED, BARE, BLOCK_COLOURS, CODE, SLIDE, YIELDS, Role, lettered
 from seismass.model.scene import rack_levels
 from seismass.show.animation.animation import GROUND_HEIGHT, Good, Run, standing_goods
 
 if TYPE_CHECKING:
-    from seismass.show.animation.animation import Animation
+    from seismass.show.animation.animation import Animation, PlaneAnimation, Shown
 
 
 FINER: Final = 2
@@ -57,17 +57,12 @@ class Canvas:
 
 
 class Frames(Canvas, ABC):
-    """Draws frames with buildings above and histories below, over one axis of time."""
+    """Draws frames with buildings above and histories, `panels`, below, over one axis of time."""
 
-    @property
-    @abstractmethod
-    def panels(self) -> int:
-        """Number of histories."""
-
-    @property
-    @abstractmethod
-    def duration(self) -> float:
-        """Time of the last row (s)."""
+    def __init__(self, shown: Shown | PlaneAnimation, panels: int) -> None:
+        super().__init__()
+        self.panels, self.played = panels, shown.played
+        self._duration = (shown.rows - 1) * shown.step
 
     @property
     def size(self) -> tuple[int, int]:
@@ -85,7 +80,7 @@ class Frames(Canvas, ABC):
 
     def sample(self) -> Image.Image:
         """Return a frame in which every colour is to be seen."""
-        frame = self.frame(0.5 * self.duration)
+        frame = self.frame(0.5 * self._duration)
         draw = ImageDraw.Draw(frame)
         for place, colour in enumerate(self.colours):
             draw.rectangle((20 * place, 0, 20 * place + 19, 39), fill=colour)
@@ -93,7 +88,7 @@ class Frames(Canvas, ABC):
 
     def _time_at(self, time: float) -> float:
         """Where a time stands along the axis."""
-        return 52.0 + (WIDTH - 64.0) * time / max(self.duration, 1e-9)
+        return 52.0 + (WIDTH - 64.0) * time / max(self._duration, 1e-9)
 
     def _cursor(self, draw: ImageDraw.ImageDraw, time: float) -> None:
         x = self._time_at(time)
@@ -106,8 +101,8 @@ class Frames(Canvas, ABC):
         self._line(draw, list(zip(along.tolist(), across.tolist(), strict=True)), colour, 1.5)
 
     def _time_axis(self, draw: ImageDraw.ImageDraw) -> None:
-        seconds = next((one for one in (1, 2, 5, 10, 20, 50, 100) if self.duration / one <= 14.0), 200)
-        for second in range(0, int(self.duration) + 1, seconds):
+        seconds = next((one for one in (1, 2, 5, 10, 20, 50, 100) if self._duration / one <= 14.0), 200)
+        for second in range(0, int(self._duration) + 1, seconds):
             place = (self._time_at(second), self.size[1] - FOOT + 2)
             self._text(draw, place, f"{second}", SOFT, 11, "ma")
         self._text(draw, (WIDTH - 6, self.size[1] - 2), "time (s)", SOFT, 11, "rs")
@@ -162,24 +157,13 @@ class Picture(Frames):
     """Draws an animation at any time."""
 
     def __init__(self, animation: Animation) -> None:
-        super().__init__()
+        scene = animation.scene
+        super().__init__(animation.shown, 1 + bool(scene.storeys) + bool(scene.racks) + bool(scene.goods))
         self._animation = animation
         self._shown = animation.shown
-        scene = animation.scene
         self._standing = standing_goods(scene)
         self._changes = [_changes(run) for run in self._shown.runs]
         self._still = self._histories()
-
-    @property
-    def panels(self) -> int:
-        """Number of histories."""
-        scene = self._animation.scene
-        return 1 + bool(scene.storeys) + bool(scene.racks) + bool(scene.goods)
-
-    @property
-    def duration(self) -> float:
-        """Time of the last row (s)."""
-        return (self._shown.rows - 1) * self._shown.step
 
     @property
     def colours(self) -> tuple[str, ...]:
@@ -230,8 +214,9 @@ class Picture(Frames):
         if storeys:
             rows = slice(0, min(int(time / self._shown.step), run.rows - 1) + 1)
             storey = self._shown.storey
-            so = 1e3 * float(np.abs(run.response.drift[rows, storey]).max())
-            words = f"largest drift of storey {storey + 1} so far {so:.1f} mm"
+            scale_of_drift, unit, digits = self._drifts()
+            so = scale_of_drift * float(np.abs(run.response.drift[rows, storey]).max())
+            words = f"largest drift of storey {storey + 1} so far {so:.{digits}f} {unit}"
             if run.response.collapsed_storey is not None and time >= run.response.end_time:
                 words = f"storey {run.response.collapsed_storey} collapsed at {run.response.end_time:.2f} s"
             self._text(draw, (middle, 39), words, SOFT, 12, "ma")
@@ -394,13 +379,20 @@ class Picture(Frames):
                 y = low - (value - ends[0]) / (ends[1] - ends[0]) * (low - top)
                 self._line(draw, [(52, y), (WIDTH - 12, y)], LINE, 1)
                 if value == 0.0 or abs(value) > 0.2 * (ends[1] - ends[0]):
-                    words = "0" if value == 0.0 else f"{value:.3g}".replace("-", "\N{MINUS SIGN}")
+                    words = lettered(signed(value, ".3g"))
                     self._text(draw, (46, y), words, SOFT, 11, "rm")
             for values, colour, _ in curves:
                 across: FloatArray = low - (values - ends[0]) / (ends[1] - ends[0]) * (low - top)
                 self._curve(draw, across, self._shown.rows - 1, colour)
         self._time_axis(draw)
         return image
+
+    def _drifts(self) -> tuple[float, str, int]:
+        """Factor, unit and digits of the drift that is compared, as on the page: of a height where it is known."""
+        building = self._animation.scene.building
+        if building is None or building.heights is None:
+            return 1e3, "mm", 1
+        return 100.0 / float(self._shown.heights[self._shown.storey]), "%", 2
 
     def _curves(self) -> list[tuple[str, list[Curve]]]:
         """Each history's title and curves; of the ground the larger end of its range."""
@@ -409,15 +401,13 @@ class Picture(Frames):
         larger = np.where(np.abs(shown.ground_low) > np.abs(shown.ground_high), shown.ground_low, shown.ground_high)
         panels: list[tuple[str, list[Curve]]] = [("ground acceleration (g)", [(larger, INK, "")])]
         if scene.storeys:
+            scale, unit, _ = self._drifts()
             drifts = [
-                (
-                    1e3 * run.response.drift[: run.rows, shown.storey],
-                    _role(run).text,
-                    SLIDE.name if run.attached is None else "model",
-                )
+                (scale * run.response.drift[: run.rows, shown.storey], _role(run).text, _name(run))
                 for run in shown.runs
             ]
-            panels.append((f"drift of storey {shown.storey + 1} (mm)", drifts))
+            unit = unit.replace("%", "% of height")
+            panels.append((f"drift of storey {shown.storey + 1} ({unit})", drifts))
         if scene.racks:
             peaks = np.concatenate(sliding.response.peak_rack_drift)
             places = rack_levels(scene)

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from functools import partial
 from math import ceil
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO, Final, Protocol
+from typing import TYPE_CHECKING, BinaryIO, Final
 
 import numpy as np
 from PIL import Image, ImageDraw
@@ -47,21 +47,11 @@ class PlanePicture(Frames):
     """Draws an animation in two directions at any time."""
 
     def __init__(self, animation: PlaneAnimation) -> None:
-        super().__init__()
+        super().__init__(animation, 2)
         self._animation = animation
         self._sway = animation.floor_displacement
         self._slip = animation.response.slip[: animation.rows]
         self._still = self._histories()
-
-    @property
-    def panels(self) -> int:
-        """Number of histories."""
-        return 2
-
-    @property
-    def duration(self) -> float:
-        """Time of the last row (s)."""
-        return (self._animation.rows - 1) * self._animation.step
 
     @property
     def colours(self) -> tuple[str, ...]:
@@ -179,25 +169,7 @@ COLOURS: Final = 32
 """Colours of a GIF."""
 
 
-class Pictured(Protocol):
-    """What draws frames at any time."""
-
-    @property
-    def size(self) -> tuple[int, int]:
-        """Width and height (pixels), both even."""
-
-    @property
-    def duration(self) -> float:
-        """Time of the last frame (s)."""
-
-    def sample(self) -> Image.Image:
-        """Return a frame in which every colour is to be seen."""
-
-    def frame(self, time: float, lasting: float = 0.0) -> Image.Image:
-        """Return the frame at a time (s), shown for `lasting`."""
-
-
-def write_film(picture: Pictured, path: Path, frames_per_second: float | None, speed: float) -> None:
+def write_film(picture: Frames, path: Path, frames_per_second: float | None, speed: float) -> None:
     """Write a GIF or an MP4, by the suffix of the path; see `Animation.write`."""
     gif = path.suffix.lower() == ".gif"
     default = GIF_FRAMES if gif else FILM_FRAMES
@@ -223,14 +195,14 @@ def write_film(picture: Pictured, path: Path, frames_per_second: float | None, s
                 write_file(path, partial(shutil.copyfileobj, whole))
 
 
-def _frames(picture: Pictured, rate: float, speed: float) -> Iterator[Image.Image]:
+def _frames(picture: Frames, rate: float, speed: float) -> Iterator[Image.Image]:
     """Frames from the start to the end, which is one of them."""
-    count = ceil(picture.duration * rate / speed - 1e-6)
-    for number in range(count + 1):
-        yield picture.frame(min(number * speed / rate, picture.duration), lasting=speed / rate)
+    first, last = picture.played
+    for number in range(ceil((last - first) * rate / speed - 1e-6) + 1):
+        yield picture.frame(min(first + number * speed / rate, last), lasting=speed / rate)
 
 
-def _write_gif(picture: Pictured, rate: float, speed: float, file: BinaryIO) -> None:
+def _write_gif(picture: Frames, rate: float, speed: float, file: BinaryIO) -> None:
     # One palette for all frames, of one in which everything is to be seen.
     palette = picture.sample().quantize(COLOURS, dither=Image.Dither.NONE)
     frames = (frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in _frames(picture, rate, speed))
@@ -239,7 +211,7 @@ def _write_gif(picture: Pictured, rate: float, speed: float, file: BinaryIO) -> 
     first.save(file, format="GIF", save_all=True, append_images=frames, duration=each, loop=0, optimize=True)
 
 
-def _write_mp4(picture: Pictured, path: Path, rate: float, speed: float, ffmpeg: str) -> None:
+def _write_mp4(picture: Frames, path: Path, rate: float, speed: float, ffmpeg: str) -> None:
     width, height = picture.size
     command = [ffmpeg, "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}"]
     command += ["-r", f"{rate:g}", "-i", "-", "-an", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"]

@@ -226,12 +226,11 @@ def _drift_panel(axes: Axes, result: AssessmentTables, rows: list[StoreyDrifts],
         places = [scale * value for value in row.analyses.values()]
         apart_by = 0.17 if len(places) > 1 and abs(places[0] - places[1]) < near else 0.0
         for number, (digit, place) in enumerate(zip(row.analyses, places, strict=True)):
-            height, face = row.storey + (apart_by, -apart_by)[number], "lightgrey" if digit == "1" else PAPER
+            height, face = row.storey + (apart_by, -apart_by)[number], GREY if digit == "1" else PAPER
             axes.plot(place, height, "o", markersize=9.5, color=INK, markerfacecolor=face, zorder=4)
             axes.annotate(digit, (place, height), fontsize=7.0, ha="center", va="center_baseline", zorder=5)
         text = f"{scale * row.largest:.0f} %" if limit is not None else f"{scale * row.largest:.2f} {unit}"
-        model = _short(row.model) if answer else ""
-        _at_edge(axes, row.storey, lettered("\n".join(part for part in (text, model) if part)))
+        _at_edge(axes, row.storey, lettered("\n".join(part for part in (text, row.model if answer else "") if part)))
     if limit is not None:
         axes.axvline(scale, color=LIMIT.colour, linewidth=1.4)
         words = f"limit, {100.0 * limit:g} % of the height "
@@ -247,11 +246,6 @@ def _drift_panel(axes: Axes, result: AssessmentTables, rows: list[StoreyDrifts],
         used = f"uses {scale * row.largest:.0f} % of its drift limit"
     why = f": {row.model}" if answer else "; no answer" if result.effective else ", without goods"
     _title(axes, f"Storey {row.storey} {used}{why}", size.title)
-
-
-def _short(model: str) -> str:
-    """What governs, at the edge of a row."""
-    return model.replace("goods slide, ", "slide, ").replace("the analysis", "").replace("as stated", "").strip()
 
 
 def _label_marks(axes: Axes, rows: list[StoreyDrifts], scale: float, near: float) -> None:

@@ -141,7 +141,7 @@ def _clause(row: dict[str, Any]) -> str:
 
 def _verdicts(result: AssessmentTables) -> Markup:
     """Largest value of each check with its limit, and its use in per cent of the limit."""
-    units, rows, references = result.units, [], _references(result)
+    units, rows, references = result.units, [], _cited(result)
     motions = len(result.document["suite"]["motions"])
     most = result.checks.filter(check="collapsed runs").sort("value", descending=True).row(0, named=True)
     where = _model_words(result, most["model"]) if most["value"] else "all models"
@@ -151,7 +151,7 @@ def _verdicts(result: AssessmentTables) -> Markup:
         if worst is None:
             continue
         scale, form, unit = (1e2, ".2f", " %") if check == CAPPED_DRIFT else (1.0, ".3f", "")
-        limit, clause = f"{scale * worst['limit']:g}{unit}", f"[{1 + list(references).index(check)}]"
+        limit, clause = f"{scale * worst['limit']:g}{unit}", references[check]
         if why:
             rows.append((words, "no value", limit, "", why, clause))
             continue
@@ -188,13 +188,17 @@ def worst_of(result: AssessmentTables, check: str) -> tuple[dict[str, Any] | Non
 def _references(result: AssessmentTables) -> dict[str, str]:
     """Clauses by what they are of, in their order on the sheet."""
     code, rule = result.code, result.document["input"]["drift_limit_rule"]
-    of_load = f"{code['share_of_design_live_load']:.3g} of the design live load"
-    known = {"share": f"{', '.join(part for part in (code['code'], code['clause']) if part)}: {of_load}"}
+    known = {"share": f"share of the code: {', '.join(part for part in (code['code'], code['clause']) if part)}"}
     if result.drift_limit is not None:
         limit = "limit as stated" if rule is None else f"{rule['code']}, {rule['clause']}"
         stable = str(result.checks.filter(check="stability coefficient")["source"][0]).partition(" (")[0]
         known |= dict(zip(CHECKS, (f"drift: {limit}", f"stability: {stable}"), strict=True))
     return known
+
+
+def _cited(result: AssessmentTables) -> dict[str, str]:
+    """The references as their numbers are cited: "[1]"."""
+    return {name: f"[{number}]" for number, name in enumerate(_references(result), start=1)}
 
 
 def _use(text: str) -> Markup:
@@ -258,14 +262,17 @@ def _method(result: AssessmentTables) -> list[Markup]:
     """Method in four lines with formulas, the check by hand, and references."""
     data = result.document["input"]
     low, high = result.mu_factors
+    cited = _cited(result)
+    of_load = f"{result.code['share_of_design_live_load']:.3g} of the design live load {cited['share']}"
     limits = "none, since heights are not known"
     if result.drift_limit is not None:
-        limits = f"d/h up to {result.drift_limit:g} [2], P d/(V h) up to {data['theta_limit']:g} [3]"
+        drift, stable = (cited[check] for check in CHECKS)
+        limits = f"d/h up to {result.drift_limit:g} {drift}, P d/(V h) up to {data['theta_limit']:g} {stable}"
     rules = [text for text in result.document["assumptions"] if text.startswith(SCALING)]
     scaled = rules[0].removeprefix(SCALING) if rules else "taken as they are."
     lines = [
         "1 Model: trilinear springs V of storeys; goods are blocks that stick up to mu_s m g and slide against mu_k m "
-        "g; runs go exactly from event to event.",
+        f"g; runs go exactly from event to event. The model of the code has {of_load} attached.",
         f"2 Motions: {scaled}",
         "3 Share: lambda is the smallest share for which d of the model with lambda m attached is at least d with "
         f"goods that slide; d is the capped mean of the largest drift, at mu, {high:g} mu and {low:g} mu; the largest "
@@ -275,7 +282,7 @@ def _method(result: AssessmentTables) -> list[Markup]:
     made = [Markup("<strong>Method.</strong> {}").format(sentence_html(" ".join(lines)))]
     if result.effective:
         made.append(Markup("<strong>By hand.</strong> {}").format(sentence_html(_by_hand(result))))
-    numbered = "; ".join(f"[{number}] {text}" for number, text in enumerate(_references(result).values(), start=1))
+    numbered = "; ".join(f"{cited[name]} {text}" for name, text in _references(result).items())
     return [*made, Markup("<strong>References.</strong> {}; strengths: clauses beside them.").format(numbered)]
 
 

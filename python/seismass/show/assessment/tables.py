@@ -163,10 +163,15 @@ def storey_drifts(storeys: pl.DataFrame, governing: pl.DataFrame) -> list[Storey
                 scatter=None if None in ends else (ends[0] / unit, ends[1] / unit),
                 code=means.get(CODE),
                 largest=row["governing"] / unit,
-                model=row["governed_by"],
+                model=short_words(row["governed_by"]),
             )
         )
     return rows
+
+
+def short_words(model: str | None) -> str:
+    """Return what governs a storey as a column or the edge of a row has room for it: "slide, mu x 1.5"."""
+    return (model or "").replace("goods slide", "slide").replace("mu as stated", "mu").removeprefix("the analysis")
 
 
 def most_slip(slip: pl.DataFrame) -> dict[int, dict[str, Any]]:
@@ -207,9 +212,9 @@ def _animation(result: Assessment) -> dict[str, Any] | None:
     from seismass.show.animation import animate
     from seismass.show.animation.html import element_content
 
-    share = building.code_share / building.present_share if building.present_share > 0.0 else 0.0
-    fraction = min(1.0, share)
-    animation = animate(shown.scene, shown.motion, fraction=fraction, title=building.name)
+    fraction = building.present_code_share
+    name = building.code.code
+    animation = animate(shown.scene, shown.motion, fraction=fraction, code_name=name, title=building.name)
     facts = {
         "motion": result.suite["motions"][shown.number - 1],
         "number": shown.number,

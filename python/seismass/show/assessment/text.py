@@ -32,6 +32,7 @@ from seismass.show.assessment.tables import (
     assessment_tables,
     most_slip,
     quantity_text,
+    short_words,
     storey_drifts,
 )
 
@@ -211,9 +212,8 @@ def _drifts(result: Assessment) -> list[str]:
         label = _storey_label(row)
         cells = [_marked(one["mean"], one["mean_over_limit"], scale) for one in values]
         if governed:
-            model_words = (row["governed_by"] or "").replace("goods slide, ", "slide, ").replace("mu as stated", "mu")
             drift = _marked(row["governing"], row["governing_over_limit"], scale)
-            cells.append(f"{drift} {model_words}".rstrip())
+            cells.append(f"{drift} {short_words(row['governed_by'])}".rstrip())
         rows.append([label, *cells])
     if building.heights is not None:
         above = [f"{_above(result, model)} of {motions}" for model in models]

@@ -16,7 +16,7 @@ from seismass.base.errors import InvalidOption
 from seismass.base.statistics import quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_number, brief, refusal
-from seismass.media.roles import ALPHA, BLOCK_COLOURS, BLUE, GREY, INK, LIMIT, MU, PAPER, SKY
+from seismass.media.roles import ALPHA, BLOCK_COLOURS, GREY, INK, LIMIT, MU, PAPER, SLIDE, SLIDE_LOW
 from seismass.media.style import drawing, grid_lines, plain, say, single
 from seismass.studies.fragility.fragility import fit_counts
 
@@ -80,13 +80,13 @@ def demand_of(table: pl.DataFrame, name: str) -> pl.Expr:
 
 
 FRACTILES: Final[tuple[tuple[float, str, dict[str, Any]], ...]] = (
-    (0.16, "16 %", {"color": BLUE, "linestyle": (0, (1.2, 1.2)), "linewidth": 1.6}),
-    (0.50, "median", {"color": BLUE, "linestyle": "-", "linewidth": 2.2}),
-    (0.84, "84 %", {"color": BLUE, "linestyle": (0, (5, 2)), "linewidth": 1.6}),
+    (0.16, "16 %", {"color": SLIDE.colour, "linestyle": (0, (1.2, 1.2)), "linewidth": 1.6}),
+    (0.50, "median", {"color": SLIDE.colour, "linestyle": "-", "linewidth": 2.2}),
+    (0.84, "84 %", {"color": SLIDE.colour, "linestyle": (0, (5, 2)), "linewidth": 1.6}),
 )
 """Shares of the motions, and how their curves are drawn."""
 
-_POINTS: Final = tuple(zip((*BLOCK_COLOURS, SKY), "os^DvPX", strict=True))
+_POINTS: Final = tuple(zip((*BLOCK_COLOURS, SLIDE_LOW.colour), "os^DvPX", strict=True))
 """Colour and marker of points by a column."""
 
 _CROSS: Final[dict[str, Any]] = {"color": INK, "linestyle": "", "marker": "x"}
@@ -219,7 +219,7 @@ def fragility(
         way = np.linspace(0.0, end, 301)[1:]
         curve = norm.cdf(np.log(way / median) / beta)
         label = f"lognormal, median {median:.3g}, dispersion {beta:.2f}"
-        axes.plot(way, curve, color=BLUE, linewidth=1.8, label=label, gid="curve")
+        axes.plot(way, curve, color=SLIDE.colour, linewidth=1.8, label=label, gid="curve")
     elif not exceeded.any():
         say(axes, "never exceeded")
     elif (exceeded == len(demands)).all():

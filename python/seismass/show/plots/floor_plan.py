@@ -14,7 +14,7 @@ from matplotlib.patches import Rectangle
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FloatArray, as_positive, brief, refusal
-from seismass.media.roles import BLUE, GREY, INK, ORANGE, PAPER, VERMILION
+from seismass.media.roles import GREY, INK, KINDS, PAPER, SLIDE, YIELDS
 from seismass.media.style import drawing, grid_lines
 from seismass.runs.plane import PlaneResponse
 
@@ -144,7 +144,7 @@ def _floor(axes: Axes, response: PlaneResponse, plan: FloorPlan) -> bool:
     left, lower, right, upper = plan.edges
     axes.add_patch(Rectangle((left, lower), right - left, upper - lower, fill=False, edgecolor=INK, linewidth=2.0))
     for aisle in plan.aisles:
-        axes.add_patch(_rectangle(aisle, facecolor=ORANGE, alpha=0.18, linewidth=0.0))
+        axes.add_patch(_rectangle(aisle, facecolor=KINDS[1], alpha=0.18, linewidth=0.0))
         middle = (0.5 * (aisle[0] + aisle[2]), 0.5 * (aisle[1] + aisle[3]))
         axes.annotate("aisle", middle, ha="center", va="center", fontsize=8.0)
     passes = False
@@ -155,11 +155,11 @@ def _floor(axes: Axes, response: PlaneResponse, plan: FloorPlan) -> bool:
         passed = _passed(boxes, plan)
         passes |= passed
         axes.add_patch(_rectangle(place.moved(np.zeros(2)), fill=False, edgecolor=GREY, linestyle="--", linewidth=1.0))
-        axes.add_patch(_rectangle(place.moved(slip[-1]), facecolor=BLUE, alpha=0.18, edgecolor=BLUE, linewidth=1.2))
+        axes.add_patch(_rectangle(place.moved(slip[-1]), fc=SLIDE.colour, alpha=0.18, ec=SLIDE.colour, lw=1.2))
         swept = (*boxes[:, :2].min(axis=0), *boxes[:, 2:].max(axis=0))
-        edge = VERMILION if passed else BLUE
+        edge = YIELDS.colour if passed else SLIDE.colour
         axes.add_patch(_rectangle(swept, fill=False, edgecolor=edge, linestyle=":", linewidth=1.0))
-        axes.plot(place.x + slip[:, 0], place.y + slip[:, 1], color=BLUE, linewidth=1.0)
+        axes.plot(place.x + slip[:, 0], place.y + slip[:, 1], color=SLIDE.colour, linewidth=1.0)
         farthest = slip[int(np.argmax(np.hypot(*slip.T)))]
         axes.plot(*(np.array([place.x, place.y]) + farthest), marker="o", markersize=4.0, color=edge)
         length, path = response.peak_slip[number - 1, 2], response.slip_path[number - 1]
@@ -197,7 +197,7 @@ def _orbit(axes: Axes, response: PlaneResponse, floor: int) -> None:
     moved = moved[np.isfinite(moved).all(axis=1)]
     axes.plot(moved[:, 0], moved[:, 1], color=INK, linewidth=0.9)
     axes.plot(*moved[0], marker="s", markersize=4.0, color=GREY)
-    axes.plot(*moved[-1], marker="o", markersize=4.0, color=BLUE)
+    axes.plot(*moved[-1], marker="o", markersize=4.0, color=SLIDE.colour)
     largest = 1.08 * max(float(np.abs(moved).max()), 1e-3)
     axes.set_xlim(-largest, largest)
     axes.set_ylim(-largest, largest)
@@ -216,10 +216,10 @@ def _rectangle(box: Any, **look: Any) -> Rectangle:
 def _handles(passes: bool) -> list[Any]:
     handles: list[Any] = [
         Rectangle((0, 0), 1, 1, fill=False, edgecolor=GREY, linestyle="--", label="goods before"),
-        Rectangle((0, 0), 1, 1, facecolor=BLUE, alpha=0.3, edgecolor=BLUE, label="and after"),
-        Line2D([], [], color=BLUE, linewidth=1.0, marker="o", markersize=4.0, label="path, farthest point"),
-        Rectangle((0, 0), 1, 1, fill=False, edgecolor=BLUE, linestyle=":", label="room they take"),
+        Rectangle((0, 0), 1, 1, facecolor=SLIDE.colour, alpha=0.3, edgecolor=SLIDE.colour, label="and after"),
+        Line2D([], [], color=SLIDE.colour, linewidth=1.0, marker="o", markersize=4.0, label="path, farthest point"),
+        Rectangle((0, 0), 1, 1, fill=False, edgecolor=SLIDE.colour, linestyle=":", label="room they take"),
     ]
     if passes:
-        handles[-1].set(edgecolor=VERMILION, label="room they take (red: beyond an edge or in an aisle)")
+        handles[-1].set(edgecolor=YIELDS.colour, label="room they take (magenta: beyond an edge or in an aisle)")
     return handles

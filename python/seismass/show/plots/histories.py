@@ -15,7 +15,7 @@ from seismass.base.arguments import is_one_of
 from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_count, as_list, as_one_of, brief, is_list, refusal
-from seismass.media.roles import BLUE, GREEN, GREY, INK, PAPER, PURPLE, VERMILION, YIELDS
+from seismass.media.roles import GREY, INK, KINDS, PAPER, SLIDE, YIELDS
 from seismass.media.style import RING, SERIES, Panels, drawing, grid_lines, panels, ring, say, single, zero_line
 from seismass.model.scene import goods_names, spring_names
 from seismass.runs.response import DEFAULT_POINTS, EVENT_KINDS, Response
@@ -27,15 +27,15 @@ MARKS: Final[dict[str, dict[str, Any]]] = {
     "reload": {"marker": ">", "color": YIELDS.colour, "markerfacecolor": PAPER, "markersize": 4.0},
     "close": {"marker": "D", "color": INK, "markersize": 3.5},
     "open": {"marker": "D", "color": INK, "markerfacecolor": PAPER, "markersize": 3.5},
-    "slip": {"marker": "o", "color": GREEN, "markerfacecolor": PAPER, "markersize": 3.8},
-    "stick": {"marker": "s", "color": GREEN, "markersize": 3.2},
-    "reverse": {"marker": "x", "color": BLUE, "markersize": 4.0},
-    "touch": {"marker": "+", "color": BLUE, "markersize": 4.5},
-    "lift": {"marker": "2", "color": PURPLE, "markersize": 6.0},
-    "land": {"marker": "1", "color": PURPLE, "markersize": 6.0},
+    "slip": {"marker": "o", "color": SLIDE.colour, "markerfacecolor": PAPER, "markersize": 3.8},
+    "stick": {"marker": "s", "color": SLIDE.colour, "markersize": 3.2},
+    "reverse": {"marker": "x", "color": SLIDE.colour, "markersize": 4.0},
+    "touch": {"marker": "+", "color": SLIDE.colour, "markersize": 4.5},
+    "lift": {"marker": "2", "color": KINDS[0], "markersize": 6.0},
+    "land": {"marker": "1", "color": KINDS[0], "markersize": 6.0},
     "wear": {"marker": "d", "color": INK, "markersize": 4.5},
-    "touch_stop": {"marker": "p", "color": PURPLE, "markersize": 4.5},
-    "leave_stop": {"marker": "p", "color": PURPLE, "markerfacecolor": PAPER, "markersize": 4.5},
+    "touch_stop": {"marker": "p", "color": KINDS[0], "markersize": 4.5},
+    "leave_stop": {"marker": "p", "color": KINDS[0], "markerfacecolor": PAPER, "markersize": 4.5},
 }
 """How each kind of event is drawn; they differ in marker as well as in colour."""
 
@@ -131,7 +131,7 @@ def events(response: Response, *, ax: Axes | None = None) -> Figure:
         spans = sliding_spans(response, number)
         if len(spans):
             widths = [(start, end - start) for start, end in spans]
-            axes.broken_barh(widths, (springs + number - 1.28, 0.56), facecolor=GREEN, alpha=0.25, linewidth=0.0)
+            axes.broken_barh(widths, (springs + number - 1.28, 0.56), facecolor=SLIDE.colour, alpha=0.25, linewidth=0.0)
     for row in range(len(rows)):
         if not any(np.any(line.get_ydata() == row) for line in axes.lines):
             say(axes, "does not yield" if row < springs else "does not slide", at=row)
@@ -320,7 +320,7 @@ def _stops(axes: Axes, response: Response, block: int) -> None:
     stops = response.scene.goods[block - 1].stops
     for side, clearance in zip((-1.0, 1.0), (np.inf, np.inf) if stops is None else stops.clearance, strict=True):
         if clearance <= 2.0 * response.peak_slip[block - 1]:
-            axes.axhline(side * 1e3 * clearance, color=PURPLE, linestyle=(0, (6, 2)), linewidth=0.8, gid="stop")
+            axes.axhline(side * 1e3 * clearance, color=KINDS[0], linestyle=(0, (6, 2)), linewidth=0.8, gid="stop")
 
 
 def histories(
@@ -341,7 +341,7 @@ def histories(
     lines, peaked, still = [], False, 0
     for position, (number, axes) in enumerate(zip(numbers_drawn, place.axes, strict=True)):
         values = values_of(number)
-        look = SERIES[position % len(SERIES)] if overlaid else {"color": BLUE}
+        look = SERIES[position % len(SERIES)] if overlaid else {"color": SLIDE.colour}
         name = called(number)
         lines += axes.plot(time, values, **look, linewidth=0.9, label=name)
         if response.has_events:
@@ -381,10 +381,10 @@ def histories(
 
 
 _BANDS: Final = (
-    ("viscous", BLUE, "///"),
-    ("hysteretic", VERMILION, ""),
-    ("friction", GREEN, "\\\\\\\\"),
-    ("contact", PURPLE, "xxx"),
+    ("viscous", KINDS[2], "///"),
+    ("hysteretic", YIELDS.colour, ""),
+    ("friction", SLIDE.colour, "\\\\\\\\"),
+    ("contact", KINDS[0], "xxx"),
     ("elastic", GREY, ""),
     ("kinetic", INK, "+++"),
 )

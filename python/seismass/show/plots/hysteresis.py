@@ -15,7 +15,7 @@ from seismass.base.errors import InvalidOption
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_one_of, brief, refusal
 from seismass.design import Pushover
-from seismass.media.roles import BLUE, GREY, INK, LIMIT, PURPLE, VERMILION
+from seismass.media.roles import GREY, INK, KINDS, LIMIT, PAPER, SLIDE, YIELDS
 from seismass.media.style import SERIES, columns, drawing, grid_lines, panels, say, single, zero_line
 from seismass.model.building import Building
 from seismass.model.scene import floor_name, goods_levels, goods_names, rack_levels, spring_names
@@ -27,7 +27,7 @@ BACKBONE_POINTS: Final = 121
 
 _ROW: Final = 4
 """Most storeys beside one another."""
-_BACKBONE: Final[dict[str, Any]] = {"color": VERMILION, "linestyle": (0, (5, 2)), "linewidth": 1.3}
+_BACKBONE: Final[dict[str, Any]] = {**LIMIT.look, "linewidth": 1.3}
 
 
 @drawing()
@@ -80,7 +80,7 @@ def loops(
             axes.plot(1e3 * way, scale * strength, **_BACKBONE, gid="backbone")
         else:
             say(axes, "does not drift")
-        axes.plot(drift, force, color=BLUE, linewidth=0.7, gid="loop")
+        axes.plot(drift, force, color=SLIDE.colour, linewidth=0.7, gid="loop")
         if response.has_events:
             for kind in kinds:
                 times = event_times(response, kind, number)
@@ -95,7 +95,7 @@ def loops(
     for axes in place.left:
         axes.set_ylabel(f"spring force ({unit})" if unit == "kN" else "spring force / weight")
     handles = [
-        Line2D([], [], color=BLUE, linewidth=0.9, label="run"),
+        Line2D([], [], color=SLIDE.colour, linewidth=0.9, label="run"),
         Line2D([], [], **_BACKBONE, label="backbone"),
     ]
     place.legend([*handles, *mark_handles([kind for kind in kinds if kind in drawn_kinds])], columns=4)
@@ -114,13 +114,13 @@ def backbone(building: Building, storey: int, reach: float) -> tuple[FloatArray,
 
 
 _MARKS: Final[dict[str, dict[str, Any]]] = {
-    "yield": {"marker": "o", "markersize": 5.5, "markerfacecolor": "white", "color": INK},
-    "close": {"marker": "s", "markersize": 5.5, "markerfacecolor": "white", "color": INK},
+    "yield": {"marker": "o", "markersize": 5.5, "markerfacecolor": PAPER, "color": INK},
+    "close": {"marker": "s", "markersize": 5.5, "markerfacecolor": PAPER, "color": INK},
     "open": {"marker": "s", "markersize": 5.5, "markerfacecolor": INK, "color": INK},
-    "capacity": {"marker": "D", "markersize": 6.5, "markerfacecolor": VERMILION, "color": VERMILION},
+    "capacity": {"marker": "D", "markersize": 6.5, "markerfacecolor": YIELDS.colour, "color": YIELDS.colour},
     "drift limit": {"marker": LIMIT.marker, "markersize": 11.0, "color": LIMIT.colour},
-    "no strength left": {"marker": "X", "markersize": 7.5, "color": VERMILION},
-    "unstable unloading": {"marker": "X", "markersize": 7.5, "color": VERMILION},
+    "no strength left": {"marker": "X", "markersize": 7.5, "color": YIELDS.colour},
+    "unstable unloading": {"marker": "X", "markersize": 7.5, "color": YIELDS.colour},
 }
 _NAMES: Final = {"yield": "corner of a spring", "close": "stop closes", "open": "stop opens", "capacity": "mechanism"}
 
@@ -152,7 +152,7 @@ def pushover(path: Pushover, *, labels: bool = True, ax: Axes | None = None) -> 
     place = single(ax, "pushover figure")
     axes = place.axes[0]
     roof, shear = 1e3 * path.roof_displacement, path.base_shear / path.weight
-    axes.plot(roof, shear, color=BLUE if place.is_new else None, linewidth=1.6)
+    axes.plot(roof, shear, color=SLIDE.colour if place.is_new else None, linewidth=1.6)
     events = path.events
     for kind, mark in _MARKS.items():
         rows = events.filter(kind=kind)
@@ -235,7 +235,7 @@ def contacts(
     for number, axes in zip(numbers_drawn, place.axes, strict=True):
         is_contact = (log["kind"] == "touch_stop") & (log["number"] == number)
         signed = log["sign"][is_contact] * np.abs(velocities[is_contact])
-        axes.vlines(log["time"][is_contact], 0.0, signed, color=PURPLE, linewidth=1.0, gid="contacts")
+        axes.vlines(log["time"][is_contact], 0.0, signed, color=KINDS[0], linewidth=1.0, gid="contacts")
         axes.plot(log["time"][is_contact], signed, **MARKS["touch_stop"], linestyle="")
         count = int(is_contact.sum())
         caption = f"block {number}, {places[number - 1]}: "

@@ -20,7 +20,7 @@ from seismass.base.errors import InvalidOption
 from seismass.base.statistics import quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_array, as_list, as_number, as_one_of, brief, refusal
-from seismass.media.roles import BLUE, GREY, INK, LIMIT
+from seismass.media.roles import GREY, INK, LIMIT, SLIDE
 from seismass.media.style import PERIOD_TICKS, SERIES, columns, drawing, grid_lines, say, single
 from seismass.motions.motion import Motion
 from seismass.motions.spectra import response_spectrum
@@ -103,8 +103,8 @@ def profile(
     for axes in place.axes if not place.is_new else place.axes[:1]:
         axes.set_ylabel("floor (0: ground)")
     handles = [
-        Line2D([], [], color=BLUE, linewidth=1.6, label="of storeys"),
-        Line2D([], [], color=BLUE, marker="o", markersize=4.0, linewidth=1.2, label="of floors and blocks"),
+        Line2D([], [], color=SLIDE.colour, linewidth=1.6, label="of storeys"),
+        Line2D([], [], color=SLIDE.colour, marker="o", markersize=4.0, linewidth=1.2, label="of floors and blocks"),
     ]
     if bounds:
         handles.append(Line2D([], [], **_LIMIT, label="limit"))
@@ -149,11 +149,11 @@ def _panel(axes: Axes, quantity: _Quantity, limit: float | None) -> None:
     values, levels = quantity.values, quantity.levels
     if quantity.per_storey:
         edges = np.arange(len(values) + 1.0)
-        axes.stairs(values, edges, orientation="horizontal", color=BLUE, linewidth=1.6, baseline=None)
+        axes.stairs(values, edges, orientation="horizontal", color=SLIDE.colour, linewidth=1.6, baseline=None)
     else:
         order = np.argsort(levels, kind="stable")
         line = "-" if len(set(levels)) == len(levels) else ""
-        look: Any = {"color": BLUE, "linestyle": line, "marker": "o", "markersize": 4.0, "linewidth": 1.2}
+        look: Any = {"color": SLIDE.colour, "linestyle": line, "marker": "o", "markersize": 4.0, "linewidth": 1.2}
         axes.plot(values[order], levels[order], **look)
     largest = max(float(np.max(values, initial=0.0)), 0.0 if limit is None else limit)
     axes.set_xlim(0.0, 1.12 * largest or 1.0)

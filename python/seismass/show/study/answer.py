@@ -11,12 +11,12 @@ import numpy as np
 import polars as pl
 from markupsafe import Markup
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from seismass.base.statistics import CAPPED_MEAN
 from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import signed
 from seismass.effective_mass.rule import RULE
-from seismass.media.roles import BLUE, EFFECTIVE, GREY, LAMBDA, MU, OMEGA, VERMILION
+from seismass.media.roles import EFFECTIVE, GREY, LAMBDA, MU, OMEGA, SPECTRUM, TARGET, lettered
 from seismass.media.style import PERIOD_TICKS, plain
 from seismass.media.svg import CAPTION_CHARACTERS
 from seismass.media.text_table import change_text, number_text, text_line
@@ -93,12 +93,14 @@ def spectrum_figure(result: StudyFrames) -> Figure:
     axes = figure.add_subplot()
     periods = table["period"].to_numpy()
     motions = [name for name in table.columns if name.startswith("motion_")]
-    for name in motions:
-        axes.plot(periods, table[name] / STANDARD_GRAVITY, color=GREY, linewidth=0.7, alpha=0.7)
-    axes.plot(periods, table["mean"] / STANDARD_GRAVITY, color=BLUE, linewidth=2.0)
-    axes.plot(periods, table["target"] / STANDARD_GRAVITY, color=VERMILION, linewidth=1.8, linestyle=(0, (5, 2)))
+    mean = f"mean of {motions_text(result.metadata['suite'])}, scaled"
+    axes.plot(periods, table["mean"] / STANDARD_GRAVITY, **SPECTRUM.look, linewidth=2.0, label=mean)
+    axes.plot(periods, table["target"] / STANDARD_GRAVITY, **TARGET.look, linewidth=1.8, label=TARGET.name)
+    lines = axes.plot(periods, table[motions] / STANDARD_GRAVITY, color=GREY, linewidth=0.7, alpha=0.7, zorder=1)
+    lines[0].set_label("each motion, scaled")
     shortest, longest, _ = result.metadata["scaling"]["periods"]
-    axes.axvspan(shortest, longest, color=BLUE, alpha=0.07, linewidth=0.0)
+    words = f"range of scaling, {shortest:g} to {longest:g} s"
+    axes.axvspan(shortest, longest, color=SPECTRUM.colour, alpha=0.07, linewidth=0.0, label=words)
     axes.set_xscale("log")
     axes.set_xlim(periods[0], periods[-1])
     axes.set_ylim(0.0, None)
@@ -109,13 +111,7 @@ def spectrum_figure(result: StudyFrames) -> Figure:
     damping = 100.0 * result.metadata["parameters"]["damping"]
     axes.set_ylabel(f"pseudo-acceleration, {damping:g} % damping (g)")
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
-    handles = [
-        Line2D([], [], color=BLUE, linewidth=2.0, label=f"mean of {motions_text(result.metadata['suite'])}, scaled"),
-        Line2D([], [], color=VERMILION, linewidth=1.8, linestyle=(0, (5, 2)), label="target"),
-        Line2D([], [], color=GREY, linewidth=0.7, label="each motion, scaled"),
-        Line2D([], [], color=BLUE, alpha=0.12, linewidth=8.0, label=f"range of scaling, {shortest:g} to {longest:g} s"),
-    ]
-    figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
+    figure.legend(loc="outside upper center", ncols=2, frameon=False)
     label = textwrap.fill(f"Target: {plain(result.metadata['target']['label'])}", 90)
     figure.supxlabel(label, fontsize=7.5)
     return figure
@@ -153,10 +149,7 @@ def percent(value: float | None, digits: int = 0) -> str:
     """Return a signed percentage with a true minus, or a dash."""
     if value is None or not np.isfinite(value):
         return "\N{EN DASH}"
-    text = f"{value:+.{digits}f}"
-    if float(text) == 0.0:
-        text = text[1:]
-    return text.replace("-", "\N{MINUS SIGN}") + "\N{NO-BREAK SPACE}%"
+    return lettered(signed(value, f"+.{digits}f")) + "\N{NO-BREAK SPACE}%"
 
 
 def compared_rules(fractions: pl.DataFrame) -> list[Rule]:
@@ -291,7 +284,7 @@ def _fraction_against_eta(fractions: pl.DataFrame) -> Markup:
     misses = ""
     if partial.height:
         missed = _number((partial["estimate"] - partial["effective"]).mean())
-        words = f"{missed:+.2f}".replace("-", "\N{MINUS SIGN}")
+        words = lettered(signed(missed, "+.2f"))
         misses = f" In the {partial.height} buildings with eta below 1 the rule {RULE} misses it by {words} on average."
     return head + Markup(
         "The share of the live load that acts as mass is {parts}; eta is the friction coefficient over the base shear "

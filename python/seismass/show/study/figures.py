@@ -16,21 +16,22 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from seismass.base.values import signed
 from seismass.effective_mass.rule import RULE, share_by_hand
 from seismass.media.roles import (
     ALPHA,
     ATTACHED,
     BLOCK_COLOURS,
     CODE,
-    DEEP_BLUE,
     EFFECTIVE,
     GREY,
     INK,
     LAMBDA,
     MU,
     PAPER,
-    SKY,
     SLIDE,
+    SLIDE_HIGH,
+    SLIDE_LOW,
     lettered,
 )
 from seismass.media.style import drawing, lay_out, plain
@@ -47,7 +48,7 @@ from seismass.show.validation import platform_figure, section4_figure, sliding_f
 from seismass.studies.study import Model
 from seismass.studies.validation.three_storeys import COMPARED_SLOPES
 
-ALPHA_COLOURS: Final = (SKY, SLIDE.colour, DEEP_BLUE)
+ALPHA_COLOURS: Final = (SLIDE_LOW.colour, SLIDE.colour, SLIDE_HIGH.colour)
 ALPHA_MARKERS: Final = ("o", "s", "D", "^", "v", "P", "X")
 ALPHA_SPACING: Final = 0.24
 """Largest distance between the ranges of two alphas, as a fraction of that between two R."""
@@ -55,7 +56,7 @@ ALPHA_SPACING: Final = 0.24
 
 _PHONE: Final = 3.4
 """Width of a figure for a phone (inches)."""
-RING: Final[Any] = {"marker": "o", "markersize": 9.0, "markerfacecolor": "none", "markeredgewidth": 0.9}
+RING: Final[Any] = {**ATTACHED.mark, "marker": "o", "markersize": 9.0, "markerfacecolor": "none"}
 """The fully attached model."""
 
 
@@ -106,7 +107,7 @@ def underestimation_figure(result: StudyFrames, mu: float, *, narrow: bool = Fal
         _alpha_handle(look, label) for look, label in zip(looks, alphas.values(), strict=True)
     ]
     handles += [
-        Line2D([], [], **RING, color=GREY, linestyle="", label=ATTACHED.name),
+        Line2D([], [], **RING, label=ATTACHED.name),
         Line2D([], [], color=GREY, marker="_", markersize=6.0, linewidth=1.2, label="other storeys"),
         Patch(color=GREY, alpha=0.12, linewidth=0.0, label="code gives more drift"),
     ]
@@ -155,7 +156,7 @@ def _ranges(axes: Axes, rows: pl.DataFrame, factors: list[float], offset: float,
         rings.append(np.nan if mass is None else 100.0 * (mass - 1.0))
     axes.plot(places, worst, color=colour, linewidth=0.8, alpha=0.6)
     axes.plot(places, worst, color=colour, linestyle="", marker=marker, markersize=5.0)
-    axes.plot(places, rings, color=colour, linestyle="", **RING)
+    axes.plot(places, rings, **RING)
 
 
 LARGEST: Final = 100.0
@@ -223,8 +224,7 @@ def _draw(axes: Axes, cells: np.ndarray[Any, np.dtype[np.float64]]) -> None:
         if np.isnan(value):
             axes.text(column, row, "\N{EN DASH}", ha="center", va="center", fontsize=7.0, color=GREY)
             continue
-        text = f"{round(value):+d}".replace("-", "\N{MINUS SIGN}").replace("+0", "0")
-        axes.text(column, row, text, ha="center", va="center", fontsize=7.0, color=INK)
+        axes.text(column, row, lettered(signed(value)), ha="center", va="center", fontsize=7.0, color=INK)
     axes.tick_params(length=0.0)
     for spine in axes.spines.values():
         spine.set_visible(False)
@@ -251,13 +251,13 @@ def _name_buildings(axes: Axes, columns: list[Any]) -> None:
 
 
 LOOKS: Final[dict[Model, dict[str, Any]]] = {
-    "code": {**CODE.look, "linewidth": 1.5, "marker": CODE.marker, "markersize": 4.0, "markerfacecolor": "white"},
+    "code": {**CODE.look, "linewidth": 1.5, "marker": CODE.marker, "markersize": 4.0, "markerfacecolor": PAPER},
     "attached": {
         **ATTACHED.look,
         "linewidth": 1.6,
         "marker": ATTACHED.marker,
         "markersize": 5.5,
-        "markerfacecolor": "white",
+        "markerfacecolor": PAPER,
     },
     "real": {**SLIDE.look, "linewidth": 1.8, "marker": SLIDE.marker, "markersize": 3.5},
 }
@@ -332,7 +332,7 @@ def _drift_profile(axes: Axes, storeys: pl.DataFrame) -> None:
     for model, look in LOOKS.items():
         axes.plot(1e3 * storeys[f"mean_peak_drift_{model}"].to_numpy(), level, **look)
     for height, percent in zip(level, storeys["underestimation_percent"], strict=True):
-        text = "" if percent is None else f"{round(percent):+d}".replace("-", "\N{MINUS SIGN}").replace("+0", "0")
+        text = "" if percent is None else lettered(signed(percent))
         axes.text(0.98, height, text, transform=axes.get_yaxis_transform(), ha="right", va="center", fontsize=7.5)
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     axes.locator_params(axis="x", nbins=4)
@@ -520,7 +520,7 @@ def effective_figure(result: StudyFrames) -> Figure:
             linestyle="",
             marker=MARKERS[position % len(MARKERS)],
             markersize=4.5,
-            markerfacecolor="white" if position % 2 else colour,
+            markerfacecolor=PAPER if position % 2 else colour,
             label=f"R = {label}",
         )
     end = 1.05 * max(1.2, float(table["over"].filter(table["over"].is_finite()).max() or 0.0))  # type: ignore[arg-type]

@@ -142,7 +142,7 @@ def sensitivity_section(result: StudyTables, page: Pictures) -> Iterator[Section
     }
     as_is = table.filter(choice=table["choice"][0])["largest_percent"].drop_nulls()
     low, high = (table["largest_percent"].drop_nulls().to_numpy() for _ in range(2))
-    change = f"from {low.min():+.0f} to {high.max():+.0f} %" if as_is.len() else "without a number"
+    change = f"from {percent(low.min())} to {percent(high.max())}" if as_is.len() else "without a number"
     yield Section(
         "Sensitivity",
         [

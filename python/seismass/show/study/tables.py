@@ -90,7 +90,7 @@ def study_tables(
     if validation is not None:
         tables |= {"claims": claims_table(validation.claims)}
         tables |= section4_tables(validation.section4) | platform_tables(validation.platform)
-    return _made(metadata, tables, None if example is None else _animation(example))
+    return _made(metadata, tables, None if example is None else _animation(example, metadata["code"]["name"]))
 
 
 def read_study_tables(files: ReadFolder) -> StudyTables:
@@ -121,12 +121,13 @@ def _made(metadata: dict[str, Any], tables: dict[str, pl.DataFrame], animation: 
     )
 
 
-def _animation(example: Example) -> dict[str, Any]:
+def _animation(example: Example, code: str) -> dict[str, Any]:
     labels, name = example.labels, example.name
     animation = animate(
         example.scene,
         example.record.motion,
         fraction=labels["lambda_analysis"],
+        code_name=code,
         title=f"{labels['storeys']} storeys, R = {labels['R']:g}",
     )
     facts = {

@@ -14,7 +14,7 @@ import numpy as np
 import polars as pl
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import as_one_of
+from seismass.base.values import as_one_of, signed
 from seismass.studies.study import Sensitivity, StudyResult
 from seismass.studies.validation.shaking_table import MASS_RATIOS, Platform
 from seismass.studies.validation.three_storeys import OPENSEES, Section4
@@ -276,7 +276,7 @@ def _steps(rows: pl.DataFrame, varied: str) -> tuple[int, int]:
 
 def _means(first: pl.DataFrame, varied: str) -> str:
     means = first.group_by(varied).agg(pl.col("underestimation_percent").mean()).sort(varied)
-    text = ", ".join(f"{mean:+.0f} % at {varied} = {value:g}" for value, mean in means.rows())
+    text = ", ".join(f"{signed(mean)} % at {varied} = {value:g}" for value, mean in means.rows())
     return f"Mean of first storeys: {text}."
 
 
@@ -286,7 +286,7 @@ def _periods(first: pl.DataFrame) -> _Row:
     step = first.sort("period").select(pl.col("underestimation_percent").diff().over(keys))["underestimation_percent"]
     count, grows = step.count(), int((step > _ROUNDING).sum())
     means = first.group_by("period").agg(pl.col("underestimation_percent").mean()).sort("period")
-    text = ", ".join(f"{mean:+.0f} % at T = {period:g} s" for period, mean in means.rows())
+    text = ", ".join(f"{signed(mean)} % at T = {period:g} s" for period, mean in means.rows())
     share = grows / count if count else 0.0
     verdict: Verdict = "reproduced" if share >= MOST else "depends" if share > 0.5 else "not reproduced"
     return (
@@ -311,9 +311,9 @@ def _largest(yielding: pl.DataFrame, sensitivity: Sensitivity | None) -> _Row:
         verdicts.append((largest >= AS_LARGE_AS - CLOSE, robust))
         record = row["leave_one_out_record"]
         parts.append(
-            f"{occupancy}: {largest:+.0f} % (storey {row['storey']} of {row['storeys']}, R = {row['R']:g}, alpha = "
-            f"{row['alpha']:g}), median of the motions {row['median_underestimation_percent']:+.0f} %"
-            + (f", {left_out:+.0f} % without {record}" if record is not None else "")
+            f"{occupancy}: {signed(largest)} % (storey {row['storey']} of {row['storeys']}, R = {row['R']:g}, alpha = "
+            f"{row['alpha']:g}), median of the motions {signed(row['median_underestimation_percent'])} %"
+            + (f", {signed(left_out)} % without {record}" if record is not None else "")
         )
     reached = any(largest for largest, _ in verdicts)
     robust = all(left_out for _, left_out in verdicts)
@@ -321,7 +321,7 @@ def _largest(yielding: pl.DataFrame, sensitivity: Sensitivity | None) -> _Row:
     depends = "one record, and the statistic over the records"
     if sensitivity is not None:
         spans = [
-            f"{occupancy} {low:+.0f} to {high:+.0f} %"
+            f"{occupancy} {signed(low)} to {signed(high)} %"
             for occupancy, low, high in sensitivity.table.group_by("occupancy", maintain_order=True)
             .agg(low=pl.col("largest_percent").min(), high=pl.col("largest_percent").max())
             .rows()
@@ -344,7 +344,9 @@ def _less_sliding(first: pl.DataFrame) -> _Row:
         f"R = {factor:g}: {less.filter(R=factor).height} of {rows.height}"
         for (factor,), rows in step.sort("R").group_by("R", maintain_order=True)
     )
-    text = ", ".join(f"{change:+.1f} % at R = {factor:g} (size {size:.1f} %)" for factor, size, change in means.rows())
+    text = ", ".join(
+        f"{signed(change, '+.1f')} % at R = {factor:g} (size {size:.1f} %)" for factor, size, change in means.rows()
+    )
     verdict: Verdict = "not reproduced"
     if falls:
         verdict = "reproduced" if step.height and less.height / step.height >= MOST else "depends"

@@ -32,7 +32,7 @@ function chartOf(canvas, colours) {
     const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
     const found = [];
     for (let i = Math.ceil(low / step - 1e-9); i <= high / step + 1e-9; i++) {
-      found.push([i * step, (i * step).toFixed(digits).replace(/^-0(\.0*)?$/, "0").replace("-", "\u2212")]);
+      found.push([i * step, (i * step).toFixed(digits).replace(/^-(?=[0.]*$)/, "").replace("-", "\u2212")]);
     }
     return found;
   }

@@ -1,6 +1,6 @@
 // What is shown of a solved case: words, figures and tables.
 const MINUS = "\u2212";
-const fixed = (value, digits) => value.toFixed(digits).replace("-", MINUS);
+const fixed = (value, digits) => value.toFixed(digits).replace(/^-(?=[0.]*$)/, "").replace("-", MINUS);
 // As Python's format .4g has it.
 function general(value, digits) {
   if (!Number.isFinite(value)) return value > 0 ? "\u221e" : "\u2013";
