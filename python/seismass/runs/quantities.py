@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final, Generic, NamedTuple, TypedDict, Ty
 
 import numpy as np
 
+from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, frozen
 from seismass.motions.motion import Motion
 from seismass.motions.records.intensity import integrals
@@ -52,11 +53,15 @@ QUANTITIES: Final = {
 peak `_time` behind it."""
 
 
+SHOWN: Final = {"m": ("mm", 1e3), "N": ("kN", 1e-3), "m/s2": ("g", 1.0 / STANDARD_GRAVITY)}
+"""The unit in which figures have what is in a unit of SI, and the factor to it."""
+
+
 def unit_of(column: str) -> str:
     """Return the unit of a peak, of a value at the end or of a time in tables; empty for what has none."""
+    row = QUANTITIES.get(column.removeprefix("peak_").removeprefix("residual_").removesuffix("_time"))
     if column.endswith("_time"):
-        return "s"
-    row = QUANTITIES.get(column.removeprefix("peak_").removeprefix("residual_"))
+        return "s" if row is not None or column == "end_time" else ""
     return "" if row is None else row.unit
 
 

@@ -14,25 +14,16 @@ from numpy.typing import ArrayLike, NDArray
 from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import quantile
-from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray, as_number, brief, refusal
 from seismass.media.roles import ALPHA, BLOCK_COLOURS, GREY, INK, LIMIT, MU, PAPER, SLIDE, SLIDE_LOW
 from seismass.media.style import drawing, grid_lines, plain, say, single
+from seismass.runs.quantities import SHOWN, unit_of
 from seismass.studies.fragility.fragility import fit_counts
 
 _LABELS: Final[dict[str, tuple[str, float]]] = {
-    "peak_drift": ("peak drift (mm)", 1e3),
     "peak_drift_ratio": ("peak drift / height (%)", 1e2),
-    "residual_drift": ("residual drift (mm)", 1e3),
     "residual_drift_ratio": ("residual drift / height (%)", 1e2),
-    "peak_floor_acceleration": ("peak floor acceleration (g)", 1.0 / STANDARD_GRAVITY),
-    "peak_storey_shear": ("peak storey shear (kN)", 1e-3),
-    "peak_base_shear": ("peak base shear (kN)", 1e-3),
-    "peak_slip": ("peak slip (mm)", 1e3),
-    "residual_slip": ("residual slip (mm)", 1e3),
     "slip_path": ("path slipped (mm)", 1e3),
-    "peak_drift_time": ("time of the peak drift (s)", 1.0),
-    "peak_slip_time": ("time of the peak slip (s)", 1.0),
     "end_time": ("end (s)", 1.0),
     "period": ("period (s)", 1.0),
     "scale": ("scale factor of the motion", 1.0),
@@ -43,14 +34,22 @@ _LABELS: Final[dict[str, tuple[str, float]]] = {
 }
 
 
+def _shown(name: str) -> tuple[str, float]:
+    """What an axis calls a column, with its unit where it is known, and the factor to that."""
+    unit, factor = SHOWN.get(unit_of(name), (unit_of(name), 1.0))
+    words = name.removesuffix("_time").replace("_", " ")
+    words = f"time of the {words}" if name.endswith("_time") else words
+    return _LABELS.get(name) or ((f"{words} ({unit})", factor) if unit else (plain(name), 1.0))
+
+
 def label_of(name: str) -> str:
     """Return what an axis calls a column: with its unit where it is known, else by its name."""
-    return _LABELS[name][0] if name in _LABELS else plain(name)
+    return _shown(name)[0]
 
 
 def in_unit(name: str, values: NDArray[Any]) -> FloatArray:
     """Return values of a column in the unit of its label."""
-    return np.asarray(_LABELS.get(name, ("", 1.0))[1] * np.asarray(values, dtype=np.float64))
+    return np.asarray(_shown(name)[1] * np.asarray(values, dtype=np.float64))
 
 
 def checked_table(table: Any, columns: tuple[str, ...], owner: str) -> pl.DataFrame:
