@@ -84,8 +84,6 @@ KEYS: Final = {
     for table in dict.fromkeys(table for row in ROWS for table in row.tables)
 }
 """Keys of each table of a building file, the file itself first."""
-US_KEYS: Final = {table: tuple(row.us for row in rows.values() if row.us) for table, rows in KEYS.items()}
-"""Keys in US units, in place of those in SI units."""
 
 
 def keys_of(quantity: str) -> tuple[str, ...]:
