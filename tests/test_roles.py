@@ -138,6 +138,6 @@ def test_blocks_have_one_order_of_colours() -> None:
 
 def test_symbols_are_greek_letters_in_figures_and_words_are_left() -> None:
     said = lettered("eta = mu_k/C1, eta_h^p, lambda = 0.8 at alpha = 1, mu x 1.5; beta, metal, museum, lambdas")
-    assert (
-        said == f"{ETA} = {MU}_k/C1, {ETA}_h^p, {LAMBDA} = 0.8 at {ALPHA} = 1, {MU} x 1.5; beta, metal, museum, lambdas"
-    )
+    first = f"{ETA} = {MU}_k/C1, {ETA}_h^p, {LAMBDA} = 0.8 at {ALPHA} = 1, {MU} \N{MULTIPLICATION SIGN} 1.5"
+    assert said == f"{first}; beta, metal, museum, lambdas"
+    assert lettered("1.35 mu/C1 - 0.15, 8 x 8") == f"1.35 {MU}/C1 \N{MINUS SIGN} 0.15, 8 x 8"

@@ -120,13 +120,15 @@ SHARE: Final = f"share {LAMBDA} of the goods attached as mass"
 """Name of the axis of shares."""
 
 _LETTERS: Final = {"alpha": ALPHA, "eta": ETA, "lambda": LAMBDA, "mu": MU, "Omega": OMEGA}
-_MINUS: Final = re.compile(r"(?:(?<![\w.)\]-])|(?<=\de))-(?=\.?\d)")
+_MINUS: Final = re.compile(r"(?:(?<![\w.)\]-])|(?<=\de))-(?=\.?\d)|(?<=[\d)] )-(?= \d)")
+_TIMES: Final = re.compile(r"(?<=\bmu) x(?= \d)")
 _WORD: Final = re.compile(rf"\b({'|'.join(_LETTERS)})(?=\b|_)")
 
 
 def lettered(text: str) -> str:
-    """Return a text of the package in which symbols are Greek letters and a minus is no hyphen, as on no terminal."""
-    return _MINUS.sub("\N{MINUS SIGN}", _WORD.sub(lambda match: _LETTERS[match[1]], text))
+    """Return a text of the package in which symbols are letters: Greek ones, a true minus, a cross of times."""
+    text = _MINUS.sub("\N{MINUS SIGN}", _TIMES.sub(" \N{MULTIPLICATION SIGN}", text))
+    return _WORD.sub(lambda match: _LETTERS[match[1]], text)
 
 
 def model_name(model: str) -> str:

@@ -40,22 +40,28 @@ _STILL: Final = 0.02
 @drawing()
 def section4_figure(result: Section4, component: str, second_slope: float) -> Figure:
     """Return drift of the storeys and slip of the blocks by all programs for a component and a second slope of those
-    compared, as in the paper's Fig. 5.
+    compared, as in the paper's Fig. 5, and below each what programs differ by from the exact run.
     """
     drawn = stiffest(result.of(component, second_slope))
     exact = drawn[0]
     moving = np.flatnonzero((np.abs(exact.drift) > _STILL * np.abs(exact.drift).max()).any(axis=1))
     start = max(0.0, float(exact.time[moving[0]]) - 0.5) if moving.size else 0.0
-    figure = Figure(figsize=(9.0, 6.4), layout="constrained")
-    panels = figure.subplots(STOREYS, 2, sharex=True)
+    figure = Figure(figsize=(9.0, 8.4), layout="constrained")
+    panels = figure.subplots(2 * STOREYS, 2, sharex=True, height_ratios=[2, 1] * STOREYS)
     for storey in range(STOREYS):
-        for axes, name in zip(panels[STOREYS - 1 - storey], ("drift", "slip"), strict=True):
+        row = 2 * (STOREYS - 1 - storey)
+        for axes, below, name in zip(*panels[row : row + 2], ("drift", "slip"), strict=True):
             for item in drawn:
                 line = _LINES.get(item.program, _SPRINGS)
                 label = f"{item.program}, {item.setting}" if item.setting else item.program
-                axes.plot(item.time, 1e3 * getattr(item, name)[:, storey], label=label, **line)
-            axes.axhline(0.0, color=GREY, linewidth=0.5)
+                values, true = (getattr(one, name)[:, storey] for one in (item, exact))
+                axes.plot(item.time, 1e3 * values, label=label, **line)
+                if item is not exact:
+                    below.plot(item.time, 1e6 * (values - np.interp(item.time, exact.time, true)), **line)
             axes.set_xlim(start, float(exact.time[-1]))
+            for one in (axes, below):
+                one.axhline(0.0, color=GREY, linewidth=0.5)
+            below.set_ylabel("\N{MICRO SIGN}m")
             what = f"storey {storey + 1}" if name == "drift" else f"block of floor {storey + 1}"
             axes.set_title(f"{name}, {what}", fontsize=8.5, loc="left")
             axes.set_ylabel("mm")
@@ -66,7 +72,9 @@ def section4_figure(result: Section4, component: str, second_slope: float) -> Fi
     for axes in panels[-1]:
         axes.set_xlabel("time (s)")
     figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False)
-    figure.supxlabel(f"component {component}, peak {PEAK_G:g} g, r2 = {second_slope:g}", fontsize=7.5)
+    text = f"component {component}, peak {PEAK_G:g} g, r2 = {second_slope:g}; below each: what differs from exact"
+    figure.supxlabel(text, fontsize=7.5)
+    figure.align_ylabels(panels)
     return figure
 
 

@@ -398,7 +398,7 @@
         values: run.drift, columns: storeys, column: data.storey, rows: run.rows, scale: wide,
         colour: colourOf(run), dash: i ? [5, 2] : [], label: run.attached === null ? "goods slide" : "model",
       }));
-      const title = `drift of storey ${data.storey + 1} (${unit})`;
+      const title = mostCurves > 3 ? `drift of storey ${data.storey + 1} (${unit})` : `drift ${data.storey + 1} (${unit.slice(0, 2).trim()})`;
       panels.push({ title, ends: rangeOf(curves), digits: data.known ? 2 : 1, curves, marks: marksOf("yield", data.storey + 1) });
     }
     const reach = (curve) => Math.max(...rangeOf([curve]).map(Math.abs));

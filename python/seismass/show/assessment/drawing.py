@@ -28,6 +28,8 @@ LETTERS: Final = 36
 LEAST: Final = 90.0
 MOST: Final = 420.0
 """Height of a building (px)."""
+ROOM: Final = 6
+"""Storeys up to which each has its stiffness and strength in the drawing, below the words of the floor above it."""
 
 
 def building_drawing(result: AssessmentTables) -> Markup:
@@ -46,7 +48,7 @@ def building_drawing(result: AssessmentTables) -> Markup:
     parts += _goods(result, levels)
     if data["walls"]:
         parts.append(_box(LEFT + BAY - 24.0, levels[-1], 9.0, levels[0] - levels[-1], "currentColor", 0.35))
-        middle = 0.5 * (levels[0] + levels[-1])
+        middle = 0.5 * (levels[0] + levels[1])
         turned = Markup('<g transform="rotate(-90 {:.1f} {:.1f})">{}</g>')
         parts.append(turned.format(LEFT + BAY - 28.0, middle, _text(LEFT + BAY - 28.0, middle, "wall", "middle")))
     # Words of a floor begin beside it, or below those of the floor above.
@@ -75,7 +77,9 @@ def _words(result: AssessmentTables, row: dict[str, Any]) -> list[str]:
     name = f"{row['storey']} {apart(row['name'])}".rstrip()
     weight = units.text("force", STANDARD_GRAVITY * row["mass"])
     lines = textwrap.wrap(f"{name}: W {weight}{height}", LETTERS)
-    return lines + textwrap.wrap(floor_words(result).get(row["storey"], ""), LETTERS)
+    lines += textwrap.wrap(floor_words(result).get(row["storey"], ""), LETTERS)
+    springs = f"k {units.text('stiffness', row['stiffness'])}, V_y {units.text('force', row['yield_shear'])}"
+    return [*lines, *[springs] * (len(result.storey_names) <= ROOM)]
 
 
 def _ground(data: dict[str, Any], level: float) -> list[Markup]:

@@ -244,7 +244,7 @@ def _drift_panel(axes: Axes, result: AssessmentTables, rows: list[StoreyDrifts],
     used = f"drifts most, {scale * row.largest:.2f} {unit}"
     if limit is not None:
         used = f"uses {scale * row.largest:.0f} % of its drift limit"
-    why = f": {row.model}" if answer else "; no answer" if result.effective else ", without goods"
+    why = f": {row.model or 'the analysis'}" if answer else "; no answer" if result.effective else ", without goods"
     _title(axes, f"Storey {row.storey} {used}{why}", size.title)
 
 

@@ -10,7 +10,7 @@ from markupsafe import Markup
 
 from seismass.assessment.advice import SCALING, slip_ends
 from seismass.assessment.answer import deciding
-from seismass.assessment.checks import CAPPED_DRIFT, friction_words
+from seismass.assessment.checks import CAPPED_DRIFT, ONE_ANALYSIS, friction_words
 from seismass.assessment.models import NAMES, SLIDING_ALL
 from seismass.assessment.structure import slip_of_base
 from seismass.base.statistics import quantile
@@ -18,9 +18,9 @@ from seismass.effective_mass.rule import RULE_UNKNOWN
 from seismass.media.page import facts_html, table_html, text_html
 from seismass.media.roles import apart, isolated, sentence_html
 from seismass.model.codes import FROM_MEMORY, MARK, SECOND_HAND
-from seismass.show.assessment.drawing import building_drawing
+from seismass.show.assessment.drawing import ROOM, building_drawing
 from seismass.show.assessment.page_input import SPRINGS, facts
-from seismass.show.assessment.tables import AssessmentTables, most_slip, quantity_text
+from seismass.show.assessment.tables import AssessmentTables, most_slip, quantity_text, short_words
 
 HEAD: Final = {
     "name": "Project",
@@ -109,11 +109,12 @@ def _drawing_caption(result: AssessmentTables) -> str:
     data = result.document["input"]
     heights = {row["height"] for row in data["storeys"]} - {None}
     high = f"; storeys {result.units.text('height', heights.pop(), '.3g')} high" if len(heights) == 1 else ""
+    springs = "; k and V_y of the storey below" * (len(data["storeys"]) <= ROOM)
     if not data["goods"]:
-        return f"The building; there are no goods{high}."
+        return f"The building; there are no goods{springs}{high}."
     stays = any(kind["attached"] for kind in data["goods"]) or result.document["tipping"]
     grey = "; grey: mass of the floor, bolted or staying" if stays else ""
-    return f"W of the floor, goods present of the design live load, friction (static/kinetic){high}{grey}."
+    return f"W of the floor, goods present of the design live load, friction (static/kinetic){springs}{high}{grey}."
 
 
 def _design(result: AssessmentTables) -> Markup:
@@ -207,8 +208,13 @@ def _use(text: str) -> Markup:
     return Markup('<span class="whole {}">{}</span>').format(looks, text)
 
 
+def _governs(model: str) -> Markup:
+    """What governs, in one line."""
+    return Markup('<span class="whole">{}</span>').format(sentence_html(short_words(model) or model))
+
+
 def _model_words(result: AssessmentTables, model: str) -> str:
-    return result.called.get(model, NAMES[model])
+    return (ONE_ANALYSIS | result.called).get(model, NAMES[model])
 
 
 def storeys_html(result: AssessmentTables, most: int) -> list[Markup]:
@@ -230,7 +236,7 @@ def storeys_html(result: AssessmentTables, most: int) -> list[Markup]:
             cells["use"] = f"{100.0 * row['governing_over_limit']:.0f} %"
         rows.append(cells)
     formats = {"use": _use} if ratio else {}
-    return [table_html(pl.DataFrame(rows), f"{caption}, {unit}.", formats={**formats, "governs": sentence_html})]
+    return [table_html(pl.DataFrame(rows), f"{caption}, {unit}.", formats={**formats, "governs": _governs})]
 
 
 def _collapses(result: AssessmentTables) -> list[Markup]:
