@@ -11,7 +11,7 @@ from scipy import stats
 from scipy.integrate import quad
 
 import seismass as sm
-from seismass.studies.risk import stripe_rates
+from seismass.studies.risk import run_rates, stripe_rates
 
 SHARES = [0.0, 0.25, 0.8, 1.0]
 MODEL = np.array([[1.0, 2.0, 6.0], [2.0, 3.0, 7.0], [3.0, 5.0, 10.0], [4.0, 6.0, 11.0]])
@@ -141,6 +141,28 @@ def test_rates_of_many_stripes_are_those_of_a_lognormal_fragility() -> None:
     levels = np.geomspace(0.2, 12.0, 600)
     found = stripe_rates(levels, stats.norm.cdf(np.log(levels / 1.6) / 0.4), curve)
     assert found == pytest.approx(1e-2 * 1.6**-2.5 * np.exp(0.5), rel=2e-4)  # by the distance of the stripes
+
+
+def test_rates_of_runs_against_sums_over_fine_intensities() -> None:
+    """Demand of each run linear in logarithms between levels, in proportion below them, constant above."""
+    levels, limit = np.array([0.2, 0.7, 1.9, 4.0]), 0.02
+    demand = np.random.default_rng(3).lognormal(np.log(limit), 1.0, (4, 60))
+    fine = np.geomspace(1e-4, 40.0, 400_001)
+    hazard = CURVE.rates(fine)
+    for run, found in zip(demand.T, run_rates(levels, demand, limit, CURVE), strict=True):
+        at = np.exp(np.interp(np.log(fine), np.log(levels), np.log(run)))
+        at = np.where(fine < levels[0], run[0] * fine / levels[0], at)
+        expected = np.sum(np.where(at[:-1] > limit, hazard[:-1] - hazard[1:], 0.0)) + hazard[-1] * (run[-1] > limit)
+        assert found == pytest.approx(expected, rel=1e-3, abs=1e-9)  # by their distance
+
+
+def test_rates_of_runs_in_closed_form() -> None:
+    """A demand that is a power of the intensity exceeds the limit from one intensity on."""
+    for power in (0.5, 1.0, 2.0):
+        demand = 0.013 * np.array([0.2, 0.7, 1.9]) ** power
+        assert run_rates([0.2, 0.7, 1.9], demand, 0.01, CURVE) == pytest.approx(
+            CURVE.rate((0.01 / 0.013) ** (1.0 / power)), rel=1e-12
+        )
 
 
 def test_stripes_are_judged() -> None:

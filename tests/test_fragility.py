@@ -333,3 +333,14 @@ def test_levels_without_scatter_have_no_interval() -> None:
     assert fit.kind == "fitted"
     assert fit.median_interval is None
     assert fit_counts([0.2, 0.3, 0.4, 0.5], [0, 3, 2, 5], 5).median_interval is not None
+
+
+def test_limits_may_be_names_as_in_commands() -> None:
+    scene = sm.Scene(sm.Building.uniform(2, 0.3, heights=3.0, yield_shear_over_weight=[0.2, 0.12]))
+    names, motions = ["drift_ratio=0.01", "drift@2=0.05"], sm.builtin_suite("seven")[:2]
+    limits = [sm.fragility.parse_limit(name) for name in names]
+    by_name, by_object = (
+        sm.fragility.incremental_dynamic_analysis(scene, motions, each, measure="pga") for each in (names, limits)
+    )
+    assert by_name.limits == by_object.limits == tuple(limits)
+    assert by_name.fragility().median == by_object.fragility().median

@@ -169,3 +169,35 @@ def test_a_run_beyond_the_range_of_numbers_takes_no_other_with_it() -> None:
         sm.simulate(scene, SUITE[0].scaled(1e155))
     assert str(raised.value) == batch["reason"][1]
     assert np.isfinite(batch["end_time"][0])
+
+
+def test_histories_of_a_run_with_one_row_per_time_and_place() -> None:
+    building = sm.Building.uniform(3, 0.4, yield_shear_over_weight=[0.3, 0.2, 0.1])
+    rack = sm.Rack(1, 2, level_mass_ratio=0.02, period=0.3, blocks=[sm.RackBlock(1, mass_ratio=0.1, mu=0.2)])
+    blocks = sm.blocks_on_floors([1.0, 0.5, 0.0], mu=0.1)
+    for scene in (sm.Scene(building, blocks), sm.Scene(building, blocks, racks=[rack, rack])):
+        response = sm.simulate(scene, SUITE[0], histories=10)
+        rows = len(response.time)
+        for places, names in (
+            ("storeys", ("drift", "floor_displacement", "floor_velocity", "floor_acceleration", "storey_shear")),
+            ("blocks", ("slip", "block_velocity")),
+            ("levels", ("rack_drift", "rack_velocity", "rack_acceleration", "rack_shear") if scene.racks else ()),
+            ("ground", ("ground_acceleration", "ground_velocity", "ground_displacement")),
+        ):
+            if not names:
+                with pytest.raises(sm.errors.InvalidOption, match="places of history_table must be what the scene has"):
+                    sm.runs.history_table(response, places)
+                continue
+            table = sm.runs.history_table(response, places)
+            place = [] if places == "ground" else [places.removesuffix("s")]
+            assert table.columns[: len(place) + 1] == ["time", *place]
+            assert set(table.columns[len(place) + 1 :]) == set(names)
+            for name in names:
+                values = getattr(response, name)
+                values = np.column_stack(values).reshape(rows, -1) if isinstance(values, tuple) else values
+                np.testing.assert_array_equal(table[name].to_numpy().reshape(values.shape), values)
+            np.testing.assert_array_equal(table["time"].to_numpy().reshape(rows, -1)[:, 0], response.time)
+    with pytest.raises(sm.errors.InvalidOption, match="histories of simulate must be asked for"):
+        sm.runs.history_table(sm.simulate(scene, SUITE[0]))
+    alone = sm.simulate(scene, SUITE[0], histories=10, displacements_only=True)
+    assert sm.runs.history_table(alone).columns == ["time", "storey", "drift", "floor_displacement"]

@@ -491,3 +491,17 @@ def test_a_unit_that_is_none_is_refused() -> None:
     for made in (Record, Motion):
         with pytest.raises(InvalidMotion, match=r"unit of .* must be one of g, m/s2, cm/s2, gal, .*; got 'bananas'"):
             made([0.0, 1.0], 0.01, unit="bananas")
+
+
+def test_suites_slice_and_scale() -> None:
+    suite = builtin_suite("eleven")
+    part = suite[2:5]
+    assert isinstance(part, Suite)
+    assert (part.name, part.records) == (suite.name, suite.records[2:5])
+    assert suite[-1] is suite.records[-1]
+    doubled = part.scaled(2.0)
+    for before, after in zip(part, doubled, strict=True):
+        np.testing.assert_array_equal(after.acceleration, 2.0 * before.acceleration)
+        assert after.name == before.name
+    with pytest.raises(InvalidMotion, match="factor of scaled record must be"):
+        suite.scaled(np.nan)

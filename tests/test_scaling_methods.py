@@ -254,3 +254,19 @@ def test_figure_shows_every_motion_and_what_is_compared() -> None:
 def test_bad_arguments_are_refused(scale, arguments: dict, error: type[sm.SeismassError], message: str) -> None:
     with pytest.raises(error, match=re.escape(message)):
         scale(**({"records": SUITE, "target": TARGET} | arguments))
+
+
+@pytest.mark.parametrize(
+    "scale",
+    [
+        sm.scaling.scale_sa_t1,
+        sm.scaling.scale_least_squares,
+        sm.scaling.scale_asce7_10,
+        lambda suite, target: sm.scaling.scale_by_code(suite, target, 1.0, code_id="ec8"),
+        lambda suite, target: sm.scaling.scale_modal_pushover(suite, target, period=0.5, yield_coefficient=0.2),
+    ],
+)
+def test_a_target_may_be_text_as_in_files_and_commands(scale) -> None:
+    suite = sm.builtin_suite("seven")
+    by_text, by_object = (scale(suite, target) for target in ("asce7:1:0.6", sm.TargetSpectrum.asce7(1.0, 0.6)))
+    np.testing.assert_array_equal(by_text.factors, by_object.factors)

@@ -161,7 +161,7 @@ def test_a_folder_is_read(shared: Path) -> None:
             "factor_range of selection must be two positive numbers",
         ),
         ({"period_range": 1.0}, sm.errors.InvalidOption, "period_range of scaling must be two positive multiples"),
-        ({"target": "CSV"}, sm.errors.InvalidOption, "target of scaling must be a TargetSpectrum; got 'CSV'"),
+        ({"target": 3}, sm.errors.InvalidOption, "target of scaling must be a TargetSpectrum; got 3"),
         (
             {"suite": "nowhere"},
             sm.errors.RecordFormatError,

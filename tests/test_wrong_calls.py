@@ -138,6 +138,7 @@ CALLS: dict[str, tuple[Callable[..., Any], dict[str, Any]]] = {
     "stream_many": (sm.stream_many, {"scenes": SCENE, "motions": MOTION}),
     "digits": (sm.runs.digits, {"response": RESPONSE}),
     "digits_of_batch": (sm.runs.digits_of_batch, {"scenes": [SCENE], "motions": [MOTION]}),
+    "history_table": (sm.runs.history_table, {"response": RESPONSE}),
     "long_table": (sm.long_table, {"table": BATCH, "scenes": SCENE}),
     "spring_forces": (sm.runs.spring_forces, {"building": BUILDING, "storey": 1, "drifts": [0.0, 0.01, -0.01]}),
     "Record": (sm.Record, {"acceleration": [0.0, 1.0], "dt": 0.01, "name": "a", "azimuth": 10.0}),
@@ -216,6 +217,7 @@ CALLS: dict[str, tuple[Callable[..., Any], dict[str, Any]]] = {
     "bounded": (sm.distributions.bounded, {"distribution": sm.distributions.beta(0.3, 0.1), "most": 0.4}),
     "mixture": (sm.distributions.mixture, {"parts": [0.2, sm.distributions.beta(0.3, 0.1)], "weights": [0.3, 0.7]}),
     "stripe_rates": (sm.risk.stripe_rates, {"levels": [0.2, 0.4], "probability": [0.1, 0.5], "hazard": HAZARD}),
+    "run_rates": (sm.risk.run_rates, {"levels": [0.2, 0.4], "demand": [0.1, 0.5], "limit": 0.2, "hazard": HAZARD}),
     "stripe_weights": (sm.risk.stripe_weights, {"levels": [0.2, 0.4], "hazard": HAZARD}),
     "effective_mass": (sm.effective_mass, {"scene": SCENE, "motions": SUITE, **SMALL}),
     "live_load_uncertainty": (

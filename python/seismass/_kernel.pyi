@@ -140,6 +140,11 @@ class Batch:
         Peak absolute floor acceleration (m/s2), flat over runs and floors.
         """
     @property
+    def peak_floor_force(self, /) -> NDArray[float64] | None:
+        """
+        Peak floor force (N), flat over runs and floors, if asked for.
+        """
+    @property
     def peak_slip(self, /) -> NDArray[float64]:
         """
         Peak slip (m), flat over runs and blocks.
@@ -1021,6 +1026,16 @@ class Response:
         Time of the peak floor acceleration (s).
         """
     @property
+    def peak_floor_force(self, /) -> NDArray[float64] | None:
+        """
+        Peak floor force (N), if asked for.
+        """
+    @property
+    def peak_floor_force_time(self, /) -> NDArray[float64] | None:
+        """
+        Time of the peak floor force (s).
+        """
+    @property
     def peak_slip(self, /) -> NDArray[float64]:
         """
         Peak slip of each block (m).
@@ -1208,7 +1223,14 @@ def response_spectra(
     """
 
 def simulate(
-    scene: Scene, motion: Motion, every: SupportsIndex, displacements_only: bool, energy: bool, events: bool
+    scene: Scene,
+    motion: Motion,
+    every: SupportsIndex,
+    displacements_only: bool,
+    energy: bool,
+    events: bool,
+    *,
+    floor_force: bool = False,
 ) -> Response:
     """
     Solves one scene under one motion; histories at every so many samples (0: none), of drifts and
@@ -1222,6 +1244,7 @@ def simulate_columns(
     scale: NDArray[float64],
     *,
     peaks_only: bool = False,
+    floor_force: bool = False,
     threads: SupportsIndex | None = None,
     progress: Any | None = None,
 ) -> Batch:
@@ -1243,12 +1266,13 @@ def simulate_many(
     runs: NDArray[int64],
     *,
     peaks_only: bool = False,
+    floor_force: bool = False,
     threads: SupportsIndex | None = None,
     progress: Any | None = None,
 ) -> Batch:
     """
-    Solves `runs`, rows of (index of scene, index of motion); with `peaks_only` residuals may be NaN. `progress` is
-    called with runs done and runs in all.
+    Solves `runs`, rows of (index of scene, index of motion); with `peaks_only` residuals may be NaN, with `floor_force`
+    there are peaks of it. `progress` is called with runs done and runs in all.
     """
 
 def simulate_many_general(

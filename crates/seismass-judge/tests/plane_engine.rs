@@ -28,6 +28,7 @@ const OPTIONS: Options = Options {
     histories: NonZeroUsize::new(1),
     displacements_only: false,
     energy: true,
+    floor_force: false,
     events: true,
     peaks_only: false,
 };

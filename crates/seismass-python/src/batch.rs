@@ -11,22 +11,24 @@ use crate::interrupt::{checked_threads, run_inline, run_watched};
 use crate::response::{collapsed_storey, status_name};
 use crate::scene::{Building, Motion, Scene};
 
-/// Solves `runs`, rows of (index of scene, index of motion); with `peaks_only` residuals may be NaN. `progress` is
-/// called with runs done and runs in all.
+/// Solves `runs`, rows of (index of scene, index of motion); with `peaks_only` residuals may be NaN, with `floor_force`
+/// there are peaks of it. `progress` is called with runs done and runs in all.
 #[pyfunction]
-#[pyo3(signature = (scenes, motions, runs, *, peaks_only=false, threads=None, progress=None))]
+#[pyo3(signature = (scenes, motions, runs, *, peaks_only=false, floor_force=false, threads=None, progress=None))]
 pub(crate) fn simulate_many(
     py: Python<'_>,
     scenes: Vec<PyRef<'_, Scene>>,
     motions: Vec<PyRef<'_, Motion>>,
     runs: Table<i64>,
     peaks_only: bool,
+    floor_force: bool,
     threads: Option<usize>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<Batch> {
     let scenes: Vec<seismass::Scene> = scenes.iter().map(|scene| scene.0.clone()).collect();
     let runs = pairs(&runs).map_err(|error| from_kernel(py, &error))?;
-    solve(py, motions, runs.len(), peaks_only, threads, progress, move || {
+    let options = Options { peaks_only, floor_force, ..Options::default() };
+    solve(py, motions, runs.len(), options, threads, progress, move || {
         Ok((scenes, runs.iter().map(|&(scene, motion)| Run::new(scene, motion)).collect()))
     })
 }
@@ -34,7 +36,7 @@ pub(crate) fn simulate_many(
 /// Solves `runs`, rows of (row of the columns, index of motion), with the motion of run i multiplied by `scale[i]`;
 /// otherwise as `simulate_many`.
 #[pyfunction]
-#[pyo3(signature = (columns, motions, runs, scale, *, peaks_only=false, threads=None, progress=None))]
+#[pyo3(signature = (columns, motions, runs, scale, *, peaks_only=false, floor_force=false, threads=None, progress=None))]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn simulate_columns(
     py: Python<'_>,
@@ -43,6 +45,7 @@ pub(crate) fn simulate_columns(
     runs: Table<i64>,
     scale: Values<f64>,
     peaks_only: bool,
+    floor_force: bool,
     threads: Option<usize>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<Batch> {
@@ -52,7 +55,8 @@ pub(crate) fn simulate_columns(
         let (requirement, got) = (format!("one factor per run, {}", runs.len()), format!("{} values", scale.0.len()));
         return Err(from_kernel(py, &Error::invalid(Domain::Options, "scale", "batch", requirement, got)));
     }
-    solve(py, motions, runs.len(), peaks_only, threads, progress, move || {
+    let options = Options { peaks_only, floor_force, ..Options::default() };
+    solve(py, motions, runs.len(), options, threads, progress, move || {
         let (scenes, of_row) = columns.scenes()?;
         let run = |(&(row, motion), &scale): (&(usize, usize), &f64)| match of_row.get(row) {
             Some(&scene) => Ok(Run { scene, motion, scale }),
@@ -71,7 +75,7 @@ fn solve(
     py: Python<'_>,
     motions: Vec<PyRef<'_, Motion>>,
     total: usize,
-    peaks_only: bool,
+    options: Options,
     threads: Option<usize>,
     progress: Option<Bound<'_, PyAny>>,
     prepare: impl FnOnce() -> seismass::Result<(Vec<seismass::Scene>, Vec<Run>)> + Send + 'static,
@@ -81,9 +85,9 @@ fn solve(
     let report = |done: usize| progress.as_ref().map_or(Ok(()), |call| call.call1((done, total)).map(drop));
     run_watched(py, report, move |control| {
         let (scenes, runs) = prepare()?;
-        let options = Options { peaks_only, ..Options::default() };
         let rows = seismass::simulate_each(&scenes, &motions, &runs, &options, threads, control, Row::new)?;
         let mut batch = Batch::with_room_for(&rows);
+        batch.peak_floor_force = options.floor_force.then(Vec::new);
         for (run, row) in rows.into_iter().enumerate() {
             batch.push(run, row);
         }
@@ -174,6 +178,7 @@ pub(crate) struct Batch {
     residual_drift: Vec<f64>,
     peak_floor_acceleration: Vec<f64>,
     peak_storey_shear: Vec<f64>,
+    peak_floor_force: Option<Vec<f64>>,
     peak_slip: Vec<Peak>,
     residual_slip: Vec<f64>,
     slip_path: Vec<f64>,
@@ -197,6 +202,8 @@ pub(crate) struct Row {
     pub(crate) peaks: Box<[Peak]>,
     /// Peak floor acceleration, peak storey shear and residual drift by storey, then residual slip and path slipped by block.
     pub(crate) values: Box<[f64]>,
+    /// Peak floor force by storey, if asked for.
+    pub(crate) floor_force: Box<[f64]>,
 }
 
 impl Row {
@@ -225,6 +232,7 @@ impl Row {
             .map(|values| &values[..])
             .concat()
             .into(),
+            floor_force: values(response.floor_force.as_deref().unwrap_or_default()).into(),
         }
     }
 }
@@ -256,6 +264,7 @@ impl Batch {
             peak_drift: Vec::with_capacity(storeys),
             peak_floor_acceleration: Vec::with_capacity(storeys),
             peak_storey_shear: Vec::with_capacity(storeys),
+            peak_floor_force: None,
             residual_drift: Vec::with_capacity(storeys),
             peak_slip: Vec::with_capacity(blocks),
             residual_slip: Vec::with_capacity(blocks),
@@ -295,6 +304,9 @@ impl Batch {
         let mut peaks = &row.peaks[..];
         for (column, length) in [(&mut self.peak_drift, row.storeys), (&mut self.peak_slip, row.blocks)] {
             column.extend(peaks.split_off(..length).unwrap_or_default());
+        }
+        if let Some(forces) = &mut self.peak_floor_force {
+            forces.extend(&row.floor_force);
         }
         let mut values = &row.values[..];
         for (column, length) in [
@@ -344,6 +356,8 @@ getters! { Batch
     peak_floor_acceleration(self) -> Output<f64> = column(&self.peak_floor_acceleration);
     /// Peak storey shear (N), flat over runs and storeys.
     peak_storey_shear(self) -> Output<f64> = column(&self.peak_storey_shear);
+    /// Peak floor force (N), flat over runs and floors, if asked for.
+    peak_floor_force(self) -> Option<Output<f64>> = self.peak_floor_force.as_deref().map(column);
     /// Peak slip (m), flat over runs and blocks.
     peak_slip(self) -> Output<f64> = values(&self.peak_slip);
     /// Time of the peak slip (s), flat over runs and blocks.

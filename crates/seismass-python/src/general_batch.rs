@@ -84,6 +84,7 @@ fn row(response: &GeneralResponse) -> Row {
         yields: count(events.of(EventKind::Yield)),
         slips: count(events.of(EventKind::Slip)),
         end_time: response.end_time,
+        floor_force: Box::default(),
         peaks: [&peaks.drift[..floors], &peaks.slip].concat().into(),
         values: [
             &values(&peaks.acceleration[..floors])[..],

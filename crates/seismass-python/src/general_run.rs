@@ -23,7 +23,7 @@ pub(crate) fn simulate_general(
     events: bool,
 ) -> PyResult<GeneralResponse> {
     let histories = NonZeroUsize::new(every);
-    let options = Options { histories, displacements_only, energy, events, peaks_only: false };
+    let options = Options { histories, displacements_only, energy, events, ..Options::default() };
     let (scene, motion) = (scene.0.clone(), motion.0.clone());
     let run =
         run_watched(py, |_| Ok(()), move |control| simulate_general_until(&scene, &motion, &options, &control.stop));

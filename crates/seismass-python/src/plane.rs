@@ -43,7 +43,7 @@ pub(crate) fn simulate_plane(
     events: bool,
 ) -> PyResult<PlaneResponse> {
     let histories = NonZeroUsize::new(every);
-    let options = Options { histories, displacements_only, energy, events, peaks_only: false };
+    let options = Options { histories, displacements_only, energy, events, ..Options::default() };
     let motion = PlaneMotion::new(motion.0.clone(), other.0).map_err(|error| from_kernel(py, &error))?;
     let scene = scene.0.clone();
     let run =

@@ -18,7 +18,8 @@ const SHORT_RUN: usize = 4_000_000;
 /// Solves one scene under one motion; histories at every so many samples (0: none), of drifts and
 /// slips alone if asked for.
 #[pyfunction]
-#[pyo3(signature = (scene, motion, every, displacements_only, energy, events))]
+#[allow(clippy::too_many_arguments)]
+#[pyo3(signature = (scene, motion, every, displacements_only, energy, events, *, floor_force=false))]
 pub(crate) fn simulate(
     py: Python<'_>,
     scene: PyRef<'_, Scene>,
@@ -27,9 +28,10 @@ pub(crate) fn simulate(
     displacements_only: bool,
     energy: bool,
     events: bool,
+    floor_force: bool,
 ) -> PyResult<Response> {
     let histories = NonZeroUsize::new(every);
-    let options = Options { histories, displacements_only, energy, events, peaks_only: false };
+    let options = Options { histories, displacements_only, energy, floor_force, events, peaks_only: false };
     let (scene, motion) = (&scene.0, &motion.0);
     let size = 1 + scene.storeys() + scene.blocks().len();
     let phase = scene.building().map_or(0.0, |building| building.frequency_bound() * motion.dt());
@@ -150,6 +152,10 @@ getters! { Response
     peak_storey_shear(self) -> Output<f64> = values(&self.run.peaks.storey_shear);
     /// Time of the peak storey shear (s).
     peak_storey_shear_time(self) -> Output<f64> = times(&self.run.peaks.storey_shear);
+    /// Peak floor force (N), if asked for.
+    peak_floor_force(self) -> Option<Output<f64>> = self.run.floor_force.as_deref().map(values);
+    /// Time of the peak floor force (s).
+    peak_floor_force_time(self) -> Option<Output<f64>> = self.run.floor_force.as_deref().map(times);
     /// Drift at the end (m).
     residual_drift(self) -> Output<f64> = Output::new(self.run.residual_drift.iter().copied());
     /// Slip at the end (m).

@@ -268,6 +268,9 @@ pub struct Response {
     pub residual_slip: Vec<f64>,
     /// Path slipped by each block, airborne motion included (m).
     pub slip_path: Vec<f64>,
+    /// Peak force of each floor, its mass times its acceleration and the friction of its goods, which is what its
+    /// diaphragm passes on (N); if asked for.
+    pub floor_force: Option<Vec<Peak>>,
     /// Event log, if asked for.
     pub events: Option<Vec<Event>>,
     /// Histories, if asked for.

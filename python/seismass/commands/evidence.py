@@ -39,7 +39,7 @@ def options(parser: argparse.ArgumentParser) -> None:
         "--limit", type=positive_option, metavar="RATIO", help="drift ratio whose rate is asked for (0.02)"
     )
     asked.add_argument("--codes", metavar="LIST", help="codes that are compared (asce7-10,nbc,nzs1170.5,ec8)")
-    asked.add_argument("--samples", type=_samples, metavar="BxG", help="buildings a motion, loads a building (8x4)")
+    asked.add_argument("--samples", type=_samples, metavar="BxG", help="buildings a motion, loads a building (8x8)")
     asked.add_argument("--quick", action="store_true", help="ten archetypes, five levels, 2x2 samples, one suite")
     asked.add_argument("--vary", action="store_true", help="change one input at a time, too: half an hour")
     output = add_answer_options(parser, "evidence", lambda args: None if args.example else Path("evidence"))

@@ -18,6 +18,7 @@ from seismass.design.lateral_force import DISTRIBUTION_CODES, code_period, equiv
 from seismass.design.modes import positive_of_length, vibration_modes
 from seismass.design.rules import known_category, rule_of, storey_checks
 from seismass.model.building import Building
+from seismass.motions.scaling.suite import as_target
 from seismass.motions.spectra import TargetSpectrum
 
 OWNER: Final = "designed building"
@@ -54,7 +55,7 @@ class DesignedBuilding(FieldValue, Card):
 def designed_building(
     dead_load: ArrayLike,
     live_load: ArrayLike,
-    target: TargetSpectrum,
+    target: TargetSpectrum | str,
     reduction: float,
     *,
     heights: ArrayLike,
@@ -121,8 +122,7 @@ def designed_building(
         got = f"{share:g}, {size:g} and {limit:g}"
         requirement = f"between 0 and 1, area positive and drift_limit at least {LEAST_DRIFT:g}"
         raise refusal(InvalidOption, "fraction", OWNER, requirement, got)
-    if not isinstance(target, TargetSpectrum):
-        raise refusal(InvalidOption, "target", OWNER, "a TargetSpectrum", brief(target))
+    target = as_target(target, OWNER)
     h = positive_of_length(heights, "heights", len(dead))
     how: dict[str, Any] = {"code_id": code_id, "system": system, "height": float(h.sum())}
     period = code_period(**how, storeys=len(dead), s_d1=float(target(1.0)) / STANDARD_GRAVITY)

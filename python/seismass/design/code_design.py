@@ -24,6 +24,7 @@ from seismass.design.lateral_force import (
 from seismass.design.modes import Combination, SpectrumAnalysis, positive, response_spectrum_analysis
 from seismass.design.rules import APPLIED, CodeRule, known_category, rule_of
 from seismass.model.codes import CODE_NAMES
+from seismass.motions.scaling.suite import as_target
 from seismass.motions.spectra import TargetSpectrum
 
 Procedure: TypeAlias = Literal["modal", "lateral-force"]
@@ -139,7 +140,7 @@ class _Design:
 def design_by_code(
     mass: FloatArray,
     stiffness: FloatArray,
-    target: TargetSpectrum,
+    target: TargetSpectrum | str,
     reduction: float,
     *,
     code_id: str = "asce7-10",
@@ -160,7 +161,7 @@ def design_by_code(
     ----------
     mass, stiffness : ndarray, shape (storeys,)
         Floor masses of the design (kg) and storey stiffnesses (N/m), storey 1 first.
-    target : TargetSpectrum
+    target : TargetSpectrum or str
         Elastic design spectrum of the site.
     reduction : float
         The code's reduction of forces: R, q in Eurocode 8, R_d R_o in NBC, mu in NZS 1170.5.
@@ -201,6 +202,7 @@ def design_by_code(
     (1.0, 0.25)
     """
     as_word(procedure, get_args(Procedure), "procedure", "design")
+    target = as_target(target, "design")
     made = _Design(as_one_of(code_id, str, "code_id", "design", InvalidOption))
     risk_category = known_category(risk_category)
     as_one_of(system, str, "system", "design", InvalidOption)

@@ -161,7 +161,7 @@ def effective_mass(
     drift: DriftMeasure = LARGER,
     damping: ModelDamping = SAME_DAMPING,
     fractions: ArrayLike | None = None,
-    target: TargetSpectrum | None = None,
+    target: TargetSpectrum | str | None = None,
     confidence: float = 0.90,
     resamples: int = 2000,
     seed: int = 0,
@@ -193,7 +193,7 @@ def effective_mass(
     fractions : array_like, optional
         Shares at which models are solved before roots are refined, from 0 to 1; by default 0, 0.05, ..., 1. Two roots
         between two of them are missed.
-    target : TargetSpectrum, optional
+    target : TargetSpectrum or str, optional
         Spectrum from which the rule by hand takes S_a; by default the mean spectrum of the motions.
     confidence : float, default 0.90
         Probability of the bootstrap interval.
@@ -259,7 +259,7 @@ def effective_mass_of_design(
     drift_cap: float = DRIFT_CAP,
     damping: ModelDamping = SAME_DAMPING,
     fractions: ArrayLike | None = None,
-    target: TargetSpectrum | None = None,
+    target: TargetSpectrum | str | None = None,
     confidence: float = 0.90,
     resamples: int = 2000,
     seed: int = 0,

@@ -9,7 +9,6 @@ from typing import Any, Final
 import numpy as np
 
 from seismass.base.arguments import ProgressLike, as_bootstrap, as_progress, as_threads
-from seismass.base.errors import InvalidOption
 from seismass.base.statistics import (
     DRIFT_CAP,
     Statistic,
@@ -21,7 +20,7 @@ from seismass.base.statistics import (
     weighted,
 )
 from seismass.base.stored_results import metadata_head, motion_contents
-from seismass.base.values import FloatArray, brief, refusal
+from seismass.base.values import FloatArray
 from seismass.effective_mass.models import (
     FROM_ONE,
     LARGEST_SHARE,
@@ -59,6 +58,7 @@ from seismass.effective_mass.share import (
 from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.model.springs import SHAPE_FIELDS
+from seismass.motions.scaling.suite import as_target
 from seismass.motions.spectra import TargetSpectrum
 from seismass.runs.peaks import LARGER, DriftMeasure, NamedMotions, Peaks, check_drift, solve
 
@@ -98,8 +98,6 @@ def checked_options(
 ) -> Options:
     """Return the arguments of `effective_mass`; one that is not what it must be is refused."""
     probability, draws, start = as_bootstrap(confidence, resamples, seed, OWNER)
-    if target is not None and not isinstance(target, TargetSpectrum):
-        raise refusal(InvalidOption, "target", OWNER, "a TargetSpectrum", brief(target))
     return Options(
         statistic=check_statistic(statistic, OWNER),
         drift=check_drift(drift, OWNER),
@@ -111,7 +109,7 @@ def checked_options(
         seed=start,
         threads=as_threads(threads, OWNER),
         progress=as_progress(progress, OWNER),
-        target=target,
+        target=None if target is None else as_target(target, OWNER),
     )
 
 

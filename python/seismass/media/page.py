@@ -56,9 +56,10 @@ def table_html(
     *,
     headers: Mapping[str, str] | None = None,
     formats: Mapping[str, Format] | None = None,
+    folds: bool = False,
 ) -> Markup:
-    """Return a table; a long one is sorted by its headers and filtered by a field above it. Headers are plain text,
-    from which the script makes buttons, as Chromium does not repeat heads with buttons on printed pages.
+    """Return a table; a long one is sorted by its headers and filtered by a field above it; one that folds has a block
+    for each row on narrow screens. Headers are plain text: on paper Chromium repeats no heads with buttons.
     """
     headers, formats = headers or {}, formats or {}
     for owner, names in (("headers", headers), ("formats", formats)):
@@ -70,19 +71,20 @@ def table_html(
         Markup('<th scope="col"{}>{}</th>').format(Markup(' class="number"') if number else "", headers.get(name, name))
         for name, number in zip(frame.columns, numeric, strict=True)
     )
+    headings = [place == 0 and dtype == pl.String for place, dtype in enumerate(frame.dtypes)]
     columns = [
         [
-            _cell(value, formats.get(name), number, heading=place == 0 and frame[name].dtype == pl.String)
+            _cell(value, formats.get(name), number, heading, headers.get(name, name) if folds else "")
             for value in frame[name]
         ]
-        for place, (name, number) in enumerate(zip(frame.columns, numeric, strict=True))
+        for name, number, heading in zip(frame.columns, numeric, headings, strict=True)
     ]
     rows = Markup("\n").join(
         Markup("<tr>{}</tr>").format(Markup("").join(cells)) for cells in zip(*columns, strict=True)
     )
-    field, kind = "", "table"
+    field, kind = "", "table folds" if folds else "table"
     if frame.height >= LEAST_ROWS_TO_FILTER:
-        kind = "table long-table"
+        kind += " long-table"
         field = Markup(
             '<p class="filter"><label>Filter rows <input type="search" autocomplete="off" spellcheck="false"></label> '
             '<output aria-live="polite"></output></p>'
@@ -93,18 +95,19 @@ def table_html(
     ).format(kind=kind, field=field, caption=caption, head=head, rows=rows)
 
 
-def _cell(value: Any, form: Format | None, number: bool, *, heading: bool) -> Markup:
+def _cell(value: Any, form: Format | None, number: bool, heading: bool, head: str) -> Markup:
     text: str = MISSING if value is None else _text(value, form)
     whole = ' class="whole"' if not number and "-" in text and len(text) <= LONGEST_WHOLE else ""
     if not isinstance(text, Markup):
         text = isolated(text)
     start, end = ('<th scope="row"', "</th>") if heading else ("<td", "</td>")
+    labelled = Markup(' data-head="{}"').format(head) if head and not heading else ""
     if not number:
-        return Markup(start + whole + ">{}" + end).format(text)
+        return Markup(start + whole + "{}>{}" + end).format(labelled, text)
     # What sorts; a value that is missing has none.
     missing = value is None or (isinstance(value, float) and math.isnan(value))
     held = "" if missing else Markup(' data-value="{}"').format(f"{float(value):.9g}")
-    return Markup(start + ' class="number"{}>{}' + end).format(held, text)
+    return Markup(start + ' class="number"{}{}>{}' + end).format(held, labelled, text)
 
 
 def _text(value: Any, form: Format | None) -> str:

@@ -4,7 +4,7 @@ from .batch import simulate_many, stream_many, write_many
 from .grid.columns import GridAxis
 from .grid.grid import Grid
 from .grid.sample import StrengthDesign
-from .long_table import long_table
+from .long_table import history_table, long_table
 from .opensees_export import SpringPath, spring_forces, write_opensees
 from .peak_digits import digits, digits_of_batch
 from .plane import PlaneResponse
@@ -24,6 +24,7 @@ __all__ = [
     "StrengthDesign",
     "digits",
     "digits_of_batch",
+    "history_table",
     "instruction_set",
     "long_table",
     "read_scene",

@@ -35,6 +35,7 @@ from seismass.runs.batch_tables import (
 from seismass.runs.grid.columns import IndexArray
 from seismass.runs.grid.grid import Grid
 from seismass.runs.plane import MotionPair, PlaneMotion, is_motion_pair, motions_in_plane
+from seismass.runs.quantities import of_chains_alone
 from seismass.runs.simulate import instruction_set, warn_of_doubts
 
 DEFAULT_CHUNK: Final = 8192
@@ -57,6 +58,7 @@ def simulate_many(
     pairs: ArrayLike | None = None,
     runs: range | None = None,
     peaks_only: bool = False,
+    floor_force: bool = False,
     threads: int | None = None,
     progress: ProgressLike = None,
 ) -> pl.DataFrame:
@@ -78,6 +80,8 @@ def simulate_many(
     peaks_only : bool, default False
         A run may end once no peak can be beaten any more, with the same peaks; residuals are then null. Scenes with
         racks, stops or a stiffness matrix run to the end.
+    floor_force : bool, default False
+        The column `peak_floor_force` too: of shear buildings in one direction, without a sliding base, alone.
     threads : int, optional
         Number of threads, up to 1024; by default all cores.
     progress : callable, optional
@@ -90,9 +94,10 @@ def simulate_many(
         the motion, "motion 3" where it has none); `status` ("completed", "collapsed", "failed"), `reason` (of a
         failure, else null), `end_time` (s), `collapsed_storey` (from 1, or null); lists per storey `peak_drift`,
         `peak_drift_time`, `peak_drift_ratio` (null without heights), `residual_drift`, `peak_floor_acceleration`,
-        `peak_storey_shear`; `peak_base_shear`; lists per block `peak_slip`, `peak_slip_time`, `residual_slip`,
-        `slip_path`; numbers of `events`, `yields`, `slips`. SI units. Where a scene has racks, stops, a stiffness
-        matrix or a sliding base, lists per level of all racks, one rack after the other, `peak_rack_drift`,
+        `peak_storey_shear`; `peak_base_shear`; if asked for, lists per floor `peak_floor_force`; lists per block
+        `peak_slip`, `peak_slip_time`, `residual_slip`, `slip_path`; numbers of `events`, `yields`, `slips`. SI units.
+        Where a scene has racks, stops, a stiffness matrix or a sliding base, lists per level of all racks, one rack
+        after the other, `peak_rack_drift`,
         `peak_rack_acceleration`, `peak_rack_shear`, `residual_rack_drift`, lists per block `peak_contact_force`,
         `peak_contact_velocity`, and `peak_base_slip`, `peak_base_acceleration`, `residual_base_slip`, `base_slip_path`
         (null without a base); blocks are the goods on floors, then those of racks that may slide; a level that
@@ -130,9 +135,8 @@ def simulate_many(
     [1, 0]
     """
     warn_of_doubts(scenes, motions)
-    return solve_many(
-        scenes, motions, pairs=pairs, runs=runs, peaks_only=peaks_only, threads=threads, progress=progress
-    )
+    how: dict[str, Any] = {"peaks_only": peaks_only, "floor_force": floor_force, "threads": threads}
+    return solve_many(scenes, motions, pairs=pairs, runs=runs, progress=progress, **how)
 
 
 def solve_many(
@@ -142,11 +146,12 @@ def solve_many(
     pairs: ArrayLike | None = None,
     runs: range | None = None,
     peaks_only: bool = False,
+    floor_force: bool = False,
     threads: int | None = None,
     progress: ProgressLike = None,
 ) -> pl.DataFrame:
     """Return what `simulate_many` does without its warnings, for studies that say what is unlikely themselves."""
-    batch, options = _batch(scenes, motions, pairs), _options(peaks_only, threads)
+    batch, options = _batch(scenes, motions, pairs), _options(peaks_only, floor_force, threads)
     # Objects are there already, so that all runs may look for equal ones; those of a grid exist a chunk at a time.
     stretch = _one_table(_stretch(runs, batch.total))
     chunk = DEFAULT_CHUNK if isinstance(scenes, Grid) else max(len(stretch), 1)
@@ -161,6 +166,7 @@ def stream_many(
     runs: range | None = None,
     chunk: int = DEFAULT_CHUNK,
     peaks_only: bool = False,
+    floor_force: bool = False,
     threads: int | None = None,
     progress: ProgressLike = None,
 ) -> Iterator[pl.DataFrame]:
@@ -171,7 +177,7 @@ def stream_many(
 
     Parameters
     ----------
-    scenes, motions, pairs, runs, peaks_only, threads
+    scenes, motions, pairs, runs, peaks_only, floor_force, threads
         As for `simulate_many`.
     chunk : int, default 8192
         Runs per frame. Equal runs of a chunk are solved once, and those of equal structure share propagators.
@@ -203,7 +209,7 @@ def stream_many(
     [40, 40, 20]
     """
     size = as_count(chunk, "chunk", "batch", InvalidOption, least=1)
-    batch, options = _batch(scenes, motions, pairs), _options(peaks_only, threads)
+    batch, options = _batch(scenes, motions, pairs), _options(peaks_only, floor_force, threads)
     return _frames(batch, _stretch(runs, batch.total), size, options, as_progress(progress, "batch"))
 
 
@@ -216,6 +222,7 @@ def write_many(
     runs: range | None = None,
     chunk: int = DEFAULT_CHUNK,
     peaks_only: bool = False,
+    floor_force: bool = False,
     threads: int | None = None,
     progress: ProgressLike = None,
 ) -> None:
@@ -229,7 +236,7 @@ def write_many(
     ----------
     path : path-like
         The file to write, with the suffix .parquet; its folder must exist.
-    scenes, motions, pairs, runs, chunk, peaks_only, threads, progress
+    scenes, motions, pairs, runs, chunk, peaks_only, floor_force, threads, progress
         As for `stream_many`.
 
     Raises
@@ -248,10 +255,10 @@ def write_many(
         raise refusal(InvalidOption, "path", "batch", requirement, brief(str(target)))
     size = as_count(chunk, "chunk", "batch", InvalidOption, least=1)
     warn_of_doubts(scenes, motions)
-    batch, options = _batch(scenes, motions, pairs), _options(peaks_only, threads)
+    batch, options = _batch(scenes, motions, pairs), _options(peaks_only, floor_force, threads)
     stretch = _one_table(_stretch(runs, batch.total))
     whole = Progress(progress, len(stretch), "batch")
-    solved_by = (_kernel.VERSION, instruction_set(), size, options["peaks_only"], stretch)
+    solved_by = (_kernel.VERSION, instruction_set(), size, options["peaks_only"], options["floor_force"], stretch)
     check_files(target)
     with result_store(target.parent, target.name, inputs_digest(batch, solved_by)) as store:
         parts = []
@@ -273,12 +280,14 @@ def write_many(
 
 class _Options(TypedDict):
     peaks_only: bool
+    floor_force: bool
     threads: int | None
 
 
-def _options(peaks_only: Any, threads: Any) -> _Options:
+def _options(peaks_only: Any, floor_force: Any, threads: Any) -> _Options:
     return {
         "peaks_only": as_flag(peaks_only, "peaks_only", "batch", InvalidOption),
+        "floor_force": as_flag(floor_force, "floor_force", "batch", InvalidOption),
         "threads": as_threads(threads, "batch"),
     }
 
@@ -374,12 +383,15 @@ def solve_engine(
     peaks_only: bool,
     threads: int | None,
     progress: ProgressLike,
+    floor_force: bool = False,
 ) -> Solved:
     """What the kernel gives back of runs, rows of scene and motion, of scenes of one engine: one batch, or in two
     directions those of the vectors, of x and of y; each with columns of racks and bases, but that of the chain.
     """
     listed, shaken, runs = _used(scenes, motions, rows)
     engine = listed[0].engine if listed else "chain"
+    if floor_force and engine != "chain":
+        raise of_chains_alone()
     how: dict[str, Any] = {"threads": threads, "progress": progress}
     if engine == "plane":
         x, y = zip(*shaken, strict=True)
@@ -389,9 +401,8 @@ def solve_engine(
     kernels = [each._kernel for each in shaken]
     if engine == "general":
         return [_kernel.simulate_many_general([each._general_scene for each in listed], kernels, runs, **how)]
-    return [
-        (_kernel.simulate_many([each._kernel for each in listed], kernels, runs, peaks_only=peaks_only, **how), None)
-    ]
+    how |= {"peaks_only": peaks_only, "floor_force": floor_force}
+    return [(_kernel.simulate_many([each._kernel for each in listed], kernels, runs, **how), None)]
 
 
 def _used(
@@ -438,16 +449,15 @@ class SceneRuns:
             )
             raise refusal(InvalidMotion, f"motion {motion + 1}", "batch", requirement, brief(self.motions[motion]))
 
-    def table(self, rows: IndexArray, *, peaks_only: bool, threads: int | None, progress: ProgressLike) -> pl.DataFrame:
+    def table(self, rows: IndexArray, *, progress: ProgressLike, **options: Any) -> pl.DataFrame:
         """Return the table of runs, rows of scene and motion (runs, 2); other arguments as in `simulate_many`."""
         engine = np.array([scene.engine for scene in self.scenes], dtype=object)[rows[:, 0]]
         parts, numbers, whole = [], [], Progress(progress, len(rows), "batch")
         for name in ("chain", "general", "plane"):
             of_engine = np.flatnonzero(engine == name)
             if len(of_engine) or (name == "chain" and not len(rows)):
-                how: dict[str, Any] = {"peaks_only": peaks_only, "threads": threads}
-                how["progress"] = whole.part(len(of_engine))
-                solved = solve_engine(self.scenes, self.motions, rows[of_engine], **how)
+                tell = whole.part(len(of_engine))
+                solved = solve_engine(self.scenes, self.motions, rows[of_engine], **options, progress=tell)
                 parts.append(self._engine_table(name, rows[of_engine], solved))
                 numbers.append(of_engine)
         return parts[0] if len(parts) == 1 else pl.concat(parts)[np.argsort(np.concatenate(numbers))]

@@ -28,6 +28,7 @@ _COLUMNS: Final = (
     "peak_floor_acceleration",
     "peak_storey_shear",
     "peak_base_shear",
+    "peak_floor_force",
     "peak_slip",
     "peak_slip_time",
     "residual_slip",
@@ -52,6 +53,8 @@ def batch_table(
         "peak_floor_acceleration": batch.peak_floor_acceleration,
         "peak_storey_shear": batch.peak_storey_shear,
     }
+    if batch.peak_floor_force is not None:
+        per_storey["peak_floor_force"] = batch.peak_floor_force
     per_block = {
         "peak_slip": batch.peak_slip,
         "peak_slip_time": batch.peak_slip_time,
@@ -88,7 +91,7 @@ def batch_table(
             pl.when(pl.col("status") != "failed").then(pl.col("events", "yields", "slips")),
         )
     )
-    return table.select(_COLUMNS)
+    return table.select(name for name in _COLUMNS if name in table.columns)
 
 
 OF_LEVELS: Final = ("peak_rack_drift", "peak_rack_acceleration", "peak_rack_shear", "residual_rack_drift")

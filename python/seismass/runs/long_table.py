@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, Final
+from contextlib import suppress
+from typing import Any, Final, Literal, TypeAlias, get_args
 
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
+from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.fork_check import require_polars
-from seismass.base.values import as_list, brief, refusal
+from seismass.base.values import as_list, as_one_of, brief, refusal
 from seismass.model.scene import Scene
 from seismass.runs.grid.columns import TABLE_COLUMNS, table_of
 from seismass.runs.grid.grid import Grid
+from seismass.runs.quantities import QUANTITIES, names_read_by
+from seismass.runs.response import Response
 
 _PER_STOREY: Final = (
     "peak_drift",
@@ -25,6 +29,7 @@ _PER_STOREY: Final = (
     "peak_storey_shear",
 )
 _PER_BLOCK: Final = ("peak_slip", "peak_slip_time", "residual_slip", "slip_path")
+_HISTORIES: Final = ("_history", "_displacement", "_histories_of_racks", "_ground")  # methods of a response
 _OF_RUN: Final = ("status", "reason", "end_time", "collapsed_storey", "peak_base_shear", "events", "yields", "slips")
 
 
@@ -99,6 +104,60 @@ def long_table(table: pl.DataFrame, scenes: Scene | Iterable[Scene] | Grid) -> p
     return joined.select(
         "run", "scene", "motion", "record", *varied, "storey", *_PER_STOREY, "block", *_PER_BLOCK, *_OF_RUN
     )
+
+
+Places: TypeAlias = Literal["storeys", "blocks", "levels", "ground"]
+"""What has histories: storeys with their floors, blocks, levels of all racks one rack after the other, the ground."""
+
+
+def history_table(response: Response, places: Places = "storeys") -> pl.DataFrame:
+    """Return the histories of a run with one row per time and place.
+
+    Parameters
+    ----------
+    response : Response
+        A run with histories.
+    places : {"storeys", "blocks", "levels", "ground"}, default "storeys"
+        What they are of: storeys with their floors, blocks, levels of racks (counted on from rack to rack), the ground.
+
+    Returns
+    -------
+    polars.DataFrame
+        `time` (s); `storey`, `block` or `level` from 1; and the histories of `Response` that were kept, by their names
+        and in SI units. `to_pandas()` gives a table of pandas, and of that `set_index(["time", "storey"]).to_xarray()`
+        a data set of xarray.
+
+    Raises
+    ------
+    InvalidOption
+        No histories were kept, or there are no such places.
+    SimulationError
+        The process was forked from one in which Polars had been used.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> scene = sm.Scene(sm.Building.uniform(2, 0.3), sm.blocks_on_floors([0.5, 0.0], mu=0.1))
+    >>> response = sm.simulate(scene, sm.Motion([2.0, 2.0, 0.0, 0.0], dt=0.1), histories=True)
+    >>> sm.runs.history_table(response).columns[:4], sm.runs.history_table(response, "blocks").shape
+    (['time', 'storey', 'drift', 'floor_velocity'], (4, 4))
+    """
+    require_polars("history_table")
+    as_one_of(response, Response, "response", "history_table", InvalidOption)
+    as_word(places, get_args(Places), "places", "history_table")
+    time, columns = response.time, {}
+    for name in (name for method in _HISTORIES for name in names_read_by(Response, method)):
+        if QUANTITIES[name].places == ("" if places == "ground" else places) and name != "base_slip":
+            with suppress(InvalidOption):  # displacements alone were kept
+                values = getattr(response, name)
+                columns[name] = np.column_stack(values) if isinstance(values, tuple) and values else values
+    count = 1 if places == "ground" else max((len(values.T) for values in columns.values() if len(values)), default=0)
+    if not count:
+        raise refusal(InvalidOption, "places", "history_table", "what the scene has", brief(places))
+    table = {"time": np.repeat(time, count)}
+    if places != "ground":
+        table[places.removesuffix("s")] = np.tile(np.arange(1, count + 1, dtype=np.uint32), len(time))
+    return pl.DataFrame(table | {name: values.reshape(-1) for name, values in columns.items()})
 
 
 def _check_table(table: Any) -> None:

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any, Final, Generic, NamedTuple, TypedDict, Ty
 
 import numpy as np
 
+from seismass.base.errors import InvalidOption, SeismassError
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FloatArray, frozen
+from seismass.base.values import FloatArray, frozen, refusal
 from seismass.motions.motion import Motion
 from seismass.motions.records.intensity import integrals
 
@@ -34,6 +35,7 @@ QUANTITIES: Final = {
     "storey_shear": Quantity(
         "N", "storeys", "spring force of each storey, without damping and P-Delta", "storey_force"
     ),
+    "floor_force": Quantity("N", "storeys", "force of each floor, of its mass and of the friction of the goods on it"),
     "base_shear": Quantity("N", "", "shear of storey 1, with the share of a stiffness matrix"),
     "rack_drift": Quantity("m", "levels", "drift of the levels of each rack, from the level below or the floor"),
     "rack_velocity": Quantity("m/s", "levels", "velocity of the levels of each rack relative to the ground"),
@@ -153,6 +155,12 @@ class Numbers:
     def to_json(self) -> str:
         """Return `to_dict` as JSON."""
         return json.dumps(self.to_dict(), indent=2, allow_nan=False)
+
+
+def of_chains_alone() -> SeismassError:
+    """The error of floor forces that are asked for where another engine than that of chains of storeys solves."""
+    requirement = "left out with racks, stops, a stiffness matrix, a sliding base and two directions"
+    return refusal(InvalidOption, "floor_force", "simulate", requirement, "True")
 
 
 def ground_motion(motion: Motion, name: str, rows: int, every: int) -> FloatArray:

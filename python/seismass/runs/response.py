@@ -26,6 +26,7 @@ from seismass.runs.quantities import (
     floor_displacement,
     ground_motion,
     names_read_by,
+    of_chains_alone,
 )
 
 if TYPE_CHECKING:
@@ -272,6 +273,8 @@ class Response(Numbers):
     peak_floor_acceleration_time = Values[FloatArray]("_array")
     peak_storey_shear = Values[FloatArray]("_array")
     peak_storey_shear_time = Values[FloatArray]("_array")
+    peak_floor_force = Values[FloatArray]("_forces")
+    peak_floor_force_time = Values[FloatArray]("_forces")
     peak_slip = Values[FloatArray]("_array")
     peak_slip_time = Values[FloatArray]("_array")
     residual_slip = Values[FloatArray]("_array")
@@ -446,8 +449,7 @@ class Response(Numbers):
         raise NotImplementedError
 
     def _array(self, name: str) -> FloatArray:
-        array: FloatArray = self._get(name)
-        return array
+        return cast(FloatArray, self._get(name))
 
     def to_dict(self) -> dict[str, Any]:
         """Return peaks, residuals, counts, events, energy and work in SI units, null for non-finite values.
@@ -494,6 +496,11 @@ class Response(Numbers):
         finite: dict[str, Any] = finite_values(result)
         return finite
 
+    def _forces(self, name: str) -> FloatArray:
+        if self.scene.engine != "chain":
+            raise of_chains_alone()
+        return cast(FloatArray, self._asked(name, "floor_force"))
+
     def _history(self, name: str) -> FloatArray:
         stored = QUANTITIES[name].stored or name
         if name == "base_slip":
@@ -501,8 +508,7 @@ class Response(Numbers):
         displacement = name in ("drift", "slip", "rack_drift", "base_slip")
         if not displacement and self._get(stored) is None and self._get("drift") is not None:
             raise refusal(InvalidOption, "displacements_only", "simulate", f"False, if {name} is wanted", "True")
-        array: FloatArray = self._asked(name, "histories", stored)
-        return array
+        return cast(FloatArray, self._asked(name, "histories", stored))
 
     def _of_racks(self, name: str, axis: int = 0) -> tuple[FloatArray, ...]:
         """Values of all levels, one array for each rack; none without racks."""

@@ -13,6 +13,7 @@ from seismass.model.scene import Scene
 from seismass.motions.motion import Motion, MotionLike, as_motion
 from seismass.motions.records.record import Record
 from seismass.runs.plane import MotionPair, PlaneResponse, is_motion_pair, motions_in_plane
+from seismass.runs.quantities import of_chains_alone
 from seismass.runs.response import Response
 
 
@@ -25,6 +26,7 @@ def simulate(
     displacements_only: bool = False,
     events: bool = True,
     energy: bool = False,
+    floor_force: bool = False,
     duration: float | None = None,
 ) -> Response: ...
 
@@ -38,6 +40,7 @@ def simulate(
     displacements_only: bool = False,
     events: bool = True,
     energy: bool = False,
+    floor_force: bool = False,
     duration: float | None = None,
 ) -> PlaneResponse: ...
 
@@ -50,6 +53,7 @@ def simulate(
     displacements_only: bool = False,
     events: bool = True,
     energy: bool = False,
+    floor_force: bool = False,
     duration: float | None = None,
 ) -> Response | PlaneResponse:
     """Solve one scene under one motion, exactly: every event is located, every regime is solved in closed form.
@@ -71,6 +75,8 @@ def simulate(
         Keep the event log.
     energy : bool, default False
         Compute the energy balance.
+    floor_force : bool, default False
+        Keep peaks of floor forces, of shear buildings in one direction, without a sliding base, alone.
     duration : float, optional
         End at the sample nearest to this time (s), before the last sample or after it.
 
@@ -109,6 +115,8 @@ def simulate(
     )
     switches = (("displacements_only", displacements_only), ("energy", energy), ("events", events))
     flags = [as_flag(value, name, "simulate", InvalidOption) for name, value in switches]
+    if as_flag(floor_force, "floor_force", "simulate", InvalidOption) and scene.engine != "chain":
+        raise of_chains_alone()
     if scene._plane_scene is not None:
         other = motions[1].acceleration
         of_plane = _kernel.simulate_plane(scene._plane_scene, motion_alone._kernel, other, every, *flags)
@@ -117,7 +125,7 @@ def simulate(
     if scene._general_scene is not None:
         run = _kernel.simulate_general(scene._general_scene, motion_alone._kernel, every, *flags)
     else:
-        run = _kernel.simulate(scene._kernel, motion_alone._kernel, every, *flags)
+        run = _kernel.simulate(scene._kernel, motion_alone._kernel, every, *flags, floor_force=floor_force)
     return Response(run, scene, motion_alone, motion if isinstance(motion, Record) else None)
 
 

@@ -24,7 +24,7 @@ from seismass.media.svg import figure_html, figure_svgs
 from seismass.media.text_table import number_text, text_table
 from seismass.model.codes import CODE_NAMES
 from seismass.studies.evidence.definitions import DEFINITIONS, MCE
-from seismass.studies.evidence.table import NUMBERS, RIGHT, ROUND
+from seismass.studies.evidence.table import BY_CLASS, NUMBERS, RIGHT, ROUND
 
 if TYPE_CHECKING:
     from seismass.studies.evidence import Evidence
@@ -48,15 +48,15 @@ def _cells(result: Evidence) -> list[list[str]]:
     """The table of the sheet: head, and a row for each occupancy and class."""
     code = result.metadata["codes"][0]
     numbers = [f"{number:g}" for number in NUMBERS]
-    head = ["occupancy, system", "n", "present", "(a)", "(d) [archetypes] {stations}", "V", "(e)", "round", code]
-    rows = [[*head, f"rate with {code}", *numbers, "round"]]
+    head = ["occupancy, system", "n", "present", "(a)", "(d) [archetypes] {stations}", "V", "F", "(e)", "round", code]
+    rows = [[*head, *(f"rate {rule}" for rule in (code, *numbers, "round"))]]
     for row in result.table.iter_rows(named=True):
         text = {name: number_text(value) for name, value in row.items() if not isinstance(value, str)}
         share = f"{text['d']} [{text['d_least']}-{text['d_most']}] {{{text['d_low']}-{text['d_high']}}}"
         ends = f" [{text[f'rate_{code}_least']}-{text[f'rate_{code}_most']}]"
         cells = [f"{row['occupancy']} ({row['live_kpa']:g} kPa), {row['class']}", str(row["archetypes"])]
         cells += [text["present"], text["a_mean"], "-" if row["d"] is None else share]
-        cells += [text[name] for name in ("base_shear", "e_d", "round", "code_fraction")]
+        cells += [text[name] for name in ("base_shear", "floor_force", "e_d", "round", "code_fraction")]
         cells += [text[f"rate_{code}"] + (ends if row[f"rate_{code}"] is not None else "")]
         rows.append([*cells, *(text[f"rate_{number}"] for number in numbers), text["rate_round_numbers"]])
     return rows
@@ -97,6 +97,28 @@ def sentences(result: Evidence) -> list[str]:
     return [first, second, third, fourth]
 
 
+def advice(result: Evidence) -> str:
+    """Return what a committee may print, and how often it is right, in one sentence."""
+    rules = result.tables["rules"].filter(quantity="rate")
+    codes = result.tables["codes"].filter(suite="first", code_id=BY_CLASS, quantity="rate")
+    joined = codes.join(result.tables["archetypes"].select("archetype", "present"), on="archetype")
+    factors = joined.group_by("class").agg((pl.col("fraction") / pl.col("present")).mean())
+    words = [f"{factor:.2f} in {WORDS[kind]}" for kind, factor in sorted(factors.iter_rows())]
+
+    def right(rule: str) -> str:
+        parts = rules.filter(code_id=rule)["right"].to_list()
+        return " and ".join(f"{100.0 * part:.0f} %" for part in parts)
+
+    code = result.metadata["codes"][0]
+    return (
+        f"In an analysis: the load present on average times {' and '.join(words)}, or the round numbers of the table. "
+        f"The rate of the drift limit is then within {RIGHT[0]:g} to {RIGHT[1]:g} times that of goods that slide in "
+        f"{right(BY_CLASS)} and in {right(ROUND)} of the archetypes on {' and '.join(result.metadata['suites'])}; with "
+        f"{CODE_NAMES[code]} in {right(code)}. Where one weight also sets the strength, column (e) is that fraction; "
+        "floors that are always full need what stands for them below."
+    )
+
+
 def _listed(items: list[str]) -> str:
     return "; ".join(items) if items else "none"
 
@@ -121,7 +143,8 @@ def assumptions(result: Evidence) -> list[str]:
     return [
         f"Site: S_DS {setting['sds']:g} g, S_D1 {setting['sd1']:g} g; design by {CODE_NAMES[setting['code']]}, lateral "
         "forces, period C_u T_a, I = 1.",
-        f"Shares of the design live load: {definitions}; V base shear at the design level; drift limit "
+        f"Shares of the design live load: {definitions}; V base shear, F force of loaded floors "
+        f"on their diaphragms, at the design level; drift limit "
         f"{100.0 * setting['limit']:g} %, drifts capped at that of the collapse. A dash: too rare for "
         f"{metadata['runs']} runs.",
         f"Springs: first yield {setting['first_yield']:g} V_y (sigma {setting['first_yield_sigma']:g}), second slope "
@@ -144,7 +167,11 @@ def evidence_text(result: Evidence) -> str:
     lines = [SYNTHETIC, ""] if result.metadata["synthetic"] else []
     counted = f"{result.table['archetypes'].sum()} archetypes, {_motions(result)}"
     lines += [f"Share of the design live load that acts as mass: {counted}", *text_table(_cells(result)), ""]
-    lines += [*_bullets(sentences(result)), "", "Annual rate of the drift limit, goods that slide over model, by rule"]
+    lines += [
+        *_bullets([advice(result), *sentences(result)]),
+        "",
+        "Annual rate of the drift limit, goods that slide over model, by rule",
+    ]
     lines += [*(f"  {line}" for line in rule_lines(result)), ""]
     lines += ["Samples: rms change of a share over the archetypes, part of the sample against all of it"]
     changes = result.tables["convergence"].filter(pl.col("definition").is_in(["a_mean", "d", "base_shear"]))
@@ -212,7 +239,7 @@ def _draw_shares(axes: Axes, result: Evidence, archetypes: pl.DataFrame, places:
         axes.plot(rows["share"], heights, marker, color=colour, markersize=3.4, markerfacecolor=face, label=label)
     full = result.tables["full"].drop_nulls("d")
     heights = [places[name] for name in full["archetype"]]
-    axes.plot(full["d"], heights, "|", color=KINDS[3], markersize=8.0, label="(d), full floors")
+    axes.plot(full["d"], heights, "x", color=GREY, markersize=4.0, label="(d), full floors")
     labels: dict[str, str | None] = {"present": "present, mean", "code": result.metadata["codes"][0]}
     for occupancy, rows in archetypes.group_by("occupancy", maintain_order=True):
         ends = [places[name] for name in rows["archetype"]]
@@ -250,7 +277,7 @@ def _draw_rates(axes: Axes, result: Evidence, places: dict[str, float]) -> None:
     axes.set_xlim(right=3.0)
     axes.minorticks_off()
     limit = f"{100.0 * result.metadata['setting']['limit']:g} %"
-    axes.set_xlabel(f"annual rate of {limit} drift, goods slide over model (above 1: unsafe)")
+    axes.set_xlabel(f"rate of {limit} drift, sliding over model (above 1: unsafe)")
 
 
 def _tornado(result: Evidence) -> Figure:
@@ -290,7 +317,6 @@ def _bars(rows: pl.DataFrame) -> list[tuple[str, float, float]]:
 def _page(result: Evidence, drawings: dict[str, str]) -> str:
     """The sheets: the table, the figure and the sentences on one side of A4; archetypes and rules behind it."""
     head, *rows = _cells(result)
-    names = [f"{name}{' ' * place}" if name in head[:place] else name for place, name in enumerate(head)]
     metadata, site = result.metadata, result.metadata["setting"]
     warning = [Markup('<p class="edited"><strong>{}</strong></p>').format(SYNTHETIC)] if metadata["synthetic"] else []
     caption = (
@@ -300,7 +326,8 @@ def _page(result: Evidence, drawings: dict[str, str]) -> str:
     alt = "For every archetype shares by four definitions, and rates with four fractions."
     sheet = [
         *warning,
-        table_html(pl.DataFrame(rows, schema=names, orient="row"), caption),
+        Markup('<p class="answer">{}</p>').format(advice(result)),
+        table_html(pl.DataFrame(rows, schema=head, orient="row"), caption, folds=True),
         figure_html(drawings["evidence"], "Shares and rates of every archetype.", alt),
         bullets_html(sentences(result)),
         text_html(" ".join(assumptions(result))),

@@ -18,8 +18,14 @@ use seismass_judge::scene_text;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
-const PEAKS: Options =
-    Options { histories: None, displacements_only: false, energy: false, events: false, peaks_only: true };
+const PEAKS: Options = Options {
+    histories: None,
+    displacements_only: false,
+    energy: false,
+    floor_force: false,
+    events: false,
+    peaks_only: true,
+};
 /// Turns that are taken whatever they cost.
 const LEAST_TURNS: usize = 5;
 /// Factor of a motion under which nothing yields and nothing slides.

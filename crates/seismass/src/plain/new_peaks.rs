@@ -117,7 +117,7 @@ impl NewPeaks {
     /// step in which these have turned.
     pub(crate) fn take_steps(&mut self, state: &State, observer: &mut Observer, first_end: f64) {
         for i in members(take(&mut self.floors)) {
-            observer.take_acceleration(i, self.acceleration[i], self.time[i]);
+            observer.take_acceleration(state, i, self.acceleration[i], self.time[i]);
         }
         for i in members(take(&mut self.ended)) {
             observer.take_drift(state, i, self.end[i], first_end);

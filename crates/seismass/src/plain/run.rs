@@ -410,6 +410,7 @@ pub(crate) fn plain_run(
         return first;
     }
     let reached = match state.regime.steps(state.vertical).map(|steps| &steps.whole) {
+        Some(Whole::Tall(_)) if observer.forces.is_some() => first,
         Some(Whole::Tall(step)) => {
             let step = Arc::clone(step);
             tall::run::run(state, observer, motion, &step, first, end)

@@ -10,6 +10,7 @@ use crate::polynomial::enclosure::signs;
 use crate::polynomial::power::Polynomial;
 use crate::polynomial::quadrature::GAUSS;
 use crate::record::energy::{EnergyBalance, elastic_energy, kinetic_energy};
+use crate::record::forces::FloorForces;
 use crate::record::histories::Recorder;
 use crate::record::peaks::PeakLanes;
 use crate::regime::{Row, viscous_power};
@@ -23,6 +24,7 @@ pub(crate) struct Observer {
     pub(crate) drift: PeakLanes,
     pub(crate) shear: PeakLanes,
     pub(crate) acceleration: PeakLanes,
+    pub(crate) forces: Option<FloorForces>,
     slip: Vec<Peak>,
     pub(crate) histories: Option<Recorder>,
     energy: Option<EnergyBalance>,
@@ -53,6 +55,7 @@ impl Observer {
             drift: PeakLanes::new(n),
             shear: PeakLanes::new(n),
             acceleration: PeakLanes::new(n),
+            forces: options.floor_force.then(|| FloorForces::new(n)),
             slip: vec![Default::default(); blocks],
             histories,
             energy: options.energy.then(EnergyBalance::default),
@@ -101,8 +104,11 @@ impl Observer {
 
     /// Takes the acceleration of floor `i` into its peak.
     #[inline]
-    pub(crate) fn take_acceleration(&mut self, i: usize, a: f64, time: f64) {
+    pub(crate) fn take_acceleration(&mut self, state: &State, i: usize, a: f64, time: f64) {
         self.beaten |= self.acceleration.take(i, a, time);
+        if let Some(forces) = &mut self.forces {
+            self.beaten |= forces.take_acceleration(state, i, a, time);
+        }
     }
 
     /// Whether peaks of drift, shear or acceleration were beaten since last asked.
@@ -138,6 +144,15 @@ impl Observer {
             beaten |= self.acceleration.take_vector::<V, K>(k, state.kinematics.a.vector::<V, K>(k), time);
         }
         self.beaten |= beaten != 0;
+    }
+
+    /// Takes the present floor forces, `tau` into the interval, after which bounds are to be formed anew.
+    #[inline(always)]
+    pub(crate) fn take_forces(&mut self, state: &mut State, tau: f64) {
+        if let Some(forces) = &mut self.forces {
+            forces.take(state, tau);
+            state.bounds.spoil();
+        }
     }
 
     /// [`Observer::observe_building`] within the code of a path.
@@ -223,7 +238,11 @@ impl Observer {
         let (first, others) = acceleration.derivative().sign_changes::<V>();
         for s in first.into_iter().chain(others).filter(|&s| s < end) {
             let time = start + s * state.step.series.h();
-            self.beaten |= self.acceleration.take_lane::<V, K>(i, acceleration.at::<V>(s), time);
+            let a = acceleration.at::<V>(s);
+            self.beaten |= self.acceleration.take_lane::<V, K>(i, a, time);
+            if let Some(forces) = &mut self.forces {
+                self.beaten |= forces.take_acceleration(state, i, a, time);
+            }
         }
     }
 

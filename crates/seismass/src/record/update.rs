@@ -36,4 +36,7 @@ pub(crate) fn update_bounds<V: Vector, const K: usize>(state: &mut State, observ
     store(&plastic, &mut bounds.sign);
     store(&turn, &mut bounds.turn);
     store(&acceleration, &mut bounds.a_peak);
+    if let Some(forces) = &observer.forces {
+        forces.narrow(state);
+    }
 }

@@ -51,6 +51,7 @@ impl ExactRun<'_> {
             (high < upper && low > lower)
                 && !self.observer.drift_may_peak(state, i, low, high)
                 && !self.observer.acceleration_may_peak(i, -a, a)
+                && !self.observer.forces.as_ref().is_some_and(|forces| forces.may_peak(state, i, a))
                 && a < state.blocks.stuck_mu[i + 1] * contact
         })
     }

@@ -6,6 +6,7 @@ use crate::events::carry_out::settle_all;
 use crate::machines::block::{BlockMotion, BlockState};
 use crate::plain::plain_loop::PlainLoop;
 use crate::plain::run::plain_run;
+use crate::record::forces::FloorForces;
 use crate::record::histories::Recorder;
 use crate::record::observer::Observer;
 use crate::response::{Event, Response, Statistics, Status};
@@ -48,6 +49,7 @@ impl ExactRun<'_> {
         }
         self.count_events(0);
         self.observer.observe_values(&self.state, 0.0);
+        self.observer.take_forces(&mut self.state, 0.0);
         self.observer.begin_energy(&self.state);
         self.observer.record(&self.state, 0);
         let model = self.state.model;
@@ -107,6 +109,7 @@ impl ExactRun<'_> {
             energy: self.observer.finish_energy(state),
             events: self.keep_log.then_some(self.log),
             peaks: self.observer.peaks(n),
+            floor_force: self.observer.forces.as_ref().map(FloorForces::peaks),
             histories: self.observer.histories.map(Recorder::finish),
             statistics: self.statistics,
         }

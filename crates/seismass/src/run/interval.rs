@@ -92,6 +92,9 @@ impl ExactRun<'_> {
         let event = first_event::<V, K>(state, tau, isolated);
         let end = event.place();
         observer.observe_series::<V, K>(state, tau, end, isolated);
+        if let Some(forces) = &mut observer.forces {
+            forces.observe::<V, K>(state, tau, end);
+        }
         if state.blocks.airborne {
             observer.observe_flights(state, tau, end);
         }
@@ -107,6 +110,9 @@ impl ExactRun<'_> {
         if event.is_none() && state.step.ranges.near_bound != [0; 3] {
             observer.take_building_in_lanes::<V, K>(state, state.interval.start + tau + state.step.series.h());
         }
+        if event.is_none() {
+            observer.take_forces(state, tau + state.step.series.h());
+        }
         Ok(event)
     }
 
@@ -118,6 +124,7 @@ impl ExactRun<'_> {
         if !guard.is_smooth() {
             state.refresh::<V, K>(tau);
             observer.take_accelerations_in_lanes::<V, K>(state, time);
+            observer.take_forces(state, tau);
         }
         let logged = self.log.len();
         let outcome = carry_out_in_lanes::<V, K>(state, guard, tau, &mut self.log);
@@ -125,6 +132,7 @@ impl ExactRun<'_> {
             state.refresh::<V, K>(tau);
         }
         observer.take_building_in_lanes::<V, K>(state, time);
+        observer.take_forces(state, tau);
         if !guard.is_smooth() || state.blocks.is_sliding || state.blocks.airborne {
             observer.observe_slips(state, time);
         }

@@ -9,6 +9,8 @@ pub struct Options {
     pub displacements_only: bool,
     /// Energies and their residual.
     pub energy: bool,
+    /// Peaks of floor forces; chains of storeys in one direction alone.
+    pub floor_force: bool,
     /// The event log.
     pub events: bool,
     /// Nothing but peaks is wanted: the run may stop when none can be beaten any more, and residuals are NaN. Without

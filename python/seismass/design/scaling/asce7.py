@@ -18,7 +18,7 @@ from seismass.motions.records.pair import Pair
 from seismass.motions.scaling.suite import (
     ScalingResult,
     SuiteSpectra,
-    checked_target,
+    as_target,
     positive_number,
     positive_period,
     suite_spectra,
@@ -40,7 +40,7 @@ APART: Final = 10
 
 def scale_asce7_10(
     records: Iterable[GroundMotion | Pair],
-    target: TargetSpectrum,
+    target: TargetSpectrum | str,
     period: float = 1.0,
     *,
     damping: float = 0.05,
@@ -56,8 +56,8 @@ def scale_asce7_10(
     records : iterable of Record or Motion, or of Pair
         The suite; at least three motions, as the standard asks. The spectrum of a pair is the root of the sum of the
         squares of those of its components; the factor is that of both.
-    target : TargetSpectrum
-        Design spectrum.
+    target : TargetSpectrum or str
+        Design spectrum, or what `--target` reads, as "asce7:1:0.6".
     period : float, default 1.0
         Fundamental period T (s) for which the suite is scaled.
     damping : float, default 0.05
@@ -91,6 +91,7 @@ def scale_asce7_10(
     options: dict[str, Any] = {"period_range": period_range, "damping": damping, "count": count, "threads": threads}
     refined = as_flag(between, "between", "scaling", InvalidOption)
     of_code = rule_of("asce7-10", "least motions")
+    target = as_target(target)
     return scaled_suite(listed, target, period, "ASCE 7-10", "srss", 1.0, least=of_code, between=refined, **options)
 
 
@@ -221,7 +222,7 @@ def _least_between(
 
 def scale_asce7_16(
     records: Iterable[Any],
-    target: TargetSpectrum,
+    target: TargetSpectrum | str,
     period: float | None = None,
     *,
     building: Building | None = None,
@@ -238,7 +239,7 @@ def scale_asce7_16(
     records : iterable of Record or Motion, or of Pair
         At least eleven. The spectrum of a pair is its largest over 180 directions in plan (maximum direction); the
         factor is that of both its components. A motion has its own spectrum.
-    target : TargetSpectrum
+    target : TargetSpectrum or str
         The standard's is MCE_R in the maximum direction.
     period : float, optional
         First period T (s); by default that of the building, and 1 s without one.
@@ -280,7 +281,7 @@ def scale_asce7_16(
     upper = positive_number(longest, "longest")
     if upper < 1.5:
         raise refusal(InvalidOption, "longest", "scaling", "at least 1.5 (ASCE/SEI 7-16, 16.2.3.1)", f"{upper:g}")
-    checked_target(target)
+    target = as_target(target)
     lowest = np.inf if lowest_period is None else positive_number(lowest_period, "lowest_period")
     listed = given_motions(records)
     number = sum(map(is_pair, listed))

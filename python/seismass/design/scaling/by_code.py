@@ -14,7 +14,7 @@ from seismass.design.code_design import structural_performance
 from seismass.design.rules import RULES, CodeRule, rule_of
 from seismass.design.scaling.asce7 import first_components, given_motions, is_pair, notes_7_16, scaled_suite
 from seismass.motions.records.pair import Pair
-from seismass.motions.scaling.suite import ScalingResult, SuiteSpectra, checked_target, positive_period, suite_spectra
+from seismass.motions.scaling.suite import ScalingResult, SuiteSpectra, as_target, positive_period, suite_spectra
 from seismass.motions.spectra import GroundMotion, TargetSpectrum
 
 GEOMETRIC_MEAN: Final = "geometric-mean"
@@ -42,7 +42,7 @@ MEAN_FROM: Final = 7
 
 def scale_by_code(
     records: Iterable[GroundMotion | Pair],
-    target: TargetSpectrum,
+    target: TargetSpectrum | str,
     period: float = 1.0,
     *,
     code_id: str = "asce7-10",
@@ -60,7 +60,7 @@ def scale_by_code(
     ----------
     records : iterable of Record or Motion, or of Pair
         The suite; at least as many motions as the code asks for.
-    target : TargetSpectrum
+    target : TargetSpectrum or str
         Spectrum of the level that the code scales to: that of design, or MCE_R in ASCE 7-16 and 7-22.
     period : float, default 1.0
         Fundamental period T (s).
@@ -94,7 +94,7 @@ def scale_by_code(
     code = known_id(code_id, SCALING_CODES, "scaling")
     base = "asce7-10" if code == GEOMETRIC_MEAN else code
     items, refined = given_motions(records), as_flag(between, "between", "scaling", InvalidOption)
-    checked_target(target)
+    target = as_target(target)
     fundamental = positive_period(period)
     shortest = fundamental if shortest_period is None else positive_period(shortest_period)
     options: dict[str, Any] = {"damping": damping, "count": count, "threads": threads}

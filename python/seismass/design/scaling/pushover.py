@@ -17,7 +17,7 @@ from seismass.design.scaling.oscillator import FirstModeOscillator, deformation_
 from seismass.model.building import Building
 from seismass.model.scene import Scene
 from seismass.model.springs import DEFAULT_OVERSTRENGTH, DEFAULT_SECOND_SLOPE, DEFAULT_THIRD_SLOPE
-from seismass.motions.scaling.suite import ScalingResult, checked_target, positive_number, suite_spectra
+from seismass.motions.scaling.suite import ScalingResult, as_target, positive_number, suite_spectra
 from seismass.motions.spectra import GroundMotion, TargetSpectrum, as_motions, response_spectrum
 from seismass.motions.spectra.inelastic import Oscillators
 
@@ -86,7 +86,7 @@ class PushoverScaling(ScalingResult):
 
 def scale_modal_pushover(
     records: Iterable[GroundMotion],
-    target: TargetSpectrum,
+    target: TargetSpectrum | str,
     building: Building | None = None,
     *,
     period: float | None = None,
@@ -108,7 +108,7 @@ def scale_modal_pushover(
     ----------
     records : iterable of Record or Motion
         The suite.
-    target : TargetSpectrum
+    target : TargetSpectrum or str
         Elastic design spectrum.
     building : Building, optional
         Shear building; its pushover under s = m phi_1 gives the oscillator (`first_mode_oscillator`), without P-Delta.
@@ -151,7 +151,7 @@ def scale_modal_pushover(
     *Limitation.* Two factors within one step of 1 % are both missed.
     """
     suite = as_motions(records, "scaling")
-    checked_target(target)
+    target = as_target(target)
     as_word(deformation, get_args(Deformation), "deformation", "scaling")
     springs = {"overstrength": overstrength, "second_slope": second_slope, "third_slope": third_slope}
     oscillator = (

@@ -7,9 +7,9 @@ import io
 import math
 import os
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, overload
 
 import numpy as np
 
@@ -110,8 +110,25 @@ class Suite:
     def __iter__(self) -> Iterator[Record]:
         return iter(self.records)
 
-    def __getitem__(self, index: int) -> Record:
-        return self.records[index]
+    @overload
+    def __getitem__(self, index: int) -> Record: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> Suite: ...
+
+    def __getitem__(self, index: int | slice) -> Record | Suite:
+        """Return a record, counted from 0, or those of a slice as a suite."""
+        return replace(self, records=self.records[index]) if isinstance(index, slice) else self.records[index]
+
+    def scaled(self, factor: float) -> Suite:
+        """Return the suite with every record multiplied by `factor`, a finite number.
+
+        Raises
+        ------
+        InvalidMotion
+            The factor is not a finite number.
+        """
+        return replace(self, records=tuple(record.scaled(factor) for record in self.records))
 
     @view
     def _repr_html_(self) -> str:

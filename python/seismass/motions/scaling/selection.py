@@ -45,7 +45,7 @@ class Selection(FieldValue, Card):
 
 def select_records(
     suite: Suite | str | os.PathLike[str],
-    target: TargetSpectrum,
+    target: TargetSpectrum | str,
     count: int,
     *,
     period: float = 1.0,
@@ -64,7 +64,7 @@ def select_records(
     ----------
     suite : Suite or path-like
         The candidates; a path is read by `read_suite`.
-    target : TargetSpectrum
+    target : TargetSpectrum or str
         The target.
     count : int
         Number of records to choose.

@@ -17,6 +17,7 @@ from seismass.base.values import (
     FloatArray,
     as_count,
     as_number,
+    as_one_of,
     as_positive,
     brief,
     counted,
@@ -306,7 +307,7 @@ class SuiteSpectra:
 
 def suite_spectra(
     records: Iterable[GroundMotion],
-    target: TargetSpectrum,
+    target: TargetSpectrum | str,
     period: Any,
     *,
     damping: Any,
@@ -323,13 +324,13 @@ def suite_spectra(
     if len(suite) < number:
         words = {3: "three", 11: "eleven"}.get(number, str(number))
         raise refusal(InvalidMotion, "records", "scaling", f"at least {words} motions ({clause})", f"{len(suite)}")
-    checked_target(target)
+    spectrum = as_target(target)
     fundamental = positive_period(period)
     damping_ratio = as_number(damping, "damping", "scaling", InvalidOption)
     points = as_count(count, "count", "scaling", InvalidOption, least=2)
     shortest, longest = checked_range(period_range)
     periods = fundamental * np.geomspace(shortest, longest, points)
-    ordinates = target(periods)
+    ordinates = spectrum(periods)
     spectra = response_spectrum(suite, periods, damping_ratio, threads=threads)
     check_not_zero(spectra)
     return SuiteSpectra(
@@ -339,15 +340,15 @@ def suite_spectra(
         periods=frozen(periods),
         target=frozen(ordinates),
         spectra=frozen(spectra),
-        target_label=target.label,
+        target_label=spectrum.label,
         remarks_on_band=tuple(band_remarks(suite, float(periods[0]), float(periods[-1]))),
     )
 
 
-def checked_target(target: Any) -> None:
-    """Raise where the argument is not a target spectrum."""
-    if not isinstance(target, TargetSpectrum):
-        raise refusal(InvalidOption, "target", "scaling", "a TargetSpectrum", brief(target))
+def as_target(target: Any, owner: str = "scaling") -> TargetSpectrum:
+    """Return a target spectrum, or that of a text such as "asce7:1:0.6" (`target_of`)."""
+    spectrum = target_of(target) if isinstance(target, str) else target
+    return as_one_of(spectrum, TargetSpectrum, "target", owner, InvalidOption)
 
 
 def positive_period(period: Any) -> float:
@@ -436,7 +437,7 @@ Space: TypeAlias = Literal["log", "linear"]
 
 def scale_least_squares(
     records: Iterable[GroundMotion],
-    target: TargetSpectrum,
+    target: TargetSpectrum | str,
     period: float = 1.0,
     *,
     space: Space = "log",
@@ -480,7 +481,7 @@ def scale_least_squares(
 
 def scale_sa_t1(
     records: Iterable[GroundMotion],
-    target: TargetSpectrum,
+    target: TargetSpectrum | str,
     period: float = 1.0,
     *,
     damping: float = 0.05,
@@ -508,6 +509,7 @@ def scale_sa_t1(
     -----
     SF_i = A_t(T1)/A_i(T1), the elastic ratio to which `scale_modal_pushover` comes down for R = 1.
     """
+    target = as_target(target)
     motions = as_motions(records, "scaling")
     suite = suite_spectra(
         motions, target, period, damping=damping, period_range=period_range, count=count, threads=threads

@@ -348,22 +348,27 @@ class BuildingColumns:
         changing = [self.columns[name].of(scenes).reshape(len(scenes), -1) for name in CHANGING if name in self.columns]
         if attached is None and not changing:
             return Formed(list(self.buildings), index, blocks)
+        if self.design is not None:
+            changing.append(design_load)
+        without_load = np.column_stack([index, *changing])
         loads = np.zeros((len(scenes), 2, len(self.floors)))
         if attached is not None and sliding is not None:
             loads[:, 0] = attached[:, None] * (present if self.attached_of == "present" else design_load)
             loads[:, 1] = (1.0 - sliding)[:, None] * present
             changing.append(loads.reshape(len(scenes), -1))
-        if self.design is not None:
-            changing.append(design_load)
         keys = np.nan_to_num(np.column_stack([index, *changing]), nan=-1.0, posinf=np.inf)
         _, first, which = np.unique(keys, axis=0, return_index=True, return_inverse=True)
         which = which.reshape(-1)
         formed, added = [], []
         designed: dict[Hashable, FloatArray] = {}
+        known: dict[bytes, Building] = {}  # buildings without live load
         for place in first.tolist():
             scene = scenes[place : place + 1]
             try:
-                changed = self._changed(scene, int(index[place]), design_load[place], designed)
+                key = without_load[place].tobytes()
+                if key not in known:
+                    known[key] = self._changed(scene, int(index[place]), design_load[place], designed)
+                changed = known[key]
                 if attached is not None:
                     self._on_floors(design_load[place], changed.storeys)  # of floors that are there
                 building, more = self._loaded(changed, *loads[place])

@@ -86,6 +86,8 @@ class Setting:
         Loads scatter, or are the mean of the surveys; every floor has its design live load; second-order effects.
     design_fraction : float or None
         Fraction of the live load in all designs, in place of the code's.
+    altered : str or None
+        A change of the scenes, of `runs.ALTERATIONS`.
     samples : tuple of int
         Buildings of each motion, and loads of each building.
     levels, shares : tuple of float
@@ -116,9 +118,10 @@ class Setting:
     full: bool = False
     p_delta: bool = True
     design_fraction: float | None = None
-    samples: tuple[int, int] = (8, 4)
-    levels: tuple[float, ...] = (0.3, 0.4, 0.5, 0.75, 1.0, 1.25, 1.5, 1.85, 2.25, 3.3)
-    shares: tuple[float, ...] = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.5)
+    altered: str | None = None
+    samples: tuple[int, int] = (8, 8)
+    levels: tuple[float, ...] = (0.3, 0.5, 0.75, 1.0, 1.5, 2.25, 3.3)
+    shares: tuple[float, ...] = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.65, 1.0, 1.5)
     limit: float = 0.02
     seed: int = 1
 

@@ -14,7 +14,7 @@ from seismass.base.values import FloatArray
 from seismass.effective_mass.share import RARE, EqualShare, equal_share
 from seismass.studies.evidence.archetypes import Setting
 from seismass.studies.evidence.runs import Runs, gathered
-from seismass.studies.risk.annual_rate import stripe_weights
+from seismass.studies.risk.annual_rate import run_rates, stripe_rates
 from seismass.studies.risk.hazard import HazardCurve
 
 MCE: Final = 1.5
@@ -27,12 +27,19 @@ DEFINITIONS: Final = {
     "d": "annual rate of drift above the limit",
     "rate_collapse": "annual rate of collapse",
     "base_shear": "mean base shear at the design level",
+    "floor_force": "mean force of loaded floors on their diaphragms at the design level",
     "q84": "84 % quantile of drift at the design level",
     "e_d": "fraction in the design for the rate of (d) of a building whose mass is known",
     "e_c": "fraction in the design for the rate of collapse of a building whose mass is known",
 }
 """Definitions of a share of the design live load."""
-QUANTITIES: Final = {"drift": "a_mean", "rate": "d", "P_collapse": "c", "base_shear": "base_shear"}
+QUANTITIES: Final = {
+    "drift": "a_mean",
+    "rate": "d",
+    "P_collapse": "c",
+    "base_shear": "base_shear",
+    "floor_force": "floor_force",
+}
 """Quantities that are compared at the fractions of codes, with the definition of each."""
 
 
@@ -44,11 +51,6 @@ class Question:
     hazard: HazardCurve
     cluster_of: NDArray[np.int64]
     resamples: int
-
-    @property
-    def weights(self) -> FloatArray:
-        """Part of each level in annual rates."""
-        return stripe_weights(self.setting.levels, self.hazard)
 
     def level(self, value: float) -> int:
         """Number of a level, from 0."""
@@ -70,8 +72,8 @@ class Answer:
 
     def ratio(self, quantity: str, fraction: float) -> dict[str, float | None]:
         """Return real over model of a quantity with a fraction in the model, with its interval; None where rare."""
-        known = self.acceleration if quantity == "floor_acceleration" else self.shares[QUANTITIES[quantity]]
-        values = (np.nan,) * 3 if known.kind == "rare" else known.over_model(fraction)
+        known = self.acceleration if quantity == "floor_acceleration" else self.shares.get(QUANTITIES[quantity])
+        values = (np.nan,) * 3 if known is None or known.kind == "rare" else known.over_model(fraction)
         names = ("real_over_model", "low", "high")
         return {name: value if np.isfinite(value) else None for name, value in zip(names, values, strict=True)}
 
@@ -112,7 +114,7 @@ def answer_of(table: pl.DataFrame, question: Question, *, convergence: bool = Tr
             rows += [{"sample": name, "definition": each, "change": value} for each, value in changes.items()]
     return Answer(
         shares,
-        _shares(models, gathered(table, "fixed"), question),
+        _shares(models, gathered(table, "fixed"), question) if (table["model"] == "fixed").any() else {},
         _share(question, *acceleration),
         float(sliding.at(design, "slides").mean()),
         list(_fragility_rows(models, sliding, question)),
@@ -126,7 +128,7 @@ def _shares(models: Runs, sliding: Runs, question: Question) -> dict[str, EqualS
     drifts = models.at(design), sliding.at(design)
     exceeds = (drifts[0] > limit).astype(np.float64), (drifts[1] > limit).astype(np.float64)
     collapses = models.at(mce, "collapsed"), sliding.at(mce, "collapsed")
-    shears = models.at(design, "base_shear"), sliding.at(design, "base_shear")
+    shears, forces = ((models.at(design, name), sliding.at(design, name)) for name in ("base_shear", "floor_force"))
     shares = {
         "a_mean": _share(question, *drifts),
         "a_ln": _share(question, *drifts, statistic="ln mean"),
@@ -135,6 +137,8 @@ def _shares(models: Runs, sliding: Runs, question: Question) -> dict[str, EqualS
         "base_shear": _share(question, *shears),
         "q84": _share(question, *drifts, statistic="quantile"),
     }
+    if np.isfinite(forces[0]).all() and np.isfinite(forces[1]).all():
+        shares["floor_force"] = _share(question, *forces)
     for name, quantity, most in (("d", "drift", limit), ("rate_collapse", "collapsed", 0.5)):
         rates = _rates(models, quantity, most, question), _rates(sliding, quantity, most, question)
         is_rare = (sliding.at(-1, quantity) > most).mean() < RARE
@@ -153,8 +157,11 @@ def _share(question: Question, models: FloatArray, sliding: FloatArray, **option
 
 
 def _rates(runs: Runs, quantity: str, most: float, question: Question) -> FloatArray:
-    """Part of each run in the annual rate of a quantity above a value, levels summed."""
-    return np.tensordot(question.weights, (runs.peaks[quantity] > most).astype(np.float64), (0, 1))
+    """Part of each run in the annual rate of a drift above a value, or of a collapse."""
+    values, levels = np.moveaxis(runs.peaks[quantity], 1, 0), question.setting.levels
+    if quantity == "drift":
+        return run_rates(levels, values, most, question.hazard)
+    return stripe_rates(levels, values > most, question.hazard)
 
 
 def _of_designs(table: pl.DataFrame, question: Question) -> Iterator[tuple[str, EqualShare]]:

@@ -19,10 +19,10 @@ from seismass.base.values import FieldValue, as_flag, as_list, as_number, as_one
 from seismass.base.views import view
 from seismass.media.result import Result, finite_values
 from seismass.model.codes import code_fraction
-from seismass.motions.records import Suite, builtin_suite
+from seismass.motions.records import Pair, Suite, builtin_suite
 from seismass.studies.evidence.archetypes import Archetype, Setting, read_archetypes
 from seismass.studies.evidence.definitions import MCE, QUANTITIES, Answer, Question, answer_of
-from seismass.studies.evidence.runs import present_share, runs_of, solved_archetype
+from seismass.studies.evidence.runs import Motions, first_components, present_share, runs_of, solved_archetype
 from seismass.studies.evidence.variants import variants
 from seismass.studies.risk.hazard import HazardCurve
 
@@ -38,7 +38,7 @@ STEP: Final = 0.05
 """To which round numbers are rounded."""
 RIGHT: Final = (0.8, 1.25)
 """Rate, real over model, between which a rule is right."""
-QUICK: Final[dict[str, Any]] = {"levels": (0.5, 1.0, 1.5, 2.25, 3.3), "samples": (2, 2)}
+QUICK: Final[dict[str, Any]] = {"levels": (0.3, 0.75, 1.0, 1.5, 3.3), "samples": (2, 2)}
 _QUICK_ARCHETYPES: Final = 10
 ROUND: Final = "round numbers"
 BY_CLASS: Final = "present x factor of the class"
@@ -113,7 +113,7 @@ class _Part:
     """A suite with the setting in which archetypes are solved under it; `name` begins those of its kept parts."""
 
     name: str
-    suite: Suite
+    suite: Motions
     setting: Setting
     redesign: bool
 
@@ -146,7 +146,8 @@ def evidence(
     codes : iterable of str, optional
         Codes whose fractions are compared.
     other : Suite, optional
-        Motions on which the round numbers are judged that were found on `suite`; half as many buildings, no redesign.
+        Motions on which the round numbers are judged that were found on `suite`; a quarter of the buildings, no
+        redesign.
     quick, vary : bool, default False
         Ten archetypes with few samples and levels, for a first look; one input at a time changed, too, on one archetype
         of each occupancy and class.
@@ -199,7 +200,7 @@ def evidence(
         _ = [code_fraction(code, each.occupancy.survey.use) for each in listed]
     curve = default_hazard() if hazard is None else as_one_of(hazard, HazardCurve, "hazard", "evidence", InvalidOption)
     parts = [_Part("first", suites[0], settings, True)]
-    fewer = replace(settings, samples=(max(settings.samples[0] // 2, 1), settings.samples[1]))
+    fewer = replace(settings, samples=(max(settings.samples[0] // 4, 1), settings.samples[1]))
     parts += [_Part("other", each, fewer, False) for each in suites[1:]]
     full, typical = _Part("full", suites[0], replace(fewer, full=True), False), typical_archetypes(listed)
     work = [(part, each) for part in parts for each in listed] + [(full, each) for each in typical]
@@ -211,7 +212,8 @@ def evidence(
     def solved(part: _Part, archetype: Archetype, slope: float | None = None) -> Answer:
         runs = runs_of(archetype, part.setting, len(part.suite), part.redesign)
         tell = stages.part(runs) or (lambda *_: None)
-        digest = inputs_digest(part.setting, archetype, part.redesign, motion_contents(part.suite))[:24]
+        components = [one for each in part.suite for one in (each if isinstance(each, Pair) else (each,))]
+        digest = inputs_digest(part.setting, archetype, part.redesign, motion_contents(components))[:24]
         how: dict[str, Any] = {"redesign": part.redesign, "threads": threads, "report": lambda done: tell(done, runs)}
         make = lambda: solved_archetype(archetype, part.setting, part.suite, **how)  # noqa: E731
         tell(0, runs)
@@ -236,11 +238,11 @@ def evidence(
     return Evidence(tables, metadata | {"quick": quick, "runs": total, "codes": list(compared)})
 
 
-def stations(suite: Suite) -> NDArray[np.int64]:
-    """Number of the station of each record, from 0; a synthetic one is its own."""
+def stations(suite: Motions) -> NDArray[np.int64]:
+    """Number of the station of each record or pair, from 0; a synthetic one is its own."""
     names = [
         number if record.synthetic or not record.station else (record.event, record.station)
-        for number, record in enumerate(suite)
+        for number, record in enumerate(first_components(suite))
     ]
     numbers = {name: number for number, name in enumerate(dict.fromkeys(names))}
     return np.array([numbers[name] for name in names])
@@ -362,7 +364,7 @@ def _summary(
     loads = {"archetypes": pl.len(), "live_kpa": pl.col("live_kpa").first(), "present": pl.col("present").mean()}
     summary = designs.group_by(keys, maintain_order=True).agg(**loads)
     joined = []
-    for name in ("a_mean", "d", "base_shear", "e_d", "b", "c"):
+    for name in ("a_mean", "d", "base_shear", "floor_force", "e_d", "b", "c"):
         columns = {name: share.mean(), f"lambda_{name}": pl.col("lambda").mean()}
         if name == "d":
             columns |= {"d_least": share.min(), "d_most": share.max()}

@@ -32,7 +32,7 @@ from seismass.studies.fragility.run import (
 
 Motions: TypeAlias = MotionLike | Iterable[MotionLike]
 Models: TypeAlias = Scene | Mapping[str, Scene]
-Limits: TypeAlias = LimitState | Iterable[LimitState]
+Limits: TypeAlias = LimitState | str | Iterable[LimitState | str]
 
 
 def incremental_dynamic_analysis(
@@ -64,8 +64,8 @@ def incremental_dynamic_analysis(
         share of them attached, all attached. Or models by name, of which "real", or else the first, is the reference.
     motions : Motion, Record or iterable of them
         The suite.
-    limits : LimitState or iterable of them
-        The limit states.
+    limits : LimitState or str, or iterable of them
+        The limit states, or their names, as `parse_limit` reads them: "drift_ratio=0.02".
     measure : {"scale", "pga", "sa_t1", "sa_avg"} or IntensityMeasure, default "sa_t1"
         The intensity measure; see `IntensityMeasure`.
     period : float, optional

@@ -252,9 +252,10 @@ class LimitState:
 
 
 def as_limits(limits: Any, owner: str) -> tuple[LimitState, ...]:
-    """Return limit states: at least one, and none twice."""
-    listed = [limits] if isinstance(limits, LimitState) else limits
+    """Return limit states, or those of their names: at least one, and none twice."""
+    listed = [limits] if isinstance(limits, LimitState | str) else limits
     items = tuple(as_list(listed, "limits", owner, InvalidOption, "LimitStates"))
+    items = tuple(parse_limit(item) if isinstance(item, str) else item for item in items)
     if not items:
         raise refusal(InvalidOption, "limits", owner, "at least one LimitState", "none")
     for number, limit in enumerate(items, start=1):

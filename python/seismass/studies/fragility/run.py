@@ -183,7 +183,7 @@ def solve_runs(
 def solve_grid(
     models: Mapping[str, Scene] | Scene,
     motions: Any,
-    limits: LimitState | Sequence[LimitState],
+    limits: LimitState | str | Sequence[LimitState | str],
     intensities: ArrayLike,
     *,
     measure: MeasureName | IntensityMeasure = "sa_t1",
@@ -199,8 +199,8 @@ def solve_grid(
         Models by name; a scene alone is "real".
     motions : Motion, Record or iterable of them
         The suite.
-    limits : LimitState or sequence of them
-        What is asked of the runs.
+    limits : LimitState or str, or sequence of them
+        What is asked of the runs, or their names, as `parse_limit` reads them.
     intensities : array_like, shape (levels,)
         Positive intensities.
     measure, period

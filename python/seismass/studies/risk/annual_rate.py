@@ -15,7 +15,7 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from seismass.base.errors import InvalidOption
-from seismass.base.values import FieldValue, FloatArray, as_array, as_flag, as_number, brief, refusal
+from seismass.base.values import FieldValue, FloatArray, as_array, as_flag, as_number, as_positive, brief, refusal
 from seismass.base.views import Card
 from seismass.media.result import finite_values
 from seismass.studies.risk.hazard import HazardCurve, check_hazard, check_years
@@ -115,9 +115,7 @@ def capacity_rates(capacities: ArrayLike, hazard: HazardCurve) -> RateParts:
 
 def stripe_weights(levels: ArrayLike, hazard: HazardCurve) -> FloatArray:
     """Return the weights of probabilities at stripes whose sum is an annual rate (1/year); see `stripe_rates`."""
-    x = as_array(levels, "levels", OWNER, InvalidOption)
-    if not len(x) or not (x > 0.0).all() or not (np.diff(x) > 0.0).all():
-        raise refusal(InvalidOption, "levels", OWNER, "positive and increasing", brief(x.tolist()))
+    x = _levels(levels)
     curve = check_hazard(hazard, OWNER)
     ends = np.log(np.concatenate([[0.5 * x[0]], x]))
     inner = np.log(curve.sa_g)
@@ -161,14 +159,75 @@ def stripe_rates(levels: ArrayLike, probability: ArrayLike, hazard: HazardCurve)
     [0.000216, 0.000541]
     """
     weights = stripe_weights(levels, hazard)
+    return np.asarray(np.tensordot(weights, _at_levels(probability, "probability", len(weights)), 1))
+
+
+def run_rates(levels: ArrayLike, demand: ArrayLike, limit: float, hazard: HazardCurve) -> FloatArray:
+    """Return annual rates (1/year) at which each of many runs exceeds a limit, of the shape behind the levels.
+
+    Parameters
+    ----------
+    levels : array_like, shape (levels,)
+        Intensities, increasing, in the unit of the curve.
+    demand : array_like, shape (levels, ...)
+        Positive demand of the same motion, building and goods at each of them.
+    limit : float
+        Demand that must not be exceeded.
+    hazard : HazardCurve
+        Annual rate of the intensity; it goes on by its end slopes.
+
+    Raises
+    ------
+    InvalidOption
+        An argument is not what it must be.
+
+    Notes
+    -----
+    The logarithm of the demand is linear in that of the intensity between levels, the demand in proportion to the
+    intensity below the lowest, and as at the highest above it. Where a run crosses the limit several times the rates of
+    all intensities above it are added. The mean over runs has less scatter, and needs fewer levels, than `stripe_rates`
+    of the probabilities, in which a run counts wholly or not at all at each level.
+
+    Examples
+    --------
+    >>> import seismass as sm
+    >>> hazard = sm.risk.HazardCurve([0.1, 1.0], [1e-2, 1e-4])
+    >>> [float(f"{rate:.3g}") for rate in sm.risk.run_rates([0.2, 0.8], [[0.01, 0.03], [0.04, 0.12]], 0.02, hazard)]
+    [0.000625, 0.00563]
+    """
+    x, curve = _levels(levels), check_hazard(hazard, OWNER)
+    values = _at_levels(demand, "demand", len(x))
+    if not (values > 0.0).all():
+        raise refusal(InvalidOption, "demand", OWNER, "positive", brief(demand))
+    excess = np.log(values / as_positive(limit, "limit", OWNER, InvalidOption))
+    known, exceeds = curve.rates(x), excess > 0.0
+    rates = np.where(exceeds[-1], known[-1], 0.0)
+    rates += np.where(exceeds[0], curve.rates(x[0] * np.exp(-np.maximum(excess[0], 0.0))) - known[0], 0.0)
+    for i in range(len(x) - 1):
+        low, high = excess[i : i + 2]
+        part = np.where(exceeds[i] != exceeds[i + 1], low / np.where(low == high, 1.0, low - high), 0.0)
+        crossing = curve.rates(x[i] * (x[i + 1] / x[i]) ** part)
+        rates += np.where(exceeds[i], known[i], crossing) - np.where(exceeds[i + 1], known[i + 1], crossing)
+    return rates
+
+
+def _levels(levels: ArrayLike) -> FloatArray:
+    """Return intensities, positive and increasing."""
+    x = as_array(levels, "levels", OWNER, InvalidOption)
+    if not len(x) or not (x > 0.0).all() or not (np.diff(x) > 0.0).all():
+        raise refusal(InvalidOption, "levels", OWNER, "positive and increasing", brief(x.tolist()))
+    return x
+
+
+def _at_levels(numbers: ArrayLike, name: str, levels: int) -> FloatArray:
+    """Return numbers with a row for each level."""
     try:
-        values = np.asarray(probability, dtype=np.float64)
+        values = np.asarray(numbers, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
         values = np.empty(0)
-    if values.shape[:1] != weights.shape:
-        requirement = f"{len(weights)} rows of numbers, one for each level"
-        raise refusal(InvalidOption, "probability", OWNER, requirement, brief(probability))
-    return np.asarray(np.tensordot(weights, values, 1))
+    if values.shape[:1] != (levels,):
+        raise refusal(InvalidOption, name, OWNER, f"{levels} rows of numbers, one for each level", brief(numbers))
+    return values
 
 
 def _step_parts(capacity: FloatArray, hazard: HazardCurve) -> RateParts:

@@ -34,7 +34,7 @@ from seismass.media.result import Result, finite_values
 from seismass.model.scene import Scene
 from seismass.motions.motion import HasMotion, Motion, MotionLike
 from seismass.studies.fragility.hunt import exact_capacities
-from seismass.studies.fragility.limits import IntensityMeasure, LimitState, MeasureName
+from seismass.studies.fragility.limits import IntensityMeasure, LimitState, MeasureName, parse_limit
 from seismass.studies.fragility.run import DEFAULT_CODE_SHARE, SLIDING, Setting, setting_of
 from seismass.studies.risk.hazard import DESIGN_RATE, HazardCurve, check_hazard
 from seismass.studies.risk.tables import (
@@ -211,7 +211,7 @@ def risk_targeted_share(
     scene: Scene,
     motions: MotionLike | Iterable[MotionLike],
     hazard: HazardCurve,
-    limit: LimitState | float,
+    limit: LimitState | str | float,
     *,
     measure: MeasureName | IntensityMeasure = "sa_t1",
     period: float | None = None,
@@ -238,9 +238,9 @@ def risk_targeted_share(
         The suite; every motion is scaled to its capacity. Records of one event are resampled together.
     hazard : HazardCurve
         Annual rate of exceedance of the intensity.
-    limit : LimitState or float
-        Limit of the largest drift ratio or drift. A number is a drift ratio where the building has heights, else a
-        drift in m.
+    limit : LimitState, str or float
+        Limit of the largest drift ratio or drift, or its name ("drift_ratio=0.02"). A number is a drift ratio where the
+        building has heights, else a drift in m.
     measure, period
         Intensity measure in g, the one that the hazard curve is of; see `seismass.fragility.IntensityMeasure`. By
         default Sa at the period of the hazard curve, or else at the first period of the building without goods. All
@@ -441,6 +441,7 @@ def _limit(limit: Any, scene: Scene) -> LimitState:
     """A limit of peak drift; a number counts as one of drift ratio, or of drift where there are no heights."""
     if isinstance(limit, Real) and not isinstance(limit, bool):
         return LimitState("drift" if building_of(scene).heights is None else "drift_ratio", float(limit))
+    limit = parse_limit(limit) if isinstance(limit, str) else limit
     if not isinstance(limit, LimitState) or limit.quantity not in ("drift", "drift_ratio"):
         raise refusal(InvalidOption, "limit", OWNER, "a number, or a LimitState of drift or drift_ratio", brief(limit))
     return limit

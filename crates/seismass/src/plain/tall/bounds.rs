@@ -226,7 +226,7 @@ impl TallBounds {
                 observer.take_drift(state, i, x, time);
             }
             if let Some((a, time)) = acceleration {
-                observer.take_acceleration(i, a, time);
+                observer.take_acceleration(state, i, a, time);
             }
         }
     }
