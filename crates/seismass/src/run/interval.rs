@@ -119,15 +119,15 @@ impl ExactRun<'_> {
             state.refresh::<V, K>(tau);
             observer.take_accelerations_in_lanes::<V, K>(state, time);
         }
+        if state.blocks.is_sliding || state.blocks.airborne {
+            observer.observe_slips(state, time);
+        }
         let logged = self.log.len();
         let outcome = carry_out_in_lanes::<V, K>(state, guard, tau, &mut self.log);
         if outcome == Outcome::Continue {
             state.refresh::<V, K>(tau);
         }
         observer.take_building_in_lanes::<V, K>(state, time);
-        if !guard.is_smooth() || state.blocks.is_sliding || state.blocks.airborne {
-            observer.observe_slips(state, time);
-        }
         if time == state.interval.start {
             observer.record_again(state, state.interval.sample);
         }
