@@ -2,7 +2,8 @@
 
 Usage: python benchmarks/general_engine.py [--plane] [--write FOLDER]. It prints the page docs/general_engine.md, or
 writes it into a folder with the measured numbers (general_engine.json). With --plane it measures what is in two
-directions and takes the other numbers from those that are kept. Times are processor times of one thread.
+directions and takes the other numbers from those that are kept; without OpenSees, its numbers. Times are processor
+times of one thread.
 """
 
 from __future__ import annotations
@@ -105,8 +106,9 @@ def plane_costs(motions: tuple[sm.Motion, sm.Motion]) -> list[dict[str, Any]]:
     for name, still, moving in (*scenes, ("10, rack", None, stiff_plane_scene())):
         row: dict[str, Any] = {"coordinates": name, "sample": None}
         if still is not None:
-            row["sample"] = _time(partial(sm.simulate, still, motions, events=False)) / motions[0].samples
-        row["average"] = _time(partial(sm.simulate, moving, motions, events=False), 3) / motions[0].samples
+            samples = max(motion.samples for motion in motions)
+            row["sample"] = _time(partial(sm.simulate, still, motions, events=False)) / samples
+        row["run"] = _time(partial(sm.simulate, moving, motions, events=False), 3)
         run = sm.simulate(moving, motions, events=False)
         row |= {key: run.statistics[key] for key in ("events", "series_steps")}
         rows.append(row)
@@ -195,6 +197,16 @@ def elastic_difference(motion: sm.Motion) -> float | None:
     return float(np.abs(found - drift).max() / drift.max())
 
 
+def keep_opensees(data: dict[str, Any], kept: dict[str, Any]) -> None:
+    """Take the numbers of OpenSees from those that are kept."""
+    data["opensees_machine"] = kept["opensees_machine"]
+    for row, before in zip(data["costs"], kept["costs"], strict=True):
+        row["opensees"] = before["opensees"]
+    for name, rows in (*data["opensees"].items(), ("plane", data["plane"]["opensees"])):
+        rows[1:] = (kept["plane"]["opensees"] if name == "plane" else kept["opensees"][name])[1:]
+    data["elastic"] = kept["elastic"]
+
+
 def main() -> int:
     """Measure, and print or write the page."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
@@ -206,10 +218,9 @@ def main() -> int:
     first, second = (sm.builtin_record(f"synthetic-{number}") for number in (3, 4))
     motion, other = (record.scaled(0.45 / record.pga_g).motion for record in (first, second))
     motions = (motion, other)
-    data: dict[str, Any] = {}
-    if given.plane:
-        data = json.loads((Path(__file__).parent / "results" / "general_engine.json").read_text())
-    else:
+    kept = json.loads((Path(__file__).parent / "results" / "general_engine.json").read_text())
+    data: dict[str, Any] = dict(kept)
+    if not given.plane:
         data = {
             "machine": summary(("numpy", "openseespy")),
             "motion": f"synthetic-3 at 0.45 g, {motion.samples} samples",
@@ -224,6 +235,9 @@ def main() -> int:
         "suite": plane_suite_time(),
         "opensees": plane_against_opensees(motions),
     }
+    data["opensees_machine"] = data["machine"]
+    if general_opensees.ops is None:
+        keep_opensees(data, kept)
     text = page(data, REPEATS)
     if given.write is None:
         print(text)

@@ -43,7 +43,14 @@ TOLERANCE: Final = 1.0
 
 YIELDING: Final = "yielding, 4 storeys"
 SECTION4: Final = ("section 4, r2 = 0.05", "section 4, r2 = 0.5")
-STEPPED: Final = (YIELDING, *SECTION4, "sliding, 3 storeys", "rayleigh, 12 storeys")
+STEPPED: Final = (
+    YIELDING,
+    "yielding, 5 storeys",
+    "128 blocks, 4 storeys",
+    *SECTION4,
+    "sliding, 3 storeys",
+    "rayleigh, 12 storeys",
+)
 """Scenes solved by plain steps and events, of crates/seismass-bench/benches/common."""
 WHOLE: Final = ("elastic, 4 storeys", "rayleigh, 100 storeys")
 """Scenes of which the run as a whole is counted: without events, and without plain steps."""

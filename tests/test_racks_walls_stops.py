@@ -194,3 +194,32 @@ def test_what_takes_shear_buildings_alone_says_so() -> None:
         sm.errors.InvalidScene, match="stiffness_matrix of building must be left out in scaling by push"
     ):
         sm.scaling.first_mode_oscillator(walled.building)
+
+
+@pytest.mark.parametrize(
+    "table", ("blocks.stops", "blocks.stops_y", "racks", "racks.other_direction", "racks.blocks.stops")
+)
+def test_null_in_a_list_of_a_scene_file_is_infinite(tmp_path: Path, table: str) -> None:
+    """Of everything that may be infinite in a list: the same scene as with a number beyond the range."""
+    stops, strengths = {"clearance": [None, 0.02], "stiffness": 1e5}, {"yield_shear": [None, 900.0]}
+    goods = {"level": 1, "mass": 90.0, "mu": 0.2}
+    on_rack = {"floor": 1, "levels": 2, "level_mass": 40.0, "stiffness": [3e4, 2e4], "blocks": [goods]}
+    block = {"floor": 1, "mass": 300.0, "mu": 0.1}
+    tables = {"blocks": block, "racks.blocks": goods}
+    owner, _, key = table.rpartition(".")
+    if key.startswith("stops"):
+        tables[owner][key] = stops
+    elif owner:
+        on_rack[key] = strengths
+    else:
+        on_rack |= strengths
+    motion = {"dt": 0.01, "unit": "m/s2", "acceleration": [0.0, 2.0, -2.0, 0.0]}
+    structure = {"mass": [1000.0, 1200.0], "stiffness": [4e5, 3e5]}
+    scene = {"building": structure, "blocks": [block], "racks": [on_rack], "motion": motion}
+    scene |= {"other_direction": {}, "other_motion": motion}
+    path = tmp_path / "scene.json"
+    text = json.dumps(scene)
+    path.write_text(text)
+    found = sm.read_scene(path).scene
+    path.write_text(text.replace("null", "1e999"))
+    assert found == sm.read_scene(path).scene

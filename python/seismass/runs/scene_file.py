@@ -27,6 +27,7 @@ from seismass.runs.plane import motions_in_plane
 from seismass.runs.scene_goods import (
     KEYS,
     check_walls,
+    infinite_where_null,
     matrix_of_walls,
     pair_of_scene,
     read_base,
@@ -228,13 +229,10 @@ def building_of_table(table: Table, walls: Table | None = None) -> Building:
     table.excluded("geometric_stiffness", "gravity_load")
     if "gravity_load" in table.values:
         table.needed("heights")
-    springs = table.subset(*_SPRING_KEYS)
-    for key, field in SPRING_FIELDS.items():
-        if key in springs and np.isinf(field.default):
-            springs[key] = _infinite_where_null(springs[key])
+    springs = infinite_where_null(table.subset(*_SPRING_KEYS))
     if "damping" in table.values:
         springs["damping"] = _damping(table)
-    over_weight = _infinite_where_null(table.values.get("yield_shear_over_weight"))
+    over_weight = infinite_where_null(table.values).get("yield_shear_over_weight")
     springs |= table.subset("backbone", "hysteresis", "stiffness_matrix")
     if walls is not None:
         check_walls(walls, table)
@@ -285,11 +283,6 @@ def _storeys(table: Table, over_weight: Any, springs: dict[str, Any]) -> int | N
         is_per_storey(value) if key == "backbone" else isinstance(value, list) for key, value in springs.items()
     )
     return len(over_weight) if isinstance(over_weight, list) and over_weight and not listed else None
-
-
-def _infinite_where_null(value: Any) -> Any:
-    """A null in a list is infinity, which JSON does not have: a storey that stays elastic."""
-    return [np.inf if item is None else item for item in value] if isinstance(value, list) else value
 
 
 def _damping(building: Table) -> float | Rayleigh | FloatArray:

@@ -17,7 +17,7 @@ from seismass.model.block import Block, SlidingBase, Stops
 from seismass.model.building import Building, changed_building
 from seismass.model.rack import Rack, RackBlock
 from seismass.model.scene import Scene
-from seismass.model.springs import SHAPE_FIELDS
+from seismass.model.springs import SPRING_FIELDS
 from seismass.motions.records import Pair, builtin_pairs, find_pairs, read_pair
 
 ROWS: Final = stored_rows("scene_keys")
@@ -28,6 +28,7 @@ KEYS: Final = {
 }
 """Keys of each table, the file first; `vertical_motion` and `other_motion` have those of `motion`, stops of goods
 on racks those of `blocks.stops`, and `other_direction` those of `building` that may differ in y."""
+_INFINITE: Final = {"yield_shear_over_weight", *(key for key, each in SPRING_FIELDS.items() if np.isinf(each.default))}
 
 
 def read_block(table: Table, number: int) -> Block:
@@ -66,7 +67,7 @@ def _stops(table: Table) -> Stops:
     table.known(KEYS["blocks.stops"])
     table.needed("clearance")
     table.needed("stiffness")
-    return Stops(**{key: table.values[key] for key in KEYS["blocks.stops"] if key in table.values})
+    return Stops(**infinite_where_null(table.subset(*KEYS["blocks.stops"])))
 
 
 def read_base(table: Table) -> SlidingBase:
@@ -91,13 +92,19 @@ def read_rack(table: Table, number: int) -> Rack:
     for key, other in (("level_mass_ratio", "level_mass"), ("period", "stiffness")):
         table.excluded(key, other)
     table.excluded("yield_shear_over_weight", "yield_shear")
-    goods = {key: table.values[key] for key in KEYS["racks"] if key in table.values and key != "blocks"}
-    for key in ("yield_shear", "yield_shear_over_weight", *SHAPE_FIELDS):
-        infinite = key not in SHAPE_FIELDS or np.isinf(SHAPE_FIELDS[key].default)
-        if infinite and isinstance(goods.get(key), list):  # null: a level that stays elastic
-            goods[key] = [np.inf if item is None else item for item in goods[key]]
+    goods = infinite_where_null(table.subset(*(key for key in KEYS["racks"] if key != "blocks")))
+    if isinstance(goods.get("other_direction"), dict):
+        goods["other_direction"] = infinite_where_null(goods["other_direction"])
     blocks = [_rack_block(each, place, number) for place, each in enumerate(table.tables("blocks"), start=1)]
     return Rack(**goods, blocks=blocks)
+
+
+def infinite_where_null(values: dict[str, Any]) -> dict[str, Any]:
+    """The same keys; in lists of what may be infinite a null is, as JSON has no infinity: an elastic storey."""
+    for key in _INFINITE & values.keys():
+        if isinstance(values[key], list):
+            values = values | {key: [np.inf if item is None else item for item in values[key]]}
+    return values
 
 
 def _rack_block(table: Table, number: int, rack: int) -> RackBlock:

@@ -10,10 +10,12 @@ use seismass::{Block, Damping, Motion, Options, STANDARD_GRAVITY, Scene, Storey,
 pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 /// Names of all scenes, for [`case`].
-pub const NAMES: [&str; 8] = [
+pub const NAMES: [&str; 10] = [
     "plain, 4 storeys",
     "elastic, 4 storeys",
     "yielding, 4 storeys",
+    "yielding, 5 storeys",
+    "128 blocks, 4 storeys",
     "sliding, 3 storeys",
     "section 4, r2 = 0.05",
     "section 4, r2 = 0.5",
@@ -41,6 +43,13 @@ pub fn case(name: &str) -> Result<Case> {
         "plain, 4 storeys" => (building(4, 0.57, modal, &four, 0.05, Some(0.3))?, 0.01),
         "elastic, 4 storeys" => (building(4, 0.57, modal, &[f64::INFINITY; 4], 0.05, None)?, 0.7),
         "yielding, 4 storeys" => (building(4, 0.57, modal, &four, 0.05, Some(0.3))?, 0.7),
+        "yielding, 5 storeys" => (building(5, 0.57, modal, &[0.24, 0.22, 0.19, 0.15, 0.09], 0.05, Some(0.3))?, 0.7),
+        "128 blocks, 4 storeys" => {
+            let few = building(4, 0.57, modal, &four, 0.05, Some(0.3))?;
+            // Beside those that act: too light to count, and stuck for good.
+            let others = (4..128).map(|i| Block::new(1 + i % 4, 1e-3, 5.0));
+            (Scene::new(few.building().cloned(), few.blocks().iter().cloned().chain(others).collect())?, 0.7)
+        }
         "sliding, 3 storeys" => (building(3, 0.60, modal, &[0.24, 0.20, 0.12], 0.05, Some(0.05))?, 0.7),
         "section 4, r2 = 0.05" => (building(3, 0.60, modal, &[0.24, 0.20, 0.12], 0.05, Some(0.3))?, 0.7),
         "section 4, r2 = 0.5" => (building(3, 0.60, modal, &[0.24, 0.20, 0.12], 0.5, Some(0.3))?, 0.7),

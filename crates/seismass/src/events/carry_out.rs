@@ -60,7 +60,11 @@ pub(crate) fn carry_out_in_lanes<V: Vector, const K: usize>(
     }
     match guard {
         Guard::SegmentEnd { storey, .. } | Guard::Turn { storey } => state.enter_regime_of_spring::<V, K>(storey),
-        _ => state.enter_regime_of_blocks::<V, K>(),
+        Guard::Breakaway { floor, .. } => state.enter_regime_of_blocks::<V, K>(floor),
+        Guard::Arrival { block } | Guard::Wear { block } => {
+            state.enter_regime_of_blocks::<V, K>(state.model.blocks[block].floor);
+        }
+        Guard::Contact | Guard::Collapse { .. } => state.enter_regime(),
     }
     Outcome::Continue
 }

@@ -215,7 +215,8 @@ fn accelerations_at_guards<V: Vector, const K: usize>(state: &State, k: usize, l
 
 #[inline(always)]
 fn arrival_guards<V: Vector, const K: usize>(state: &State, first: &mut First, isolated: &mut usize) {
-    for (j, motion) in state.blocks.motions.iter().enumerate() {
+    for &j in &state.blocks.moving {
+        let motion = &state.blocks.motions[j];
         let Some(sign) = motion.sliding() else { continue };
         if keeps_sliding::<K>(state, j, sign.factor()) {
             continue;
@@ -232,7 +233,8 @@ fn arrival_guards<V: Vector, const K: usize>(state: &State, first: &mut First, i
 /// Considers the changes of the friction coefficients of sliding blocks: slips grow until a block arrives.
 #[inline(never)]
 fn wear_guards<const K: usize>(state: &State, first: &mut First, isolated: &mut usize) {
-    for (j, motion) in state.blocks.motions.iter().enumerate() {
+    for &j in &state.blocks.moving {
+        let motion = &state.blocks.motions[j];
         let Some(sign) = motion.sliding().map(Sign::factor) else { continue };
         let rest = motion.path_to_wear();
         if rest == f64::INFINITY {

@@ -11,8 +11,8 @@
 //! which is strictly convex: A is unique. The base sticks where A = a_g is the minimum, that is where the force that holds it
 //! there is within its limit. The goods know A then: they decide as on the ground. Otherwise the base slides, its friction is
 //! a load, and the goods decide as on a floor. The slab then moves as it was released: were A not on that side of a_g, the
-//! forces of the goods, none of which falls with A, would hold the base at a_g. With mu_s > mu_k the same order is kept, and
-//! the base sticks where it can.
+//! forces of the goods, none of which falls with A, would hold the base at a_g. With mu_s > mu_k the same order is kept:
+//! first the goods at A = a_g, then the base beside them.
 
 use crate::general::state::GeneralState;
 use crate::machines::block::{BlockMotion, BlockState};

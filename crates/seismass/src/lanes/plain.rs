@@ -112,6 +112,16 @@ impl Vector for Plain {
         bits
     }
     #[inline(always)]
+    fn mark_not_below(self, other: Self, before: Self) -> Self {
+        let mark = |is_below: bool| if is_below { 0 } else { u64::MAX };
+        let marks = self.zip(other, |a, b| f64::from_bits(mark(a < b)));
+        marks.zip(before, |a, b| f64::from_bits(a.to_bits() | b.to_bits()))
+    }
+    #[inline(always)]
+    fn has_marks(self) -> bool {
+        self.0.iter().fold(0, |marks, mark| marks | mark.to_bits()) >> (u64::BITS - 1) != 0
+    }
+    #[inline(always)]
     fn sum(self) -> f64 {
         (self.0[0] + self.0[2]) + (self.0[1] + self.0[3])
     }

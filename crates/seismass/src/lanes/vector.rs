@@ -37,6 +37,10 @@ pub(crate) trait Vector: Copy {
     fn transposed(vectors: [Self; WIDTH]) -> [Self; WIDTH];
     /// Bits of the lanes that are not below those of `other`; lanes that are no numbers are not.
     fn not_below(self, other: Self) -> u32;
+    /// Marks of `before`, and of the lanes that are not below those of `other`, lanes that are no numbers among them.
+    fn mark_not_below(self, other: Self, before: Self) -> Self;
+    /// Whether a lane is marked: its sign is.
+    fn has_marks(self) -> bool;
     fn sum(self) -> f64;
     /// The same sum in every lane.
     fn total(self) -> Self;

@@ -132,6 +132,14 @@ impl Vector for Fused {
         unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_NLT_UQ>(self.0, other.0)) as u32 }
     }
     #[inline(always)]
+    fn mark_not_below(self, other: Self, before: Self) -> Self {
+        Self(unsafe { _mm256_or_pd(before.0, _mm256_cmp_pd::<_CMP_NLT_UQ>(self.0, other.0)) })
+    }
+    #[inline(always)]
+    fn has_marks(self) -> bool {
+        unsafe { _mm256_movemask_pd(self.0) != 0 }
+    }
+    #[inline(always)]
     fn fused(a: f64, b: f64, c: f64) -> f64 {
         a.mul_add(b, c)
     }

@@ -91,33 +91,43 @@ pub(crate) fn multiply<V: Vector, const K: usize>(rows: &mut [[V; K]; 4], column
     }
 }
 
-/// The step of a scene of one vector with so many storeys, from columns of each drift and of each drift rate, of the ground
-/// acceleration and of its change.
+/// The step of a scene with so many storeys, from columns of each drift and of each drift rate, of the ground acceleration
+/// and of its change.
 ///
-/// Two sums: half the latency of one, which is what a small step waits for.
+/// Two sums: half the latency of one, which is what a small step waits for. As many rows at a time as stay in the registers.
 #[inline(always)]
 pub(crate) fn small_step<V: Vector, const K: usize, const S: usize>(
     step_columns: &StepColumns<K>,
     [of_drift, of_rate]: [&[Column<K>; S]; 2],
     [ground, change]: [f64; 2],
-    [x, v]: [V; 2],
-) -> [V; 4] {
+    [x, v]: [&[V; K]; 2],
+) -> [[V; K]; 4] {
     let (ground, change) = (V::splat(ground), V::splat(change));
-    let mut rows = [V::splat(0.0); 4];
-    let mut of_rates = rows;
-    for r in 0..4 {
-        let of_change = V::load(&step_columns.of_change[r][0]).mul_add(change, V::load(&step_columns.constant[r][0]));
-        rows[r] = V::load(&step_columns.of_ground[r][0]).mul_add(ground, of_change);
-    }
-    for c in 0..S {
-        let (x, v) = (x.broadcast(c), v.broadcast(c));
-        for r in 0..4 {
-            rows[r] = V::load(&of_drift[c][r][0]).mul_add(x, rows[r]);
-            of_rates[r] = V::load(&of_rate[c][r][0]).mul_add(v, of_rates[r]);
+    let at_once = if K == 1 { 4 } else { 2 };
+    let mut rows = [[V::splat(0.0); K]; 4];
+    for first in (0..4).step_by(at_once) {
+        let mut of_rates = [[V::splat(0.0); K]; 4];
+        for r in first..first + at_once {
+            for k in 0..K {
+                let constant = V::load(&step_columns.constant[r][k]);
+                let of_change = V::load(&step_columns.of_change[r][k]).mul_add(change, constant);
+                rows[r][k] = V::load(&step_columns.of_ground[r][k]).mul_add(ground, of_change);
+            }
         }
-    }
-    for r in 0..4 {
-        rows[r] = rows[r].add(of_rates[r]);
+        for c in 0..S {
+            let (x, v) = (x[c / WIDTH].broadcast(c % WIDTH), v[c / WIDTH].broadcast(c % WIDTH));
+            for r in first..first + at_once {
+                for k in 0..K {
+                    rows[r][k] = V::load(&of_drift[c][r][k]).mul_add(x, rows[r][k]);
+                    of_rates[r][k] = V::load(&of_rate[c][r][k]).mul_add(v, of_rates[r][k]);
+                }
+            }
+        }
+        for r in first..first + at_once {
+            for k in 0..K {
+                rows[r][k] = rows[r][k].add(of_rates[r][k]);
+            }
+        }
     }
     rows
 }

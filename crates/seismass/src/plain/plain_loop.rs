@@ -78,7 +78,8 @@ impl PlainLoop {
 
     #[inline(always)]
     fn take_blocks<const K: usize>(&mut self, state: &State) {
-        for (block, (motion, law)) in state.blocks.motions.iter().zip(&state.model.blocks).enumerate() {
+        for &block in &state.blocks.moving {
+            let (motion, law) = (&state.blocks.motions[block], &state.model.blocks[block]);
             let Some(sign) = motion.sliding().map(Sign::factor) else { continue };
             let friction = sign * motion.mu_k;
             let Some(lane) = law.floor.checked_sub(1) else {

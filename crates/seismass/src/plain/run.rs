@@ -34,10 +34,10 @@ use crate::step::steps::Whole;
 use crate::tolerances::{NO_CONTACT, SERIES_PHASE};
 use crate::units::STANDARD_GRAVITY;
 
-/// Lanes, as bits, in which the larger of two values and a norm times the margin per unit of it are not below a bound.
+/// The larger of two separations, of the start and the end of a step, and a norm times the margin per unit of it.
 #[inline(always)]
-fn not_clear<V: Vector>((before, after): (V, V), norm: V, margin: V, bound: V) -> Set {
-    Set::from(norm.mul_add(margin, before.max(after)).not_below(bound))
+fn largest_separation<V: Vector>((before, after): (V, V), norm: V, margin: V) -> V {
+    norm.mul_add(margin, before.max(after))
 }
 
 /// Contact force per unit mass at a sample.
@@ -115,8 +115,11 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
     };
     let last = end.min(samples.len() - 1);
     let within = first_members(state.storeys());
-    // Of scenes of one vector, without vertical motion: formed where it changes. Others have no registers left for it.
-    let mut few_accelerations = bounds.of_accelerations(0, V::splat(STANDARD_GRAVITY));
+    // What accelerations may not reach without vertical motion: formed where it changes.
+    let mut of_accelerations = nothing;
+    for k in 0..K {
+        of_accelerations[k] = bounds.of_accelerations(k, V::splat(STANDARD_GRAVITY));
+    }
     let mut reached = first;
     let mut open = None;
     for interval in samples.get(first..=last).unwrap_or(&[]).windows(2) {
@@ -146,10 +149,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         let mut rows = [[V::splat(0.0); K]; 4];
         if S > 0 {
             let drive = [before, change];
-            let few = small_step::<V, K, S>(&step_columns, few_columns, drive, [sample.x[0], sample.v[0]]);
-            for r in 0..4 {
-                rows[r] = [few[r]; K];
-            }
+            rows = small_step::<V, K, S>(&step_columns, few_columns, drive, [&sample.x, &sample.v]);
         } else {
             let (ground, ramp) = (V::splat(before), V::splat(change));
             for r in 0..4 {
@@ -176,17 +176,21 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         // The proof.
         let mut separations_after = bounds.separations(&taken, third);
         let least_contact = V::splat(if contact.0 < contact.1 { contact.0 } else { contact.1 });
-        let mut near_bound: [Set; 3] = [0; 3];
-        for k in 0..K {
-            let most = |which: usize| (separations_before[which][k], separations_after[which][k]);
-            let limit = match K == 1 && !VERTICAL {
-                true => few_accelerations,
-                false => bounds.of_accelerations(k, least_contact),
-            };
-            near_bound[0] |= not_clear(most(0), norm, margins[0][k], bounds.reach[k]) << (WIDTH * k);
-            near_bound[1] |= not_clear(most(1), norm, margins[1][k], bounds.turn[k]) << (WIDTH * k);
-            near_bound[2] |= not_clear(most(2), norm, margins[2][k], limit) << (WIDTH * k);
+        if VERTICAL {
+            for k in 0..K {
+                of_accelerations[k] = bounds.of_accelerations(k, least_contact);
+            }
         }
+        let mut marks = V::splat(0.0);
+        for k in 0..K {
+            let limits = [bounds.reach[k], bounds.turn[k], of_accelerations[k]];
+            for which in 0..3 {
+                let ends = (separations_before[which][k], separations_after[which][k]);
+                let largest = largest_separation(ends, norm, margins[which][k]);
+                marks = largest.mark_not_below(limits[which], marks);
+            }
+        }
+        let is_near = marks.has_marks();
         let (mut layer_after, mut is_turning) = (layer, false);
         if SLIDING {
             let mut beyond = dx;
@@ -219,9 +223,15 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
             }
         }
         let has_contact = !VERTICAL || contact.0 > NO_CONTACT && contact.1 > NO_CONTACT;
-        if near_bound[0] | near_bound[1] | near_bound[2] != 0 || is_turning || !has_contact {
-            for near_bound in &mut near_bound {
-                *near_bound &= within;
+        if is_near || is_turning || !has_contact {
+            let mut near_bound: [Set; 3] = [0; 3];
+            for k in 0..K {
+                let limits = [bounds.reach[k], bounds.turn[k], of_accelerations[k]];
+                for which in 0..3 {
+                    let ends = (separations_before[which][k], separations_after[which][k]);
+                    let largest = largest_separation(ends, norm, margins[which][k]);
+                    near_bound[which] |= Set::from(largest.not_below(limits[which])) << (WIDTH * k) & within;
+                }
             }
             let samples = [&sample, &taken];
             let guard_check =
@@ -233,7 +243,9 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
                 break;
             }
             separations_after = bounds.separations(&taken, third);
-            few_accelerations = bounds.of_accelerations(0, least_contact);
+            for k in 0..K {
+                of_accelerations[k] = bounds.of_accelerations(k, least_contact);
+            }
         }
         (sample, separations_before, layer) = (taken, separations_after, layer_after);
         for other in others.iter_mut() {
@@ -302,11 +314,23 @@ fn clear_steps_of_scene(
         (3, true, false) => clear_steps::<1, 3, true, false>,
         (4, true, false) => clear_steps::<1, 4, true, false>,
         #[cfg(feature = "tall-buildings")]
-        (5..=8, false, false) => clear_steps::<2, 0, false, false>,
+        (5, false, false) => clear_steps::<2, 5, false, false>,
+        #[cfg(feature = "tall-buildings")]
+        (6, false, false) => clear_steps::<2, 6, false, false>,
+        #[cfg(feature = "tall-buildings")]
+        (7, false, false) => clear_steps::<2, 7, false, false>,
+        #[cfg(feature = "tall-buildings")]
+        (8, false, false) => clear_steps::<2, 8, false, false>,
         #[cfg(feature = "tall-buildings")]
         (_, false, false) => clear_steps::<4, 0, false, false>,
         #[cfg(feature = "tall-buildings")]
-        (5..=8, true, false) => clear_steps::<2, 0, true, false>,
+        (5, true, false) => clear_steps::<2, 5, true, false>,
+        #[cfg(feature = "tall-buildings")]
+        (6, true, false) => clear_steps::<2, 6, true, false>,
+        #[cfg(feature = "tall-buildings")]
+        (7, true, false) => clear_steps::<2, 7, true, false>,
+        #[cfg(feature = "tall-buildings")]
+        (8, true, false) => clear_steps::<2, 8, true, false>,
         #[cfg(feature = "tall-buildings")]
         (_, true, false) => clear_steps::<4, 0, true, false>,
         (..=4, _, true) => clear_steps::<1, 0, true, true>,

@@ -128,11 +128,11 @@ impl Observer {
         by_width!(state.model.width, K => take_building::<K>(self, state, time));
     }
 
-    /// Takes the present slips into their peaks.
+    /// Takes the present slips of the blocks that do not stick into their peaks.
     #[inline]
     pub(crate) fn observe_slips(&mut self, state: &State, time: f64) {
-        for (peak, motion) in self.slip.iter_mut().zip(&state.blocks.motions) {
-            peak.take(motion.slip, time);
+        for &j in &state.blocks.moving {
+            self.slip[j].take(state.blocks.motions[j].slip, time);
         }
     }
 

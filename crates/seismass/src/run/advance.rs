@@ -35,13 +35,12 @@ pub(crate) struct Moment {
 pub(crate) fn advance<V: Vector, const K: usize>(state: &mut State, tau: f64, to_end: bool) -> bool {
     let mut blocks = 0.0;
     if state.blocks.is_sliding || state.blocks.airborne {
-        for j in 0..state.blocks.motions.len() {
-            if !state.blocks.motions[j].is_stuck() {
-                let change = block_change::<K>(state, j);
-                state.blocks.motions[j].move_by(change);
-                // No number times zero is zero but a finite one.
-                blocks += 0.0 * (change.0 + change.1);
-            }
+        for position in 0..state.blocks.moving.len() {
+            let j = state.blocks.moving[position];
+            let change = block_change::<K>(state, j);
+            state.blocks.motions[j].move_by(change);
+            // No number times zero is zero but a finite one.
+            blocks += 0.0 * (change.0 + change.1);
         }
     }
     let end = to_end.then(|| tau + state.step.series.h());

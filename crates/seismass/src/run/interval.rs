@@ -126,6 +126,9 @@ impl ExactRun<'_> {
             observer.take_accelerations_in_lanes::<V, K>(state, time);
             observer.take_forces(state, tau);
         }
+        if state.blocks.is_sliding || state.blocks.airborne {
+            observer.observe_slips(state, time);
+        }
         let logged = self.log.len();
         let outcome = carry_out_in_lanes::<V, K>(state, guard, tau, &mut self.log);
         if outcome == Outcome::Continue {
@@ -133,9 +136,6 @@ impl ExactRun<'_> {
         }
         observer.take_building_in_lanes::<V, K>(state, time);
         observer.take_forces(state, tau);
-        if !guard.is_smooth() || state.blocks.is_sliding || state.blocks.airborne {
-            observer.observe_slips(state, time);
-        }
         if time == state.interval.start {
             observer.record_again(state, state.interval.sample);
         }

@@ -8,6 +8,8 @@ use crate::machines::settle::Transition;
 /// The machines of the blocks, and what follows from them for each floor.
 pub(crate) struct Blocks {
     pub(crate) motions: Vec<BlockMotion>,
+    /// Those that do not stick, in order: all that a step or an event elsewhere looks at.
+    pub(crate) moving: Vec<usize>,
     /// Whether the blocks have lost contact.
     pub(crate) airborne: bool,
     /// Whether a block slides.
@@ -28,6 +30,7 @@ impl Blocks {
         let n = model.storeys();
         Self {
             motions,
+            moving: Vec::new(),
             airborne: false,
             is_sliding: false,
             friction: Padded::new(model.width, 0.0),

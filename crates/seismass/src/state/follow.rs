@@ -21,10 +21,10 @@ impl State<'_> {
         self.find_regime();
     }
 
-    /// Follows changes of blocks.
+    /// Follows changes of the blocks on a floor, or on the ground (0).
     #[inline(always)]
-    pub(crate) fn enter_regime_of_blocks<V: Vector, const K: usize>(&mut self) {
-        self.follow_blocks::<V, K>();
+    pub(crate) fn enter_regime_of_blocks<V: Vector, const K: usize>(&mut self, floor: usize) {
+        self.follow_blocks::<V, K>(floor);
         self.find_regime();
     }
 
@@ -39,36 +39,32 @@ impl State<'_> {
     }
 
     #[inline(always)]
-    fn follow_blocks<V: Vector, const K: usize>(&mut self) {
-        for k in 0..self.vectors::<K>() {
-            self.blocks.friction.set_vector::<V, K>(k, V::splat(0.0));
-            self.bounds.stuck_mu.set_vector::<V, K>(k, V::splat(FAR));
-        }
-        self.blocks.stuck_mass.fill(0.0);
-        self.blocks.stuck_mu.fill(f64::INFINITY);
-        self.blocks.is_sliding = false;
-        let of_springs = self.model.class_bits * self.springs.machines.len();
-        for (j, (motion, law)) in self.blocks.motions.iter().zip(&self.model.blocks).enumerate() {
-            let floor = law.floor;
+    fn follow_blocks<V: Vector, const K: usize>(&mut self, floor: usize) {
+        let (model, blocks) = (self.model, &mut self.blocks);
+        let of_springs = model.class_bits * self.springs.machines.len();
+        let (mut friction, mut stuck_mass, mut least) = (0.0, 0.0, f64::INFINITY);
+        blocks.moving.retain(|&j| model.blocks[j].floor != floor);
+        for &j in &model.on_floor[floor] {
+            let (motion, law) = (&blocks.motions[j], &model.blocks[j]);
             self.key.set_stuck(of_springs, j, motion.is_stuck());
             match motion.state {
                 BlockState::Stuck => {
-                    let least = self.blocks.stuck_mu[floor].min(motion.mu_s);
-                    self.blocks.stuck_mu[floor] = least;
-                    if let Some(i) = floor.checked_sub(1) {
-                        self.blocks.stuck_mass[i] += law.mass;
-                        self.bounds.stuck_mu.set_lane::<V, K>(i, least.min(FAR));
-                    }
+                    least = motion.mu_s.min(least);
+                    stuck_mass += law.mass;
+                    continue;
                 }
-                BlockState::Sliding(sign) => {
-                    self.blocks.is_sliding = true;
-                    if let Some(i) = floor.checked_sub(1) {
-                        let others = self.blocks.friction.numbers::<K>()[i];
-                        self.blocks.friction.set_lane::<V, K>(i, others + sign.factor() * motion.mu_k * law.mass);
-                    }
-                }
+                BlockState::Sliding(sign) => friction += sign.factor() * motion.mu_k * law.mass,
                 BlockState::Airborne => {}
             }
+            blocks.moving.push(j);
+        }
+        blocks.moving.sort_unstable();
+        blocks.is_sliding = blocks.moving.iter().any(|&j| blocks.motions[j].sliding().is_some());
+        blocks.stuck_mu[floor] = least;
+        if let Some(i) = floor.checked_sub(1) {
+            blocks.stuck_mass[i] = stuck_mass;
+            blocks.friction.set_lane::<V, K>(i, friction);
+            self.bounds.stuck_mu.set_lane::<V, K>(i, least.min(FAR));
         }
     }
 
@@ -97,5 +93,7 @@ fn machines_by_path<V: Vector, const K: usize>(state: &mut State) {
         state.follow_spring::<V, K>(i);
     }
     state.springs.form_loads::<V, K>(state.vectors::<K>());
-    state.follow_blocks::<V, K>();
+    for floor in 0..state.model.on_floor.len() {
+        state.follow_blocks::<V, K>(floor);
+    }
 }

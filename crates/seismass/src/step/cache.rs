@@ -16,9 +16,8 @@ use crate::step::tall::TallStep;
 /// Memory one cache may take before it starts afresh (bytes).
 const CACHE_BYTES: usize = 64 << 20;
 
-/// Most storeys for which steps and tables are formed at once: those of one vector. With more, most regimes of a strong
-/// motion are left before they have paid for themselves.
-const MAX_AT_ONCE: usize = WIDTH;
+/// Storeys less the whole intervals that are solved by series in a regime of two vectors before its steps are formed.
+const WITHOUT_VISITS: u32 = 3;
 
 /// Largest ratio of a floor's mass, with blocks, to the smallest mass of a floor at which intervals are solved in substeps.
 /// Each plain step repeats the rounding of its matrix, some 1e-15 of the drift rates: with many substeps it sums up to what
@@ -105,9 +104,14 @@ pub(crate) struct RegimeCache {
 impl RegimeCache {
     /// Whole intervals of a regime that a run solves by series before its steps are formed. To form them costs like
     /// n^3, a series saved like n^2 with full damping matrices and like n with others: about as many series as there are
-    /// storeys pay for them. Up to [`MAX_AT_ONCE`] storeys they are formed at once.
+    /// storeys pay for them. Those of one vector are formed at once, those of two somewhat earlier: they are
+    /// formed without shifts.
     fn series_visits(storeys: usize) -> u32 {
-        if storeys <= MAX_AT_ONCE { 0 } else { storeys as u32 }
+        match storeys {
+            _ if storeys <= WIDTH => 0,
+            _ if storeys <= MAX_TABLE => storeys as u32 - WITHOUT_VISITS,
+            _ => storeys as u32,
+        }
     }
 
     /// A cache of steps of `dt`.
@@ -190,7 +194,7 @@ impl RegimeCache {
     pub(crate) fn prepare_table(&mut self, index: usize, model: &Model, vertical: bool) -> bool {
         let n = model.storeys();
         let entry = &self.entries[index];
-        if n == 0 || n > MAX_TABLE || n > MAX_AT_ONCE && entry.visits <= Self::series_visits(n) {
+        if n == 0 || n > MAX_TABLE || n > WIDTH && entry.visits <= Self::series_visits(n) {
             return false;
         }
         if entry.regime.steps(vertical).is_none() {

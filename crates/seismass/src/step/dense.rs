@@ -76,10 +76,18 @@ fn remainders_by_width<V: Vector>(
     terms: &mut [f64],
 ) {
     match model.storeys() {
-        1 => few::remainders::<V, 1>(model, regime, h, order, sums, terms),
-        2 => few::remainders::<V, 2>(model, regime, h, order, sums, terms),
-        3 => few::remainders::<V, 3>(model, regime, h, order, sums, terms),
-        4 => few::remainders::<V, 4>(model, regime, h, order, sums, terms),
+        1 => few::remainders::<V, 1, 1>(model, regime, h, order, sums, terms),
+        2 => few::remainders::<V, 2, 1>(model, regime, h, order, sums, terms),
+        3 => few::remainders::<V, 3, 1>(model, regime, h, order, sums, terms),
+        4 => few::remainders::<V, 4, 1>(model, regime, h, order, sums, terms),
+        #[cfg(feature = "tall-buildings")]
+        5 => few::remainders::<V, 5, 2>(model, regime, h, order, sums, terms),
+        #[cfg(feature = "tall-buildings")]
+        6 => few::remainders::<V, 6, 2>(model, regime, h, order, sums, terms),
+        #[cfg(feature = "tall-buildings")]
+        7 => few::remainders::<V, 7, 2>(model, regime, h, order, sums, terms),
+        #[cfg(feature = "tall-buildings")]
+        8 => few::remainders::<V, 8, 2>(model, regime, h, order, sums, terms),
         _ => by_dense_width!(model.width, K => remainders::<V, K>(model, regime, h, order, sums, terms)),
     }
 }
@@ -146,10 +154,18 @@ for_each_path! {
 #[inline(always)]
 fn columns_by_width<V: Vector>(model: &Model, regime: &Regime, h: f64, sums: &[f64], out: &mut [f64]) {
     match model.storeys() {
-        1 => few::columns::<V, 1>(model, regime, h, sums, out),
-        2 => few::columns::<V, 2>(model, regime, h, sums, out),
-        3 => few::columns::<V, 3>(model, regime, h, sums, out),
-        4 => few::columns::<V, 4>(model, regime, h, sums, out),
+        1 => few::columns::<V, 1, 1>(model, regime, h, sums, out),
+        2 => few::columns::<V, 2, 1>(model, regime, h, sums, out),
+        3 => few::columns::<V, 3, 1>(model, regime, h, sums, out),
+        4 => few::columns::<V, 4, 1>(model, regime, h, sums, out),
+        #[cfg(feature = "tall-buildings")]
+        5 => few::columns::<V, 5, 2>(model, regime, h, sums, out),
+        #[cfg(feature = "tall-buildings")]
+        6 => few::columns::<V, 6, 2>(model, regime, h, sums, out),
+        #[cfg(feature = "tall-buildings")]
+        7 => few::columns::<V, 7, 2>(model, regime, h, sums, out),
+        #[cfg(feature = "tall-buildings")]
+        8 => few::columns::<V, 8, 2>(model, regime, h, sums, out),
         _ => by_dense_width!(model.width, K => columns::<V, K>(model, regime, h, sums, out)),
     }
 }
@@ -308,6 +324,7 @@ mod tests {
     use super::*;
     use crate::lanes::Plain;
     use crate::scene::{Block, Building, Damping, GravityEffect, Scene, Storey};
+    use crate::step::steps::MAX_TABLE;
     use crate::step::table::SeriesTable;
 
     /// A building of uneven floors and storeys, with P-Delta, and a block on each floor.
@@ -332,36 +349,39 @@ mod tests {
     #[test]
     fn few_storeys_take_the_steps_of_many() {
         let dampings = [Damping::Modal { ratio: 0.05 }, Damping::Rayleigh { ratio: 0.03, modes: [1, 2] }];
-        for (n, damping) in (1..=4).flat_map(|n| dampings.clone().map(|damping| (n, damping))) {
+        for (n, damping) in (1..=MAX_TABLE).flat_map(|n| dampings.clone().map(|damping| (n, damping))) {
             if n == 1 && matches!(damping, Damping::Rayleigh { .. }) {
                 continue;
             }
             let model = Model::new(&uneven(n, damping.clone()));
+            let width = model.width;
             let stuck: Vec<f64> = (0..n).map(|i| if i % 2 == 0 { 700.0 } else { 0.0 }).collect();
             let regime = Regime::new(&model, |i| model.laws[i].spring.law().largest_tangent(), &stuck);
             let (h, order) = (0.7 / regime.frequency, 14);
             let formed = |few: bool| {
-                let mut sums = vec![0.0; 2 * n * 4 * WIDTH];
-                let mut terms = vec![0.0; WIDTH * SeriesTable::columns(n, order)];
-                let mut out = vec![0.0; column_count(n, true) * 4 * WIDTH];
+                let mut sums = vec![0.0; 2 * n * 4 * width];
+                let mut terms = vec![0.0; width * SeriesTable::columns(n, order)];
+                let mut out = vec![0.0; column_count(n, true) * 4 * width];
                 if few {
                     remainders_by_width::<Plain>(&model, &regime, h, order, &mut sums, &mut terms);
                     columns_by_width::<Plain>(&model, &regime, h, &sums, &mut out);
                 } else {
-                    remainders::<Plain, 1>(&model, &regime, h, order, &mut sums, &mut terms);
-                    columns::<Plain, 1>(&model, &regime, h, &sums, &mut out);
+                    by_dense_width!(width, K => {
+                        remainders::<Plain, K>(&model, &regime, h, order, &mut sums, &mut terms);
+                        columns::<Plain, K>(&model, &regime, h, &sums, &mut out);
+                    });
                 }
                 [terms, out]
             };
             let ([terms, out], [expected_terms, expected_out]) = (formed(true), formed(false));
-            let of_order = 2 * n * WIDTH;
+            let of_order = 2 * n * width;
             for (found, expected) in terms.chunks(of_order).zip(expected_terms.chunks(of_order)) {
                 are_close(found, expected, &format!("terms of {n} storeys"));
             }
             for (c, (found, expected)) in
-                out.chunks_exact(4 * WIDTH).zip(expected_out.chunks_exact(4 * WIDTH)).enumerate()
+                out.chunks_exact(4 * width).zip(expected_out.chunks_exact(4 * width)).enumerate()
             {
-                for (r, (found, expected)) in found.chunks(WIDTH).zip(expected.chunks(WIDTH)).enumerate() {
+                for (r, (found, expected)) in found.chunks(width).zip(expected.chunks(width)).enumerate() {
                     are_close(found, expected, &format!("{damping:?}, {n} storeys, column {c}, row {r}"));
                 }
             }
