@@ -62,7 +62,7 @@ def test_basements_and_elevations_above_the_sea_are_asked_for_and_read_as_stated
 
 
 @pytest.mark.parametrize(
-    "name", ["B1", "Basement 1", "Sótano 1", "UG1", "Keller", "Sous-sol", "Bodrum", "Seminterrato"]
+    "name", ["B1", "Basement 1", "Sótano 1", "UG1", "Keller", "Sous-sol", "Bodrum", "Seminterrato", "Lower ground"]
 )
 def test_basements_by_name_without_elevations(tmp_path: Path, name: str) -> None:
     file = write(tmp_path, f"Story,Height (m),Mass (t)\nRoof,3,90\nL2,3,100\nL1,3,100\n{name},3,200\n")

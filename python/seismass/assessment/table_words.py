@@ -115,7 +115,8 @@ def is_basement(name: str) -> bool:
     parts = words(name)
     if parts in (["b"], ["ss"], []):
         return bool(re.fullmatch(r"\s*(-|[a-z]+\W*)\d+\W*", plain(name)))
-    return parts[0] in word_list("basement") and (len(parts) == 1 or parts[0] != "ug")
+    below = parts[0] in word_list("basement") and (len(parts) == 1 or parts[0] != "ug")
+    return below or {"lower", "ground"} <= {*parts}
 
 
 def is_mezzanine(name: str) -> bool:
