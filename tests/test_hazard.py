@@ -179,6 +179,11 @@ def test_files_with_and_without_headers(tmp_path: Path, text: str) -> None:
         ("0.1,1e-2\n0.5,nan\n", "annual rate of site.csv, line 2, must be a positive number; got 'nan'"),
         ("0.1,1e-2\n", "points of site.csv must be at least two rows"),
         ("Sa (m/s2),rate\n0.1,1e-2\n0.5,1e-4\n", "unit of the intensity of site.csv, line 1, must be g; got Sa (m/s2)"),
+        ("PGA (%g),rate\n10,1e-2\n50,1e-4\n", "unit of the intensity of site.csv, line 1, must be g; got PGA (%g)"),
+        ("Sa (mg),rate\n10,1e-2\n50,1e-4\n", "unit of the intensity of site.csv, line 1, must be g; got Sa (mg)"),
+        ("Sa [ft/s2],rate\n1,1e-2\n5,1e-4\n", "unit of the intensity of site.csv, line 1, must be g"),
+        ("Sa (g),rate in 50 years\n0.1,1e-2\n0.5,1e-4\n", "rate of site.csv, line 1, must be annual"),
+        ("Sa (g),lambda_50yr\n0.1,1e-2\n0.5,1e-4\n", "rate of site.csv, line 1, must be annual"),
         ("period,rate\n0.1,1e-2\n", "columns of site.csv, line 1, must be one of an intensity"),
     ],
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import random
 from pathlib import Path
 from typing import Any
@@ -130,6 +131,46 @@ def test_curves_that_are_no_push_are_refused(tmp_path: Path, rows: str, options:
     file.write_text(f"LoadCase,Displacement (m),BaseForce (kN)\n{rows}", encoding="utf-8")
     with pytest.raises(sm.errors.InvalidBuildingFile, match=message):
         read_pushover(file, **options)
+
+
+DRIFTS = ("Roof Drift", "Top displacement", "Roof disp.", "Control displacement", "Displ X", "d", "Monitored Displ",
+          "Desplazamiento en el techo", "Spostamento nodo di controllo", "Déplacement en tête", "Dachverschiebung",
+          "Tepe yer değiştirmesi", "displacement, d")  # fmt: skip
+SHEARS = ("Base Shear", "BaseForce", "V base", "Vb", "Lateral force", "Base shear X", "Cortante en la base", "FX",
+          "Taglio alla base", "Effort tranchant à la base", "Taban kesme kuvveti", "Base shear, V")  # fmt: skip
+
+
+@pytest.mark.parametrize("form", ["{} ({})", "{} [{}]", "{} {}", "{}_{}", "{} in {}"])
+def test_names_of_drifts_and_shears_in_every_form(tmp_path: Path, form: str) -> None:
+    file = tmp_path / "push.csv"
+    for number, (drift, shear) in enumerate(itertools.product(DRIFTS, SHEARS)):
+        if number % 5 == len(form) % 5:
+            head = f"{form.format(drift, 'in')};{form.format(shear, 'kips')}"
+            file.write_text(f"{head}\n0;0\n1;400\n2;500\n4;520\n", encoding="utf-8")
+            found = read_pushover(file)
+            assert found.drift[0][-1] == pytest.approx(4 * 0.0254), head
+            assert found.shear[0][-1] == pytest.approx(520 * UNITS["kip"]), head
+
+
+@pytest.mark.parametrize(
+    ("head", "message"),
+    [
+        ("Story,Displacement (mm),Story Shear (kN)", "called Story Drift and Story Shear"),
+        ("Story,Verschiebung (mm),Querkraft (kN)", "called Story Drift and Story Shear"),
+        ("Story,Story Drift (mm),Story Force (kN)", "called Story Drift and Story Shear"),
+        ("Story,Story Drift,Story Shear (kN)", "unit of the column drift"),
+        ("Case,Roof Drift,Base Shear (kN)", "unit of the column drift"),
+        ("Case,Displacement,Base Shear (kN)", "unit of the column drift"),
+        ("Case,Roof Drift (%),Base Shear (kN)", "unit of the column drift"),
+    ],
+)
+def test_displacements_of_floors_and_drifts_without_a_unit_are_no_ratios(
+    tmp_path: Path, head: str, message: str
+) -> None:
+    file = tmp_path / "push.csv"
+    file.write_text(f"{head}\nL1,0,0\nL1,30,400\nL1,60,500\n", encoding="utf-8")
+    with pytest.raises(sm.errors.InvalidBuildingFile, match=message):
+        read_pushover(file)
 
 
 @pytest.mark.parametrize(

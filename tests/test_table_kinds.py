@@ -62,7 +62,7 @@ def test_basements_and_elevations_above_the_sea_are_asked_for_and_read_as_stated
 
 
 @pytest.mark.parametrize(
-    "name", ["B1", "Basement 1", "Sótano 1", "UG1", "Keller", "Sous-sol", "Bodrum", "Seminterrato"]
+    "name", ["B1", "Basement 1", "Sótano 1", "UG1", "Keller", "Sous-sol", "Bodrum", "Seminterrato", "Lower ground"]
 )
 def test_basements_by_name_without_elevations(tmp_path: Path, name: str) -> None:
     file = write(tmp_path, f"Story,Height (m),Mass (t)\nRoof,3,90\nL2,3,100\nL1,3,100\n{name},3,200\n")
@@ -194,6 +194,150 @@ def test_e2k_storeys_and_units_of_the_file(tmp_path: Path) -> None:
     again = read_storey_table(file)
     assert again.heights is not None
     assert again.heights.tolist() == pytest.approx([4.005, 3.0])
+
+
+# Forms of a head of a column; its names and units, with the size of each in SI units.
+FORMS = (
+    "{name} ({unit})",
+    "{name} [{unit}]",
+    "{name}, {unit}",
+    "{name} - {unit}",
+    "{name} / ({unit})",
+    "{name} in {unit}",
+    "{name} {unit}",
+    "{name}_{unit}",
+    "{name} {symbol} ({unit})",
+    "{name}, {symbol} [{unit}]",
+    "{name} ({symbol}) ({unit})",
+)
+NAMES = {
+    "height": (
+        "Height",
+        "Storey height",
+        "story height",
+        "Altura de piso",
+        "Altezza di interpiano",
+        "Geschosshöhe",
+        "hi",
+    ),
+    "mass": ("Mass", "Floor mass", "Masa de piso", "Massa", "Masse", "Geschossmasse", "Kat kütlesi"),
+    "stiffness": ("Stiffness", "Lateral stiffness", "Rigidez lateral", "Rigidezza di piano", "Kat rijitliği", "Stiff"),
+}
+SYMBOLS = {"height": "h", "mass": "m", "stiffness": "k"}
+KILO = 453.59237
+UNIT_NAMES = {
+    "height": {"m": 1.0, "metres": 1.0, "cm": 0.01, "ft": 0.3048, "feet": 0.3048, "inches": 0.0254},
+    "mass": {
+        "t": 1e3,
+        "kg": 1.0,
+        "tonnes": 1e3,
+        "Mg": 1e3,
+        "ton": 1e3,
+        "slugs": KILO * 9.80665e-3 / 0.3048,
+        "kN·s²/m": 1e3,
+        "tf-s2/m": 9806.65,
+        "t.s²/m": 9806.65,
+        "kip-sec^2/in": KILO * 9.80665 / 0.0254,
+        "k-s2/ft": KILO * 9.80665 / 0.3048,
+        "kN s2/m": 1e3,
+        "kN⋅s²/m": 1e3,
+    },
+    "stiffness": {
+        "kN/m": 1e3,
+        "MN/m": 1e6,
+        "N/mm": 1e3,
+        "tf/cm": 980665.0,
+        "t/m": 9806.65,
+        "kg/cm": 980.665,
+        "tn/m": 9806.65,
+        "k/in": KILO * 9.80665 / 0.0254,
+        "kips/in.": KILO * 9.80665 / 0.0254,
+        "daN/cm": 1e3,
+    },
+}
+AXES = ("", " X", " x-dir", " in X direction", " (X)")
+
+
+def test_names_and_units_of_columns_in_every_form(tmp_path: Path) -> None:
+    """Every name with every unit in the head, or below it bare or in brackets; what stands for y is not that of x."""
+    chooser = random.Random(12)
+    for _ in range(150):
+        columns, below, truth = [["Level", "", "Roof", "1"]], chooser.choice(("", "", "{}", "({})", "[{}]")), {}
+        for kind, names in NAMES.items():
+            unit, name = chooser.choice(list(UNIT_NAMES[kind])), chooser.choice(names)
+            unit = "t" if unit == "ton" and truth["height"][1] in ("ft", "feet", "inches") else unit  # a short one
+            form = "{name}" if below else chooser.choice(FORMS)
+            axis = chooser.choice(AXES) if kind == "stiffness" and "symbol" not in form else ""
+            values = [f"{chooser.uniform(3.0, 4.0):.2f}" for _ in range(2)]
+            truth[kind] = ([float(value) * UNIT_NAMES[kind][unit] for value in values], unit)
+            for each in (axis, axis.replace("x", "y").replace("X", "Y"))[: 1 + bool(axis)]:
+                head = form.format(name=name + each, unit=unit, symbol=SYMBOLS[kind])
+                columns.append([head, below.format(unit), *(values if each == axis else ["77.77", "77.77"])])
+        rows = [row for row in zip(*columns, strict=True) if any(row)]
+        found = read_storey_table(write(tmp_path, "\n".join(";".join(row) for row in rows) + "\n"))
+        for values, (expected, _) in zip((found.heights, found.mass, found.stiffness), truth.values(), strict=True):
+            assert values is not None, rows
+            assert values.tolist() == pytest.approx(expected[::-1], rel=1e-9), rows
+
+
+@pytest.mark.parametrize("text", [
+    "Level (m),Story,Mass (t)\n8.1,Roof,50.5\n4.5,2F,80\n",
+    "Story;Level [m];Mass [t]\nRoof;8,1;50,5\n2F;4,5;80\n",
+    "Level,Level,Mass\n,m,t\nRoof,8.1,50.5\n2F,4.5,80\n",
+    "No,Story,Höhe über Gelände (m),Mass (t)\n1,Roof,8.1,50.5\n2,2F,4.5,80\n",
+    "Level,hx (m),wx (t)\nRoof,8.1,50.5\n2F,4.5,80\n",
+    "| Level | Elevation (m) | Mass (t) |\n|---|---|---|\n| Roof | 8.1 | 50.5 |\n| 2F | 4.5 | 80 |\n",
+    "Level Elevation Mass\n- m t\nRoof 8.1 50.5\n2F 4.5 80\n",
+    "Level,Cota (m),Mass (t)\nRoof,8.1,50.5\n2F,4.5,80\nLevel 00,0.00,\n",
+    "Level,Cota (m)\nRoof,8.1\n2F,4.5\n\nMasses of 3 March\nLevel,Mass (t)\nRoof,50.5\n2F,80\n",
+    "Units: tonf, m\nLevel,Cota,Peso\nRoof,8.1,50.5\n2F,4.5,80\n",
+])  # fmt: skip
+def test_levels_above_the_ground_beside_names_and_tables_below_one_another(tmp_path: Path, text: str) -> None:
+    found = read_storey_table(write(tmp_path, text))
+    assert (found.names, found.heights is not None and found.heights.tolist()) == (
+        ("2F", "Roof"),
+        pytest.approx([4.5, 3.6]),
+    )
+    assert found.mass is not None
+    assert found.mass.tolist() == pytest.approx([80e3, 50.5e3])
+
+
+def test_the_ground_below_storeys_carries_nothing(tmp_path: Path) -> None:
+    for name in ("Level 0", "G.L.", "Ground floor", "Planta baja", "EG", "RDC", "Zemin kat", "0", "Piano terra"):
+        found = read_storey_table(write(tmp_path, f"Story,Height (m),Mass (t)\nRoof,3,50\nL1,4,60\n{name},0,0\n"))
+        assert found.names == ("L1", "Roof"), name
+        found = read_storey_table(write(tmp_path, f"Story,Height (m),Mass (t)\nRoof,3,50\nL1,4,60\n{name},5,70\n"))
+        assert found.names == (name, "L1", "Roof")
+    for name in ("1", "Level 10", "Lobby"):  # what was forgotten of a storey is no ground
+        with pytest.raises(sm.errors.InvalidBuildingFile, match="must be a positive number"):
+            read_storey_table(write(tmp_path, f"Story,Height (m),Mass (t)\nRoof,3,50\nL11,4,60\n{name},0,0\n"))
+
+
+def test_heights_that_grow_from_storey_to_storey_are_asked_for(tmp_path: Path) -> None:
+    chooser = random.Random(5)
+    for _ in range(60):
+        steps = [chooser.uniform(2.8, 4.5) for _ in range(chooser.randint(2, 9))]
+        levels = [sum(steps[: i + 1]) for i in range(len(steps))]
+        lines = "".join(f"L{i + 1},{level:.3f},9.5\n" for i, level in enumerate(levels))
+        with pytest.raises(sm.errors.InvalidBuildingFile, match="call the column Elevation"):
+            read_storey_table(write(tmp_path, f"Story,Height (m),Mass (t)\n{lines}"))
+        found = read_storey_table(write(tmp_path, f"Story,Height above ground (m),Mass (t)\n{lines}"))
+        assert found.heights is not None
+        assert found.heights.tolist() == pytest.approx(steps, abs=2e-3)
+
+
+@pytest.mark.parametrize("name", ["Tower A L{}", "T1-L{}", "North wing Level {}", "A Piso {}"])
+def test_floors_of_two_towers_by_their_names(tmp_path: Path, name: str) -> None:
+    other = name.translate(str.maketrans({"A": "B", "1": "2", "N": "S"}))
+    lines = "".join(f"{each.format(i)},3.5,9\n" for each in (name, other) for i in (3, 2, 1))
+    with pytest.raises(sm.errors.InvalidBuildingFile, match="of one tower: keep the rows of one"):
+        read_storey_table(write(tmp_path, f"Story,Height (m),Mass (t)\n{lines}"))
+
+
+@pytest.mark.parametrize("name", ["Displacement (mm)", "Force (mm)", "Verschiebung (mm)", "Spostamento (mm)"])
+def test_displacements_of_floors_are_no_drifts(tmp_path: Path, name: str) -> None:
+    found = read_storey_table(write(tmp_path, f"Story,Height (m),Shear (kN),{name}\nL2,3,9,5.5\nL1,3,9,3\n"))
+    assert found.stiffness is None
 
 
 def xlsx(parts: dict[str, bytes]) -> bytes:
@@ -383,7 +527,7 @@ HANDED_OUT: dict[str, tuple[Any, ...]] = {
     "us_units.csv": ({}, 3, 19.67 * 0.3048, 85727 * 4.4482216152605 / 0.3048, 4109 * 4448.2216152605 / 0.0254),
     "vx.csv": ({}, 3, 6.0, 1251e3, None),
     "vy_is_shear_in_y.csv": ({}, 3, 6.0, 1251e3, None),
-    "weight_in_t.csv": ("the column called Mass", None),
+    "weight_in_t.csv": ({}, 3, 6.0, 1251e3, None),
 }
 
 

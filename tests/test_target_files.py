@@ -20,6 +20,8 @@ SA_G = (0.5, 0.75, 0.8, 0.8, 0.8, 0.48, 0.24, 0.096)
 """Never above 4, so that nothing but the unit tells one in m/s2 from one in g."""
 
 PERIOD_HEADS = (
+    "Periyot T (s)",
+    "Schwingzeit [s]",
     "Period (s)",
     "T (s)",
     "T",
@@ -31,7 +33,8 @@ PERIOD_HEADS = (
     "Period [sec]",
 )
 SA_HEADS = ("Sa ({})", "PSA ({})", "Sa [{}]", "SA ({})", "5% damped Sa ({})", "Spectral acceleration ({})", "Se ({})",
-            "pSa ({})", "Target ({})", "Sa_{}", "PSA {}", "Pseudo-spectral acceleration ({})", "Sae ({})")  # fmt: skip
+            "pSa ({})", "Target ({})", "Sa_{}", "PSA {}", "Pseudo-spectral acceleration ({})", "Sae ({})",
+            "Value ({})")  # fmt: skip
 UNITS = {"g": "g", "m/s2": "m/s2", "cm/s2": "cm/s2", "gal": "gal", "m/s^2": "m/s2", "%g": "%g"}
 SEPARATORS = (",", ";", "\t", "  ")
 
@@ -134,12 +137,23 @@ def test_of_several_columns_one_is_named(tmp_path: Path, first: str, second: str
     assert is_right(read(tmp_path, bare, f":{asked.replace(' (g)', '')}:g"))
 
 
-@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "cp1252"])
 def test_encodings(tmp_path: Path, encoding: str) -> None:
     text = table(
         ["P\u00e9riode (s)", "Acc\u00e9l\u00e9ration spectrale (g)"], [list(PERIODS), list(SA_G)], ";", comma=True
     )
     assert is_right(read(tmp_path, text, encoding=encoding))
+
+
+def test_units_in_a_row_below_with_nothing_below_other_columns(tmp_path: Path) -> None:
+    """As ETABS exports its functions, whose ordinates have no unit, and as a head in snake case has one."""
+    rows = "".join(f"RS,{period},{sa},0.05\n" for period, sa in zip(PERIODS, SA_G, strict=True))
+    text = f"TABLE:  Response Spectrum Functions\nName,Period,Value,Damping\n,sec,,\n{rows}"
+    with pytest.raises(RecordFormatError, match=r"unit of Sa of site\.csv"):
+        read(tmp_path, text)
+    assert is_right(read(tmp_path, text, ":g"))
+    assert is_right(read(tmp_path, text.replace(",sec,,", ",(Sec),(g),")))
+    assert is_right(read(tmp_path, table(["period_s", "sa_m_s2"], [list(PERIODS), ordinates("m/s2")])))
 
 
 def test_a_spectrum_from_period_zero_is_linear_to_the_next(tmp_path: Path) -> None:

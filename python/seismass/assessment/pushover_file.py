@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import os
+import re
 from dataclasses import dataclass
 from typing import Final, Literal
 
 import numpy as np
 
-from seismass.assessment.table_file import Sheet, one_case, read_sheets, system_of
-from seismass.assessment.table_words import CURVES, Order, is_base, is_roof_first, refuse_summaries
+from seismass.assessment.table_file import MOST_RATIO, Sheet, one_case, read_sheets, system_of
+from seismass.assessment.table_words import (
+    COLUMNS,
+    CURVES,
+    Order,
+    column_kind,
+    is_base,
+    is_roof_first,
+    refuse_summaries,
+)
 from seismass.base.errors import InvalidBuildingFile
 from seismass.base.values import FloatArray, as_path, frozen, printable, refusal, short
 from seismass.base.views import Card
@@ -122,10 +131,19 @@ def read_pushover(
     base = [name for name in storey_order if is_base(name)]
     owners = [f"sample {number}" for number in range(1, len(sheet.body) + 1)]
     unit = sheet.units["drift"].strip().lower()
-    ratio = unit in _RATIO and ((system is None and sheet.system is None) or unit != "")
+    heads = {kind: re.sub(r"[(\[].*", "", sheet.heads[kind]) for kind in ("drift", "shear")}
+    is_drift, is_shear = (column_kind(head, direction, COLUMNS) == kind for kind, head in heads.items())
+    if "storey" in sheet.columns and not (is_drift and is_shear):
+        need = "called Story Drift and Story Shear, which displacements and forces of floors are not"
+        got = f"{short(sheet.heads['drift'])} and {short(sheet.heads['shear'])}"
+        raise refusal(InvalidBuildingFile, "columns", sheet.label, need, got)
+    ratio = unit in _RATIO and is_drift and ((system is None and sheet.system is None) or unit != "")
     unused = set(range(len(sheet.body))) - set(rows_left)
     factor = _RATIO[unit] if ratio else sheet.factor("drift", "length", system)
     drift = sheet.numbers("drift", factor, owners, left_out=unused)
+    if ratio and np.nanmax(np.abs([0.0, *drift])) > MOST_RATIO:
+        need = "stated in its head: Drift (mm), or Drift (%) where it is that of the height"
+        raise refusal(InvalidBuildingFile, "unit of the column drift", sheet.label, need, unit or "none")
     shear = sheet.numbers("shear", sheet.factor("shear", "force", system), owners, left_out=unused)
     if "storey" in sheet.columns and is_roof_first(storey_order, order, path.name):
         storey_order.reverse()

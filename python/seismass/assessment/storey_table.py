@@ -7,6 +7,7 @@ are stated for the whole table. Tables of several files and sheets are joined by
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import zip_longest
@@ -14,7 +15,16 @@ from typing import Final, Literal, NoReturn
 
 import numpy as np
 
-from seismass.assessment.table_file import Quantity, Sheet, few_names, one_case, read_sheets, readings, system_of
+from seismass.assessment.table_file import (
+    MOST_RATIO,
+    QUANTITIES,
+    Sheet,
+    few_names,
+    one_case,
+    read_sheets,
+    readings,
+    system_of,
+)
 from seismass.assessment.table_words import (
     COLUMNS,
     NO_STOREY,
@@ -28,6 +38,7 @@ from seismass.assessment.table_words import (
     plain,
     refuse_summaries,
     refuse_sums,
+    refuse_towers,
 )
 from seismass.base.errors import InvalidBuildingFile
 from seismass.base.units import STANDARD_GRAVITY
@@ -35,26 +46,18 @@ from seismass.base.values import FloatArray, as_path, printable, refusal, short
 from seismass.base.views import Card
 from seismass.media.text_table import text_table
 
-_QUANTITIES: Final[dict[str, Quantity]] = {
-    "elevation": "length",
-    "height": "length",
-    "mass": "mass",
-    "weight": "force",
-    "stiffness": "stiffness",
-    "strength": "force",
-    "shear": "force",
-    "drift": "length",
-}
 _OF_A_CASE: Final = ("stiffness", "shear", "drift", "drift ratio")
 """Quantities that differ from one load case to another."""
 _SAME: Final = 0.01
 """Part by which one quantity of a storey may differ between two tables, which are rounded."""
-_MOST_RATIO: Final = 0.5
-"""Largest drift ratio of an analysis; a larger number is a length."""
 _TALL: Final = 1.5
 """Height of the lowest storey over that of the tallest other one above which elevations may start elsewhere."""
 _TALLEST: Final = 10.0
 """The same of a single storey (m)."""
+_LOW: Final = 6.0
+"""Height of a lowest storey (m) at which elevations still start at the ground."""
+_GROWS: Final = 1.5
+"""Highest over lowest of heights that grow from storey to storey from which they may be counted from the ground."""
 
 
 @dataclass(frozen=True)
@@ -184,12 +187,13 @@ class _Rows:
         self.rows = rows
         self.names = [texts["storey"][row] for row in rows]
         refuse_summaries(self.names, sheet.path.name)
+        refuse_towers(list(dict.fromkeys(self.names)), sheet.path.name)
         self.cases = [texts["case"][row] for row in rows] if "case" in texts else []
         towers = sorted({tower for tower in texts.get("tower", []) if tower})
         if len(towers) > 1:
             need = "of one tower: keep the rows of one, and write a file for each"
             raise refusal(InvalidBuildingFile, "rows", sheet.label, need, few_names(towers))
-        keys = [tuple(texts[kind][row] for kind in texts) for row in rows]
+        keys = [tuple(_key(texts[kind][row]) for kind in texts) for row in rows]
         twice = next((name for name, key in zip(self.names, keys, strict=True) if keys.count(key) > 1), None)
         if twice is not None:
             count = sum(name == twice for name in self.names)
@@ -213,7 +217,7 @@ class _Rows:
         sheet = self.sheet
         unit = sheet.units[kind].strip()
         ratio = kind == "drift" and unit in ("", "%")
-        factor = (0.01 if unit else 1.0) if ratio else sheet.factor(kind, _QUANTITIES[kind], system)
+        factor = (0.01 if unit else 1.0) if ratio else sheet.factor(kind, QUANTITIES[kind], system)
         owners = [f"row {row + 1}" for row in range(len(sheet.body))]
         for row, name in zip(self.rows, self.names, strict=True):
             owners[row] = f"storey {short(name)}"
@@ -221,7 +225,7 @@ class _Rows:
         left_out = set(range(len(sheet.body))) - {self.rows[i] for i in rows_left if not is_base(self.names[i])}
         numbers = sheet.numbers(kind, factor, owners, left_out=left_out)
         named = bool({"ratio", "drifts"} & set(plain(f"{sheet.heads[kind]} {sheet.title}").split()))
-        if ratio and (not (named or sheet.states_units) or (np.abs(numbers) > _MOST_RATIO).any()):
+        if ratio and (not (named or sheet.states_units) or (np.abs(numbers) > MOST_RATIO).any()):
             need = "stated in its head: Drift (mm), or Drift Ratio where it is that of the height"
             raise refusal(InvalidBuildingFile, "unit of the column drift", sheet.label, need, unit or "none")
         result: dict[str, float] = {}
@@ -277,7 +281,7 @@ class _Joined:
         if kind in ("mass", "weight"):
             refuse_sums(list(result), list(result.values()), sheet.path.name)
             self.live_mass |= bool(sheet.title and "mass summary" in plain(sheet.title))
-            self.live_mass |= plain(sheet.heads[kind].split("(")[0]).replace(" ", "") in _PROGRAM
+            self.live_mass |= re.sub(r"\W|[(\[].*", "", plain(sheet.heads[kind])) in _PROGRAM
             self.live_mass |= any(word in plain(sheet.heads[kind]) for word in ("seism", "sismi"))
         if kind == "drift" and sheet.units[kind].strip() in ("", "%"):
             kind = "drift ratio"
@@ -306,7 +310,7 @@ _PROGRAM: Final = ("ux", "uy", "massx", "massy", "massux", "massuy")
 
 def _key(name: str) -> str:
     """A name as tables are joined by it."""
-    return " ".join(name.casefold().split())
+    return "".join(name.casefold().split())
 
 
 def _ordered(
@@ -322,7 +326,7 @@ def _ordered(
     for key in keys:
         if (
             not is_base(key)
-            and not is_ground(key)
+            and not is_ground(joined.names[key])
             and all(np.isnan(rows_of.get(key, np.nan)) for rows_of in values.values())
         ):
             raise refusal(InvalidBuildingFile, f"row {short(joined.names[key])}", file, NO_STOREY, "no number in it")
@@ -338,8 +342,8 @@ def _ordered(
         keys.reverse()
     loads = [values[kind] for kind in ("mass", "weight", "stiffness", "height") if kind in values]
     ground = [key for key in keys if is_base(key)]
-    if not ground and keys and is_ground(keys[0]) and all(not each.get(keys[0], 0.0) > 0.0 for each in loads):
-        ground = keys[:1]
+    if not ground and keys and all(not each.get(keys[0], 0.0) > 0.0 for each in loads):
+        ground = [key for key in keys[:1] if is_ground(joined.names[key])]
     base = None
     for key in ground:
         keys.remove(key)
@@ -449,7 +453,7 @@ def _heights(
         under = () if levels is None or base is None or base > -1e-6 else levels < 1e-6
         below = [name for name, is_under in zip_longest(names, under) if is_under or is_basement(name)]
         if levels is not None and base is None:
-            tallest = float(np.diff(levels).max()) * _TALL if len(levels) > 1 else _TALLEST
+            tallest = max(float(np.diff(levels).max()) * _TALL, _LOW) if len(levels) > 1 else _TALLEST
             if not 0.0 < levels[0] <= tallest:
                 _ask_level(file, f"{short(names[0])} at {levels[0]:g} m as the lowest floor, and no row Base")
         if below and not has_base:
@@ -473,6 +477,10 @@ def _heights(
         _ask_level(file, f"{base_level}, above all floors")
     remarks += [f"{few_names(names[:lowest])}: at the base level or below, left out"] * bool(lowest)
     if levels is None:
+        counted = heights is not None and len(heights) > 1 and bool((np.diff(heights) > 0.0).all())
+        if heights is not None and counted and heights[-1] >= _GROWS * heights[0]:
+            need = "each from floor to floor: where they count from the ground call the column Elevation, else add one"
+            raise refusal(InvalidBuildingFile, "heights", file, need, f"{few_names([f'{h:g}' for h in heights])} m")
         return (None if heights is None else heights[lowest:]), lowest
     if heights is None or lowest or level != base:
         remarks.append(f"heights are differences of elevations, over a base at {level or 0.0:g} m")

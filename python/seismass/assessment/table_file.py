@@ -6,65 +6,90 @@ import csv
 import io
 import itertools
 import re
-from collections.abc import Collection, Iterator, Sequence
+import unicodedata
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Final, Literal, TypeAlias
 
-from seismass.assessment.table_words import TABLES, TEXTS, Names, column_name, plain
+from seismass.assessment.table_words import TABLES, TEXTS, UNITS, Kinds, column_kind, plain
 from seismass.assessment.workbook import Cell, Rows, sheets_of
 from seismass.base.errors import InvalidBuildingFile
-from seismass.base.files import read_file
+from seismass.base.files import decoded, read_file
 from seismass.base.limits import LONGEST_CELL, MOST_COLUMNS, MOST_ROWS, MOST_TABLE
 from seismass.base.units import FOOT, INCH, KIP, POUND, STANDARD_GRAVITY
 from seismass.base.values import brief, printable, refusal, short
 
 Quantity = Literal["length", "force", "mass", "stiffness"]
+QUANTITIES: Final[dict[str, Quantity]] = {
+    "elevation": "length",
+    "height": "length",
+    "mass": "mass",
+    "weight": "force",
+    "stiffness": "stiffness",
+    "strength": "force",
+    "shear": "force",
+    "drift": "length",
+}
+"""What columns with numbers are of."""
 Mark: TypeAlias = Literal[".", ","]
 """Decimal mark."""
 DECIMAL: Final[dict[str, Mark]] = {"point": ".", "comma": ","}
 
-LENGTHS: Final = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "ft": FOOT, "in": INCH}
+MOST_RATIO: Final = 0.5
+"""Largest drift ratio of an analysis; a larger number is a length."""
+
+
+def _sizes(**sizes: float) -> dict[str, float]:
+    """Sizes of units by all their names."""
+    return sizes | {name: size for unit, size in sizes.items() for name in UNITS.get(unit, "").split()}
+
+
+LENGTHS: Final = _sizes(m=1.0, cm=1e-2, mm=1e-3, ft=FOOT, **{"in": INCH})
 """Metres."""
-FORCES: Final = {
-    "n": 1.0,
-    "kn": 1e3,
-    "mn": 1e6,
-    "kgf": STANDARD_GRAVITY,
-    "tonf": 1e3 * STANDARD_GRAVITY,
-    **dict.fromkeys(("lb", "lbf"), 1e-3 * KIP),
-    **dict.fromkeys(("kip", "kips"), KIP),
-}
+FORCES: Final = _sizes(
+    n=1.0, dan=10.0, kn=1e3, mn=1e6, kgf=STANDARD_GRAVITY, tonf=1e3 * STANDARD_GRAVITY, lb=1e-3 * KIP, kip=KIP
+)
 """Newtons; tonf is the metric one, as these programs have it, and a kip 1000 lbf."""
-MASSES: Final = {"kg": 1.0, "t": 1e3, "tonne": 1e3, "tonnes": 1e3, "lb": POUND, "lbm": POUND}
+MASSES: Final = _sizes(kg=1.0, t=1e3, lb=POUND, slug=1e-3 * KIP / FOOT)
 """Kilograms."""
 _NO_UNIT: Final = ("", "text", "unitless", "-")
-_MASS: Final = re.compile(r"([a-z]+)[-*.·]?s(?:ec)?\^?[2²]/([a-z]+)")
+_MASS: Final = re.compile(r"([a-z]+?)s(?:ec)?2/([a-z]+)")
 _STIFFNESS: Final = re.compile(r"([a-z]+)/([a-z]+)")
-_METRIC: Final = ("m", "cm", "mm")
+_TON: Final = re.compile(r"(?<![a-z])ton(?:s(?!(?:ec)?2))?(?=s|/|$)")
 
 
-def unit_factor(unit: str, quantity: Quantity, what: str, owner: str) -> float:
-    """Return the factor towards SI units of a unit such as "kN/m" or "kip-s2/in" for a length, force, mass or
-    stiffness.
-    """
-    text = unit.strip().lower().replace(" ", "")
-    if quantity == "length" and text in LENGTHS:
-        return LENGTHS[text]
-    if quantity == "force" and text in FORCES:
-        return FORCES[text]
-    if quantity == "mass" and text in MASSES:
-        return MASSES[text]
+def _is_metric(unit: str) -> bool:
+    """Whether a unit has a metric length."""
+    return any(LENGTHS.get(word) in (1.0, 1e-2, 1e-3) for word in re.findall("[a-z]+", unit.lower()))
+
+
+def _size(unit: str, quantity: Quantity, metric: bool) -> float | None:
+    """Size of a unit in SI units; None where it is not of the quantity. Beside `metric` lengths a ton is metric."""
+    text = re.sub(r"[\s()\[\]^*.\u00b7\u22c5_-]", "", unicodedata.normalize("NFKC", unit).lower().replace("per", "/"))
+    text = _TON.sub("t", text) if metric else text
+    plain_sizes = {"length": LENGTHS, "force": FORCES, "mass": MASSES}.get(quantity, {})
     pattern = {"mass": _MASS, "stiffness": _STIFFNESS}.get(quantity)
     matched = pattern.fullmatch(text) if pattern is not None else None
-    if matched and matched[2] in LENGTHS:
-        force = "tonf" if matched[1] == "ton" and matched[2] in _METRIC else matched[1]  # the ton of older versions
-        if force in FORCES:
-            return FORCES[force] / LENGTHS[matched[2]]
+    if text in plain_sizes or matched is None:
+        return plain_sizes.get(text)
+    force, length = FORCES.get(matched[1]), LENGTHS.get(matched[2])
+    return None if force is None or length is None else force / length
+
+
+def unit_factor(unit: str, quantity: Quantity, what: str, owner: str, *, metric: bool = False) -> float:
+    """Return the factor towards SI units of a unit such as "kN/m" or "kip-s2/in" for a length, force, mass or
+    stiffness; a ton is the metric one with its own lengths, or where others are `metric`.
+    """
+    size = _size(unit, quantity, metric or _is_metric(unit))
+    if size is not None:
+        return size
     known = {
-        "length": ", ".join(LENGTHS),
-        "force": "N, kN, kgf, tonf, lb, kip" + ", or the column called Mass" * (text in MASSES),
-        "mass": "kg, t, lb, or force-s2/length such as kip-s2/in" + ", or the column called Weight" * (text in FORCES),
+        "length": "m, cm, mm, ft, in",
+        "force": "N, kN, kgf, tonf, lb, kip",
+        "mass": "kg, t, lb, or force-s2/length such as kip-s2/in"
+        + ", or the column called Weight" * (_size(unit, "force", metric) is not None),
         "stiffness": "force/length such as kN/m or kip/in",
     }[quantity]
     raise refusal(InvalidBuildingFile, what, owner, f"one of {known}", brief(unit))
@@ -74,7 +99,7 @@ def system_of(units: str, owner: str) -> tuple[float, float]:
     """Return the units of force (N) and of length (m) of a system such as "kN-m" or "kip-in"."""
     force, _, length = units.strip().lower().replace(" ", "").replace(",", "-").partition("-")
     length = length.partition("-")[0]  # a third word is that of temperatures
-    if force == "ton" and length in _METRIC:
+    if force == "ton" and _is_metric(length):
         force = "tonf"
     if force not in FORCES or length not in LENGTHS:
         need = "a force and a length such as kN-m, N-mm, kip-in, kip-ft, lb-in, kgf-m or tonf-m"
@@ -196,7 +221,8 @@ class Sheet:
         """Return the factor of a column towards SI units, by its own unit or else by a system (N, m)."""
         unit = self.units[kind]
         if unit:
-            return unit_factor(unit, quantity, f"unit of the column {kind}", self.path.name)
+            metric = any(map(_is_metric, self.units.values()))
+            return unit_factor(unit, quantity, f"unit of the column {kind}", self.path.name, metric=metric)
         system = system or self.system
         if system is None:
             need = "stated: in its head, as in Mass (kg), in a row below, or for the table by --units, such as kN-m"
@@ -207,7 +233,7 @@ class Sheet:
 
 def read_sheets(
     path: Path,
-    names: Names,
+    names: Kinds,
     *,
     needed: tuple[str, ...],
     need: str,
@@ -219,7 +245,8 @@ def read_sheets(
     """
     first = "no rows"
     for tables, separator in _layouts(path):
-        blocks = [block for title, rows in tables for block in _blocks(title, rows)]
+        is_head = partial(_is_head, kinds=names, needed=needed, direction=direction)
+        blocks = [block for title, rows in tables for block in _blocks(title, rows, is_head)]
         sheets = {
             place: _sheet(path, title, rows, names, needed, direction) for place, (title, rows) in enumerate(blocks)
         }
@@ -235,7 +262,7 @@ def read_sheets(
             unread = [title for title in unread if title]
             return [replace(sheet, mark=mark, system=system) for sheet in result], unread
         lines = (", ".join(str(cell) for cell in row if cell != "") for _, rows in tables for row in rows)
-        first = next((line for line in lines if line), first)
+        first = first if first != "no rows" else next((line for line in lines if line), first)
     raise refusal(InvalidBuildingFile, "rows", path.name, f"below {need}", short(first))
 
 
@@ -260,31 +287,22 @@ def _layouts(path: Path) -> Iterator[tuple[list[tuple[str, Rows]], str]]:
     if content.startswith(b"\xd0\xcf\x11\xe0"):
         got = "an older workbook (.xls), or one with a password"
         raise refusal(InvalidBuildingFile, "content", path.name, "text or XLSX: save it as such", got)
-    text = _decoded(content, path.name)
+    try:
+        text = decoded(content)
+    except UnicodeDecodeError:
+        need = "UTF-8, UTF-16 or Windows-1252"
+        raise refusal(InvalidBuildingFile, "text", path.name, need, "damaged text") from None
     if keyed := _keyed(text):
         yield keyed, "="
     for separator in _SEPARATORS:
         if separator in text:
             yield [("", _separated(text, separator, path.name))], separator
     yield [("", _fixed(text))], " "
+    words = (list[Cell](line.split()) for line in text.split("\n")[:MOST_ROWS] if _WORD.search(line))
+    yield [("", [row for row in words if len(row) <= MOST_COLUMNS])], " "
 
 
-def _decoded(content: bytes, name: str) -> str:
-    """Text of a file: Unicode where it is that, else Windows' Western or Turkish."""
-    wide = content[:2] in (b"\xff\xfe", b"\xfe\xff") or 5 * content[:400].count(0) > len(content[:400])
-    encoding = "utf-8-sig"
-    if wide:
-        little = content[:2] == b"\xff\xfe" or (content[:2] != b"\xfe\xff" and content[1:2] == b"\0")
-        encoding = "utf-16-le" if little else "utf-16-be"
-    try:
-        text = content.decode(encoding)
-    except UnicodeDecodeError:
-        if wide or content.startswith(b"\xef\xbb\xbf"):
-            raise refusal(InvalidBuildingFile, "text", name, "UTF-8, UTF-16 or Windows-1252", "damaged text") from None
-        text = content.decode("cp1252", "replace")
-        if re.search("[\u00dd\u00de\u00d0\u00fd\u00fe\u00f0]", text):  # Icelandic there, Turkish in Windows-1254
-            text = content.decode("cp1254", "replace")
-    return text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
+_WORD: Final = re.compile(r"[^\W_]")
 
 
 def _separated(text: str, separator: str, name: str) -> Rows:
@@ -296,7 +314,7 @@ def _separated(text: str, separator: str, name: str) -> Rows:
                 row.pop()
             if len(row) > MOST_COLUMNS:
                 raise refusal(InvalidBuildingFile, "columns", name, f"at most {MOST_COLUMNS}", str(len(row)))
-            if row:
+            if any(map(_WORD.search, row)):
                 rows.append(list(row))
             if len(rows) > MOST_ROWS:
                 raise refusal(InvalidBuildingFile, "rows", name, f"at most {MOST_ROWS}", "more")
@@ -333,7 +351,7 @@ def _keyed(text: str) -> list[tuple[str, Rows]]:
 
 def _fixed(text: str) -> Rows:
     """Rows of columns with spaces between them: two or more, or as many words as the head has."""
-    lines = [line.expandtabs() for line in text.split("\n")[:MOST_ROWS] if re.search(r"[^\s=*_-]", line)]
+    lines = [line.expandtabs() for line in text.split("\n")[:MOST_ROWS] if _WORD.search(line)]
     rows: Rows = []
     spans: list[tuple[int, int]] = []
     for line in lines:
@@ -356,58 +374,90 @@ def _fixed(text: str) -> Rows:
     return rows
 
 
-def _blocks(title: str, rows: Rows) -> Iterator[tuple[str, Rows]]:
-    """Tables of a sheet, each below a row that begins with TABLE."""
+def _blocks(title: str, rows: Rows, is_head: Callable[[list[Cell]], bool]) -> Iterator[tuple[str, Rows]]:
+    """Tables of a sheet, each below a row that begins with TABLE, or with a head of its own."""
     block: Rows = []
+    has_head, left = False, _MOST_ABOVE
     for row in rows:
-        first = next((cell for cell in row if cell != ""), "")
-        match = _TITLE.match(_text(first))
-        if match:
-            if block:
-                yield title, block
-            title, block = match[1].strip(' "'), []
-        else:
+        match = _TITLE.match(_text(next((cell for cell in row if cell != ""), "")))
+        is_text = left > 0 and not _has_number(row)
+        left -= is_text
+        begins = is_text and is_head(row)
+        if match or (begins and has_head):
+            rest = len(block)  # lines above a head belong to it
+            while rest and not match and not _has_number(block[rest - 1]):
+                rest -= 1
+            if block[:rest]:
+                yield title, block[:rest]
+            title, block = match[1].strip(' "') if match else title, block[rest:]
+        has_head = begins or (has_head and not match)
+        if not match:
             block.append(row)
     if block:
         yield title, block
+
+
+def _has_number(row: list[Cell]) -> bool:
+    return any(isinstance(cell, float) or readings(cell[:LONGEST_CELL]) for cell in row)
 
 
 def _text(cell: Cell) -> str:
     return cell.strip()[:LONGEST_CELL] if isinstance(cell, str) else ""
 
 
-_HEAD: Final = re.compile(r"^(?P<name>[^([,]*)(?:[(\[,]\s*(?P<unit>[^)\]]*)[)\]]?)?\s*$")
+_UNIT_IN_BRACKETS: Final = re.compile(r"(.*?)[\s,;:/=_-]*[(\[]\s*([^()\[\]]*(?:\([^()]*\)[^()\[\]]*)?)[)\]]\s*")
+_LONGEST_HEAD: Final = 100
+_MOST_ABOVE: Final = 60
+"""Rows without numbers among which heads are looked for."""
+_BEFORE_UNIT: Final = re.compile(r"[\s,_/-]+(?:in[\s_]+)?")
 
 
-def _sheet(path: Path, title: str, rows: Rows, names: Names, needed: tuple[str, ...], direction: str) -> Sheet | None:
+def _kind_and_unit(head: str, kinds: Kinds, direction: str) -> tuple[str, str]:
+    """What a column holds, and its unit: in brackets, or as the last words of the head."""
+    if len(head) > _LONGEST_HEAD:
+        return "", ""
+    bracket = _UNIT_IN_BRACKETS.fullmatch(head)
+    bracket = None if bracket and re.match(r"[xy]\b", plain(bracket[2])) else bracket
+    # "Drift/" of ETABS holds one over the drift.
+    kind = "" if head.endswith("/") else column_kind(bracket[1] if bracket else head, direction, kinds)
+    unit = bracket[2].strip() if bracket else ""
+    for match in () if bracket else _BEFORE_UNIT.finditer(head):
+        of_name, last = column_kind(head[: match.start()], direction, kinds), head[match.end() :]
+        if of_name and (last in ("%", "rad") or _size(last, QUANTITIES.get(of_name, "length"), metric=True)):
+            kind, unit = of_name, last
+            break
+    if kind in TEXTS and unit.lower() not in _NO_UNIT:
+        is_level = kind == "storey" and "elevation" in kinds.values() and _size(unit, "length", metric=True)
+        kind = "elevation" if is_level else ""
+    return kind, unit
+
+
+def _is_head(row: list[Cell], kinds: Kinds, needed: tuple[str, ...], direction: str) -> bool:
+    """Whether a row names the columns of a table."""
+    names = {_kind_and_unit(_text(cell), kinds, direction)[0] for cell in row} - {""}
+    return {*needed} <= names and not names <= {*TEXTS}
+
+
+def _sheet(path: Path, title: str, rows: Rows, kinds: Kinds, needed: tuple[str, ...], direction: str) -> Sheet | None:
     """The first rows of a table that are a head, and what is below; None where there is no head."""
-    known = {kind: words.replace(" ", "").split("|") for kind, words in names.items()}
     other = "y" if direction == "x" else "x"
-    for number, row in enumerate(rows[:60]):
+    for number, row in enumerate(rows[:_MOST_ABOVE]):
         for head, below in _heads(rows, number, row):
-            parts = [_HEAD.match(cell) for cell in head]
-            head_names = [
-                # "Drift/" of ETABS holds one over the drift.
-                "" if cell.endswith("/") else column_name(part["name"] if part else cell, direction)
-                for part, cell in zip(parts, head, strict=True)
-            ]
+            held, units_of = map(list, zip(*(_kind_and_unit(cell, kinds, direction) for cell in head), strict=True))
             body = rows[below:]
-            units_of = [(part["unit"] or "").strip() if part else "" for part in parts]
-            if body and _is_unit_row(
-                body[0], next((head_names.index(n) for n in known["storey"] if n in head_names), None)
-            ):
-                units_of = [
-                    _text(cell) or unit for cell, unit in itertools.zip_longest(body[0], units_of, fillvalue="")
-                ]
+            if body and _is_unit_row(body[0], [place for place, kind in enumerate(held) if kind == "storey"]):
+                for place, cell in enumerate(body[0][: len(head)]):
+                    if unit := _text(cell).strip("()[]") * (not units_of[place]):
+                        held[place], units_of[place] = _kind_and_unit(f"{head[place]} ({unit})", kinds, direction)
                 body = body[1:]
             full = [place for place in range(len(head)) if any(place < len(row) and row[place] != "" for row in body)]
             columns = {}
-            for kind, words in known.items():
-                places = [place for place, name in enumerate(head_names) if name in words]
+            for kind in dict.fromkeys(kinds.values()):
+                places = [place for place, each in enumerate(held) if each == kind]
                 if kind not in (*needed, *TEXTS) or len(places) > 1:
                     places = [place for place in places if place in full] or places[: kind in needed]
-                if kind == "elevation" and {"x"} <= {each for each in head_names if len(each) == 1} - {"z"}:
-                    places = [place for place in places if head_names[place] != "z"]  # coordinates of a point
+                if kind == "elevation" and "x" in map(plain, head):
+                    places = [place for place in places if not re.match(r"z\b", plain(head[place]))]  # of a point
                 if places:
                     _refuse_two(
                         path, kind, [head[place] for place in places], [[_at(row, p) for row in body] for p in places]
@@ -417,9 +467,8 @@ def _sheet(path: Path, title: str, rows: Rows, names: Names, needed: tuple[str, 
                 if needed == ("storey",) and direction == "x" and "shear" not in columns:
                     _refuse_vy(path, head)
                 units = {k: "" if units_of[p].lower() in _NO_UNIT else units_of[p] for k, p in columns.items()}
-                of_other = {name for words in known.values() for name in words}
                 further = [place for place in full if place not in columns.values()]
-                in_other = [place for place in further if column_name(head[place].split("(")[0], other) in of_other]
+                in_other = [p for p in further if not held[p] and _kind_and_unit(head[p], kinds, other)[0]]
                 unread, others = (
                     tuple(head[place] for place in further if (place in in_other) == known_there)
                     for known_there in (False, True)
@@ -433,19 +482,16 @@ def _heads(rows: Rows, number: int, row: list[Cell]) -> Iterator[tuple[list[str]
     """A row as a head; joined with the row below where that has X and Y below merged cells."""
     head = [_text(cell) for cell in row]
     below = [_text(cell) for cell in rows[number + 1]] if number + 1 < len(rows) else []
-    if {"x", "y"} <= {plain(cell) for cell in below} and not any(readings(cell) for cell in below if cell):
+    axes = [match[0] if (match := re.match(r"[xy]\b", plain(cell))) else "" for cell in below]
+    if {"x", "y"} <= set(axes) and not _has_number(rows[number + 1]):
         width, joined, last = max(len(head), len(below)), [], ""
         for place in range(width):
-            last = head[place] if place < len(head) and head[place] else last
+            above = head[place] if place < len(head) else ""
+            last = above or last
+            match = _UNIT_IN_BRACKETS.fullmatch(last)
+            unit = f" ({match[2]})" if match else ""
             under = below[place] if place < len(below) else ""
-            name, unit = (match["name"], match["unit"]) if (match := _HEAD.match(last)) else (last, "")
-            joined.append(
-                f"{name.strip()} {under}" + f" ({unit})" * bool(unit)
-                if under
-                else head[place]
-                if place < len(head)
-                else ""
-            )
+            joined.append(f"{match[1] if match else last} {under}{unit * ('(' not in under)}" if under else above)
         yield joined, number + 2
     yield head, number + 1
 
@@ -469,14 +515,11 @@ def _refuse_vy(path: Path, head: list[str]) -> None:
         raise refusal(InvalidBuildingFile, f"column {short(vy)}", path.name, need, "VY without VX")
 
 
-def _is_unit_row(row: list[Cell], storey: int | None) -> bool:
-    """Whether a row below the head states units."""
-    cells = [_text(cell) for cell in row if cell != ""]
-    if storey is not None and plain(str(_at(row, storey))) not in _NO_UNIT:
+def _is_unit_row(row: list[Cell], storeys: list[int]) -> bool:
+    """Whether a row below the head, with nothing in one of the columns of storeys, states units."""
+    if storeys and all(plain(_text(_at(row, place))).strip("()[] ") not in _NO_UNIT for place in storeys):
         return False
-    return (
-        any(cells) and not any(isinstance(cell, float) for cell in row) and not any(map(readings, filter(None, cells)))
-    )
+    return any(map(_text, row)) and not _has_number(row)
 
 
 def _refuse_overlong(sheets: list[Sheet], separator: str) -> None:
@@ -508,7 +551,8 @@ def _system(rows: Iterator[list[Cell]]) -> tuple[float, float] | None:
     for row in itertools.islice(rows, 10 * MOST_ROWS):
         for place, cell in enumerate(row):
             head = _text(_at(previous, place))
-            text = f"units: {_text(cell)}" if plain(head).replace(" ", "") in ("currunits", "units") else _text(cell)
+            text = ", ".join(map(_text, row[place : place + 2]))
+            text = f"units: {_text(cell)}" if plain(head).replace(" ", "") in ("currunits", "units") else text
             match = _UNITS.search(text) if "units" in text.lower() else None
             if match:
                 try:

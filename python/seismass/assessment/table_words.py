@@ -13,18 +13,14 @@ from seismass.base.errors import InvalidBuildingFile
 from seismass.base.values import refusal, short
 
 Order = Literal["roof-first", "ground-first"]
-Names = Mapping[str, str]
-"""Names of columns by what they hold, without accents, between bars; x stands for the direction that is asked for."""
+Kinds = Mapping[str, str]
+"""What columns hold by their names, without blanks."""
 
 _WORDS: Final = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-COLUMNS: Final[Names] = {kind.replace("_", " "): names for kind, names in _WORDS["columns"].items()}
+UNITS: Final[Mapping[str, str]] = _WORDS["units"]
+"""Other names of units by the unit, between blanks."""
 TEXTS: Final = ("storey", "case", "step", "step type", "location", "direction", "tower")
 """Kinds of columns that are no quantities."""
-CURVES: Final[Names] = {
-    **{kind: COLUMNS[kind] for kind in ("storey", "case", "step", "step type")},
-    **{kind: f"{COLUMNS[kind]}|{_WORDS['curves'][kind]}" for kind in ("drift", "shear")},
-}
-"""The same of pushover curves."""
 TABLES: Final = re.compile(
     "story (data|definitions|stiffness|forces|shears|drifts)|mass summary by story|centers? of mass and rigidity"
 )
@@ -50,15 +46,51 @@ def words(name: str) -> list[str]:
     return re.findall(r"[^\W\d_]+", plain(name))
 
 
-def column_name(head: str, direction: str) -> str:
-    """Return the name of a column without its unit, in plain letters alone; one of the other direction has none."""
-    parts = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", head)
-    pieces = re.sub(r"[^a-z0-9%]+", " ", plain(parts)).split()
+_COMPOUND: Final = re.compile(
+    f"(?:{'|'.join(word for word in word_list('name', 'fillers') if len(word) > 3)})(?=[a-z])"
+)
+"""A filler before another word, as in Geschossmasse."""
+
+
+def _pieces(head: str, direction: str) -> list[str]:
+    """Words of the name of a column without fillers, ux for UY if that is asked for; none of the other direction."""
     other = "y" if direction == "x" else "x"
-    if pieces and pieces[-1] in (other, f"u{other}", f"k{other}", f"v{other}"):
-        return ""
-    pieces = [{f"u{direction}": "ux", f"k{direction}": "kx", f"v{direction}": "vx"}.get(word, word) for word in pieces]
-    return "".join([*pieces[:-1], "x"] if pieces and pieces[-1] == direction else pieces)
+    pieces = re.sub(r"[^a-z0-9%]+", " ", plain(re.sub(r"(?<=[a-z])(?=[A-Z])", " ", head))).split()
+    if any(re.fullmatch(f"[ukvf]?{other}", word) for word in pieces):
+        return []
+    pieces = [f"{word[0]}x" if re.fullmatch(f"[ukvf]{direction}", word) else word for word in pieces]
+    if direction in pieces and len(pieces) > 1:
+        pieces = [word for word in pieces if word != direction and word not in word_list("direction", "fillers")]
+    fillers = word_list("name", "fillers")
+    telling = [_COMPOUND.sub("", word) for word in pieces if word not in fillers]
+    return telling if set(telling) - {"no", "nr", "number"} else pieces
+
+
+def column_kind(head: str, direction: str, kinds: Kinds) -> str:
+    """Return what a column holds by its name, which may have a symbol behind it, as in Height, h; an empty text where
+    it is not known, or of the other direction.
+    """
+    pieces = _pieces(head, direction)
+    kind = kinds.get("".join(pieces), kinds.get(re.sub("[^a-z0-9%]", "", plain(head)), "")) if pieces else ""
+    for place in range(1, len(pieces)):
+        first = kinds.get("".join(pieces[:place]), "")
+        kind = kind or first * (first == kinds.get("".join(pieces[place:])))
+    return kind
+
+
+def _kinds(*groups: tuple[str, tuple[str, ...]]) -> Kinds:
+    return {
+        form: kind.replace("_", " ")
+        for group, kinds in groups
+        for kind in kinds or _WORDS[group]
+        for name in _WORDS[group][kind].split("|")
+        for form in ("".join(_pieces(name, "x")), name.replace(" ", ""))
+    }
+
+
+COLUMNS: Final = _kinds(("columns", ()))
+CURVES: Final = _kinds(("columns", ("storey", "case", "step", "step_type", "drift", "shear")), ("curves", ()))
+"""The same of pushover curves."""
 
 
 def is_base(name: str) -> bool:
@@ -68,9 +100,9 @@ def is_base(name: str) -> bool:
 
 def is_ground(name: str) -> bool:
     """Return whether a row that carries nothing is the ground level by its name."""
-    return name.strip() == "0" or (
-        len(words(name)) == 1 and words(name)[0] in word_list("ground") and not re.search(r"\d", name)
-    )
+    parts = words(name)
+    named = not word_list("ground").isdisjoint([*parts, "".join(parts)])  # G.L. as GL
+    return not re.search("[1-9]", name) and ("0" in name or named)
 
 
 def is_roof(name: str) -> bool:
@@ -83,7 +115,8 @@ def is_basement(name: str) -> bool:
     parts = words(name)
     if parts in (["b"], ["ss"], []):
         return bool(re.fullmatch(r"\s*(-|[a-z]+\W*)\d+\W*", plain(name)))
-    return parts[0] in word_list("basement") and (len(parts) == 1 or parts[0] != "ug")
+    below = parts[0] in word_list("basement") and (len(parts) == 1 or parts[0] != "ug")
+    return below or {"lower", "ground"} <= {*parts}
 
 
 def is_mezzanine(name: str) -> bool:
@@ -97,6 +130,16 @@ def refuse_summaries(names: Sequence[str], file: str) -> None:
         parts = words(name)
         if not word_list("summary").isdisjoint(parts) or (len(parts) == 1 and parts[0] in word_list("summary_alone")):
             raise refusal(InvalidBuildingFile, f"row {short(name)}", file, NO_STOREY, "a total, a mean or a note")
+
+
+def refuse_towers(names: Sequence[str], file: str) -> None:
+    """Refuse floors whose names differ by what stands before one word and number, as Tower A L2 and Tower B L2."""
+    parts = [re.findall(r"[^\W\d_]+|\d+", plain(name)) for name in names]
+    ends = [tuple(each[-2:]) if len(each) > 2 and each[-1].isdigit() else () for each in parts]
+    alike = [name for name, end in zip(names, ends, strict=True) if end and ends.count(end) > 1]
+    if alike:
+        need = "of one tower: keep the rows of one, and write a file for each"
+        raise refusal(InvalidBuildingFile, "rows", file, need, " and ".join(map(short, alike[:2])))
 
 
 def refuse_sums(names: Sequence[str], masses: Sequence[float], file: str) -> None:
@@ -128,7 +171,7 @@ def is_roof_first(names: Sequence[str], order: Order | None, file: str) -> bool:
         digits = re.findall(r"\d+", name)
         if len(digits) == 1:
             numbers.setdefault(tuple(word for word in words(name) if word not in word_list("ordinals")), []).append(
-                int(digits[0])
+                int(digits[0]) * (-1 if name.strip().startswith("-") else 1)
             )
     for first_words, counts in numbers.items():
         if len(counts) > 1 and counts in (sorted(set(counts)), sorted(set(counts), reverse=True)):

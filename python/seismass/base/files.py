@@ -298,6 +298,23 @@ def read_file(
     return content
 
 
+def decoded(content: bytes) -> str:
+    """Return the text of a table, with line ends of Unix: Unicode where it is that, else Windows' Western or Turkish.
+    Damaged Unicode is a `UnicodeDecodeError`.
+    """
+    wide = content[:2] in (b"\xff\xfe", b"\xfe\xff") or 5 * content[:400].count(0) > len(content[:400])
+    little = content[:2] == b"\xff\xfe" or (content[:2] != b"\xfe\xff" and content[1:2] == b"\0")
+    try:
+        text = content.decode(("utf-16-le" if little else "utf-16-be") if wide else "utf-8-sig")
+    except UnicodeDecodeError:
+        if wide or content.startswith(b"\xef\xbb\xbf"):
+            raise
+        text = content.decode("cp1252", "replace")
+        if re.search("[\u00dd\u00de\u00d0\u00fd\u00fe\u00f0]", text):  # Icelandic there, Turkish in Windows-1254
+            text = content.decode("cp1254", "replace")
+    return text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
+
+
 def read_utf8(path: str | os.PathLike[str], most: int = MOST_BYTES) -> str:
     """Return the text of a regular UTF-8 file of at most `most` bytes, without a byte order mark and with line ends of
     Unix.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
 import csv
 import json
 import os
@@ -17,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from seismass import _kernel
 from seismass.base.errors import InvalidMotion, InvalidOption, RecordFormatError
-from seismass.base.files import read_file
+from seismass.base.files import decoded, read_file
 from seismass.base.limits import MOST_TABLE, within_rows
 from seismass.base.stored_results import inputs_digest
 from seismass.base.units import ACCELERATION_UNITS, FOOT, INCH, STANDARD_GRAVITY, stated_unit, unit_by_name
@@ -87,10 +86,12 @@ class _Spectrum:
 
 
 _PERIODS: Final = re.compile(
-    r"(?:natural |structural |vibration )*(?:periods?|t|tn|per[ií]odos?|p[ée]riodes?|perioden?|periodi|periyot)"
+    r"(?:natural |structural |vibration )*(?:t|tn|(?:periods?|per[ií]odos?|p[ée]riodes?|perioden?|periodi|periyot|"
+    r"schwingzeit|schwingungsdauer),?(?: tn?)?)"
 )
 _ORDINATES: Final = re.compile(
-    r"(?<![^\W_])(?:p?sa[eh]?|se|sd|p?sv|acc?el\w*|ivme\w*|spe[ck]tral\w*|target|uhs|displacement|ordinates?|dbe|mce\w*)(?![^\W_])"
+    r"(?<![^\W_])(?:p?sa[eh]?|se|sd|p?sv|acc?el\w*|ivme\w*|spe[ck]tral\w*|target|uhs|displacement|ordinates?|dbe|mce\w*|"
+    r"values?|valor|valore|valeur|wert|de[gğ]er)(?![^\W_])"
 )
 _OF: Final = {
     "SD": re.compile(r"(?<![^\W_])(?:sd|displacement)(?![^\W_])"),
@@ -115,13 +116,9 @@ def read_table(
     if column is not None and not isinstance(column, str):
         raise refusal(RecordFormatError, "column", source.name, "a name", brief(column))
     try:
-        content = read_file(source, MOST_TABLE)
-        wide = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
-        text = content.decode("utf-16" if wide else "utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
-    except UnicodeDecodeError:
-        text = content.decode("cp1252", "replace")  # as sheets are saved on Windows
-    except OSError as error:
-        got = f"{source} ({error.strerror or 'not text'})"
+        text = decoded(read_file(source, MOST_TABLE))
+    except (OSError, UnicodeDecodeError) as error:
+        got = f"{source} ({getattr(error, 'strerror', None) or 'not text'})"
         raise refusal(RecordFormatError, "path", OWNER, "a file of text that can be read", got) from None
     if "\0" in text:
         got = f"{source} (not text)"
@@ -261,6 +258,7 @@ def _name_and_unit(head: str) -> tuple[str, str]:
     words = re.split(r"[\s,]+|/(?=g$)", name)
     for count in (2, 1):
         last = " ".join(words[-count:])
+        last = last if unit_by_name(last) else last.replace(" s", "/s")  # as in sa_m_s2
         if len(words) > count and (unit_by_name(last) or last in ("s", "sec", "ms", *_METRES)):
             return " ".join(words[:-count]), last
     return name, ""
@@ -287,7 +285,7 @@ def _of_columns(
 ) -> list[_Spectrum]:
     """Return the spectra of one table; rows of several motions or dampings are several, by the name of the motion."""
     units = [""] * len(heads)
-    if rows and len(rows[0]) == len(heads) and all(re.fullmatch(r"[(\[]?[a-z%][\w/^%]*[)\]]?", one) for one in rows[0]):
+    if rows and len(rows[0]) == len(heads) and not any(map(_is_number, rows[0])):
         units, rows = [one.strip("()[]") for one in rows[0]], rows[1:]  # a line of units
     others = [index for index, head in enumerate(heads) if head.lower().strip() in _ROWS_OF]
     keys = list(dict.fromkeys(tuple(row[index] for index in others) for row in rows if len(row) > max([*others, -1])))

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from seismass.base.errors import InvalidOption, RecordFormatError
 from seismass.base.files import read_utf8
 from seismass.base.limits import MOST_TABLE, within_rows
+from seismass.base.units import unit_by_name
 from seismass.base.values import (
     FloatArray,
     Value,
@@ -107,9 +108,11 @@ def _columns(header: list[str], place: str) -> tuple[int, int]:
     if len(rates) != 1 or len(intensities) != 1:
         requirement = "one of an intensity (Sa, IM, PGA) and one of an annual rate (rate, lambda, MAFE)"
         raise refusal(RecordFormatError, "columns", place, requirement, short(", ".join(header)))
-    unit = _OTHER_UNITS.intersection(words[intensities[0]][1:])
-    if unit:
+    unit = unit_by_name(re.sub(r".*[(\[]|[)\]]\s*$", "", header[intensities[0]]))
+    if unit not in (None, "g") or _OTHER_UNITS.intersection(words[intensities[0]][1:]):
         raise refusal(RecordFormatError, "unit of the intensity", place, "g", short(header[intensities[0]]))
+    if re.search(r"(?<![\d.])(?!1\D)\d+[\s_-]*y", header[rates[0]].lower()):
+        raise refusal(RecordFormatError, "rate", place, "annual", short(header[rates[0]]))
     return intensities[0], rates[0]
 
 
