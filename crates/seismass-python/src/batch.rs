@@ -15,6 +15,7 @@ use crate::scene::{Building, Motion, Scene};
 /// there are peaks of it. `progress` is called with runs done and runs in all.
 #[pyfunction]
 #[pyo3(signature = (scenes, motions, runs, *, peaks_only=false, floor_force=false, threads=None, progress=None))]
+#[allow(clippy::too_many_arguments)]
 pub(crate) fn simulate_many(
     py: Python<'_>,
     scenes: Vec<PyRef<'_, Scene>>,
