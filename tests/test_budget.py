@@ -20,7 +20,7 @@ LINES = """
 assessment 7189   base 2578   commands 4238   design 3824   design/scaling 1104   effective_mass 2871   media 1567
 model 3212   motions 377   motions/matching 1469   motions/pulses 1048   motions/records 3830
 motions/records/formats 3853   motions/records/synthetic 1150   motions/scaling 791   motions/spectra 1817   runs 3528
-runs/grid 1704   show 3461   show/animation 1521   show/assessment 2343   show/explore 314   show/plots 1834
+runs/grid 1704   show 3465   show/animation 1521   show/assessment 2343   show/explore 314   show/plots 1834
 show/study 1982   studies 8   studies/campaign 1609   studies/evidence 1149   studies/fragility 3134
 studies/risk 1600   studies/slip 1584   studies/study 1770   studies/validation 1250   top 97
 """
