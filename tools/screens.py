@@ -67,5 +67,5 @@ def keep_both(html: str, size: tuple[int, int], file: Path, prepare: Callable[[A
 
 def keep(picture: Image.Image, file: Path, colours: int = 64) -> None:
     """Write a picture with few colours as PNG, and say how large it is."""
-    picture.quantize(colours, dither=Image.Dither.NONE).save(file, optimize=True)
+    picture.quantize(colours, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(file, optimize=True)
     print(f"{file.name}: {file.stat().st_size / 1e3:.0f} kB")

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 import seismass as sm
 from pages.parts import Page, table
+from seismass.base.values import signed
 from seismass.motions.records import Suite, builtin_suite, read_suite
 from seismass.motions.spectra import response_spectrum
 
@@ -61,7 +62,7 @@ def fill(page: Page) -> dict[str, Any]:
     within = sum(is_within(one.drifts) for one in buildings)
     page.words(
         "the mean of the logarithms is {} for drifts (90 % interval {} to {}), and {} of the {} intervals hold zero.",
-        *(f"{value:+.2f}" for value in (drifts.mean(), low, high)),
+        *(signed(value, "+.2f") for value in (drifts.mean(), low, high)),
         within,
         len(buildings),
     )
@@ -78,7 +79,7 @@ def fill(page: Page) -> dict[str, Any]:
         found[name] = slips.mean()
         page.words(
             f"For 84 % slips at {name} it is {{}}, with {{}} of {{}} intervals.",
-            f"{slips.mean():+.2f}",
+            signed(slips.mean(), "+.2f"),
             held,
             len(slips),
         )
@@ -184,8 +185,8 @@ def compared(file: Path, suites: tuple[Suite, Suite]) -> Compared:
 def with_interval(value: float, samples: Array) -> str:
     """A number with its 90 % interval."""
     low, high = np.quantile(samples, (0.05, 0.95))
-    ends = (f"{end:+.2f}" if abs(end) < UNBOUNDED else "none" for end in (low, high))
-    return f"{value:+.2f} [{', '.join(ends)}]"
+    ends = (signed(end, "+.2f") if abs(end) < UNBOUNDED else "none" for end in (low, high))
+    return f"{signed(value, '+.2f')} [{', '.join(ends)}]"
 
 
 def upper(slips: Array) -> Any:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 import seismass as sm
 from pages.parts import Page, table
+from seismass.base.values import signed
 
 LENGTH_RATIO: Final = 15.0
 FILTER: Final = (0.2, 25.0)
@@ -108,9 +109,9 @@ def flatfile_tables(listed: list[Listed]) -> str:
             (
                 f"RSN{item.sequence} {item.pair.station}",
                 f"{item.pair.dt:g}",
-                *(signed(value) for value in peaks),
-                f"{signed(float(np.median(apart)))}",
-                f"{signed(float(apart[most]))} at {item.periods[most]:g} s",
+                *(signed(value, "+.2f") for value in peaks),
+                signed(float(np.median(apart)), "+.2f"),
+                f"{signed(float(apart[most]), '+.2f')} at {item.periods[most]:g} s",
                 f"{ours[100][at] / ours[50][at]:.3f}",
                 "" if ours.azimuth is None else f"{ours.azimuth[at]:.0f}",
             )
@@ -118,12 +119,12 @@ def flatfile_tables(listed: list[Listed]) -> str:
     all_of_them = np.array(differences)
     heads = "record | dt (s) | PGA | PGV | PGD | spectrum, median | largest | RotD100/50 at 1 s | its azimuth"
     by_period = [
-        (f"{period:g}", *(signed(float(value)) for value in (column.min(), np.median(column), column.max())))
+        (f"{period:g}", *(signed(float(value), "+.2f") for value in (column.min(), np.median(column), column.max())))
         for period, column in zip(listed[0].periods, all_of_them.T, strict=True)
     ]
     worst = np.unravel_index(np.argmax(all_of_them), all_of_them.shape)
     item, period = listed[int(worst[0])], float(listed[0].periods[int(worst[1])])
-    least, largest = signed(float(all_of_them.min())), signed(float(all_of_them.max()))
+    least, largest = signed(float(all_of_them.min()), "+.2f"), signed(float(all_of_them.max()), "+.2f")
     long_periods = np.abs(all_of_them[:, listed[0].periods >= 1.0]).max()
     return (
         f"Differences of ours from the flatfile (%), RotD50, {len(listed)} pairs at {all_of_them.shape[1]} periods:\n\n"
@@ -165,9 +166,3 @@ def processing_table(record: sm.Record) -> str:
         rows.append((what, one.samples, f"{one.pga_g:.4f}", f"{one.pgv:.3f}", f"{one.pgd:.3f}", *ends))
     heads = "RSN6, 180 | samples | PGA (g) | PGV (m/s) | PGD (m) | end velocity (m/s) | end displacement (m)"
     return table(heads, rows, 1)
-
-
-def signed(value: float) -> str:
-    """Return a difference with its sign; without one where it rounds to zero."""
-    text = f"{value:+z.2f}"
-    return "0.00" if text == "+0.00" else text

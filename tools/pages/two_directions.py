@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 import seismass as sm
 from pages.parts import ROOT, Page, table
-from seismass.base.values import FloatArray
+from seismass.base.values import FloatArray, signed
 from seismass.effective_mass.rule import REDUCED_FRICTION, RULE, by_period, share_by_hand
 from seismass.show.plots import FloorPlan, Footprint, floor_paths
 
@@ -90,7 +90,10 @@ def numbers(cases: Sequence[Case], name: str) -> FloatArray:
 
 def spread(values: FloatArray, form: str = ".2f") -> str:
     """Return the mean of values with the smallest and the largest."""
-    return f"{values.mean():{form}} ({values.min():{form}} to {values.max():{form}})" if len(values) else "-"
+    if not len(values):
+        return "-"
+    mean, low, high = (signed(float(value), form) for value in (values.mean(), values.min(), values.max()))
+    return f"{mean} ({low} to {high})"
 
 
 def drift_table(cases: Sequence[Case]) -> str:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 import polars as pl
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
@@ -67,17 +68,15 @@ def _hazard(axes: Axes, other: Axes, result: RiskTargetedShare) -> None:
 
     hazard = result.hazard
     axes.plot(hazard.sa_g, hazard.annual_rate, color=HAZARD.colour, linewidth=1.6, marker=HAZARD.marker)
-    axes.set_xscale("log")
     axes.set_yscale("log")
     label = result.measure.label
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     other.set_xlabel(f"{label} (g)")
     axes.set_ylabel("annual rate (1/year)")
     axes.set_title("Hazard", loc="left")
-    grid_lines(axes)
-    grid_lines(other)
-    other.set_xscale("log")
-    other.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    for one in (axes, other):
+        grid_lines(one)
+        one.set_xscale("log")
+        _name_values(one.xaxis)
     sa_g = np.geomspace(hazard.sa_g[0], hazard.sa_g[-1], 401)
     for model, share, role, name in (
         ("real", None, SLIDE, SLIDE.name),
@@ -132,9 +131,7 @@ def _rates(axes: Axes, result: RiskTargetedShare, codes: Mapping[str, float]) ->
         label = f"{EFFECTIVE} at the design intensity {effective.value:.2f}"
         axes.axvline(effective.value, color=ADVISED.colour, linewidth=1.3, linestyle=(0, (1, 2)), label=label)
     axes.set_yscale("log")
-    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.yaxis.set_minor_formatter(NullFormatter())
+    _name_values(axes.yaxis)
     axes.set_xlim(-0.01, 1.01)
     axes.set_xlabel(SHARE)
     axes.set_ylabel(f"{OVER_MODEL}, annual rate\n(above 1: the model is unsafe)")
@@ -142,6 +139,13 @@ def _rates(axes: Axes, result: RiskTargetedShare, codes: Mapping[str, float]) ->
     mark_codes(axes, codes)
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=1, frameon=False)
     axes.figure.suptitle(f"{result.value:.2f} of the goods attached: {KIND_TEXTS[result.kind]}", fontsize=9.5)
+
+
+def _name_values(axis: Axis) -> None:
+    """Name 1, 2 and 5 in each decade of a logarithmic axis."""
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def _caption(result: RiskTargetedShare) -> str:
