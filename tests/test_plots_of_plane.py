@@ -28,7 +28,7 @@ def test_paths_are_those_of_the_run_and_edges_are_judged() -> None:
     np.testing.assert_array_equal(second.get_xydata(), response.slip[:, 1] + [2.0, 1.0])
     assert plane.get_aspect() == 1.0
     labels = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert labels[-1].endswith("(red: beyond an edge or in an aisle)")
+    assert labels[-1].endswith("(magenta: beyond an edge or in an aisle)")
     wide = FloorPlan((-0.8, -2.0, 4.0, 2.0), plan.goods)
     assert floor_paths(response, floor=0, plan=wide).legends[0].get_texts()[-1].get_text() == "room they take"
 

@@ -169,7 +169,8 @@ def test_figure_shows_every_motion_and_what_is_compared() -> None:
     np.testing.assert_allclose(lower.lines[0].get_ydata(), found.mean / found.target, rtol=1e-15)
     wide = found.plot(records=SUITE, target=TARGET).axes[0]
     assert wide.get_xlim() == pytest.approx((0.05, 4.0))
-    np.testing.assert_allclose(wide.lines[10].get_ydata(), TARGET(wide.lines[10].get_xdata()) / G, rtol=1e-12)
+    (target,) = [line for line in wide.lines if line.get_label() == "target"]
+    np.testing.assert_allclose(target.get_ydata(), TARGET(target.get_xdata()) / G, rtol=1e-12)
     labels = [text.get_text() for text in found.plot().legends[0].get_texts()]
     assert "compared, 0.2 to 1.5 s" in labels
 

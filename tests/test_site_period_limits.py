@@ -310,7 +310,7 @@ def test_a_building_is_animated_where_goods_slide(tmp_path: Path, capsys: pytest
     assert main(["animate", str(example_file()), "--suite", "seven", "--out", str(out)]) == 0
     said = capsys.readouterr().out
     assert "largest slip 0 mm" not in said
-    assert "Model (31.25 % of the goods attached)" in said
+    assert "ASCE/SEI 7-10 model (31.25 % of the goods attached)" in said
     assert "that with the median drift of those under which goods slide" in out.read_text(encoding="utf-8")
 
 
