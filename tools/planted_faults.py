@@ -103,6 +103,10 @@ def tests_of(module: Path, text: str, tests: dict[str, str]) -> tuple[str, ...]:
     return tuple(sorted(set().union(*(files for files in sets if len(files) <= COMMON)) or drawing))
 
 
+WHOLE_COMMANDS: Final = "test_kept_answers"
+"""The tests of whole commands, which are asked about every fault."""
+
+
 def generated_python(count: int, seed: int) -> list[Fault]:
     """Faults drawn over the package."""
     tests = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "tests").glob("test_*.py")}
@@ -115,6 +119,6 @@ def generated_python(count: int, seed: int) -> list[Fault]:
     faults = []
     for number, (path, what, source, text) in enumerate(random_faults.drawn(sites, count, seed), 1):
         what = f"{path.relative_to(PACKAGE)}: {what}"
-        asked = tests_of(path, source, tests)
+        asked = tuple({*tests_of(path, source, tests), WHOLE_COMMANDS})
         faults.append(Fault(DRAWN[0], number, what, path, text, asked, reasons.get(what, "")))
     return faults
