@@ -202,7 +202,12 @@ def test_gif_has_a_frame_per_time_step(tmp_path: Path) -> None:
 def test_a_gif_is_cut_and_begins_shortly_before_the_ground_shakes(tmp_path: Path) -> None:
     """A page plays the same seconds, and shows all."""
     quiet = sm.Motion([0.0] * 200 + [3.0, -3.0] * 50 + [0.0] * 100, 0.02)  # it shakes from 4 to 6 s of 8
-    for given, played in (({}, (3.0, 7.98)), ({"start": 1.0, "end": 2.0}, (1.0, 2.0)), ({"end": 90.0}, (3.0, 7.98))):
+    for given, played in (
+        ({}, (3.0, 7.98)),
+        ({"start": 1.0, "end": 2.0}, (1.0, 2.0)),
+        ({"end": 90.0}, (3.0, 7.98)),
+        ({"end": 2.0}, (0.0, 2.0)),
+    ):
         animation = sm.animate(SCENE, quiet, **given)  # type: ignore[arg-type]
         assert animation.shown.played == pytest.approx(played, abs=0.05)
         assert data_of(animation)["played"] == pytest.approx(played, abs=0.05)

@@ -237,6 +237,9 @@ def test_a_wrong_head_is_refused(project: dict[str, Any], message: str) -> None:
 def test_every_quantity_names_the_key_that_states_it() -> None:
     sources = dict(sm.read_building(given(storeys=[{"height_ft": 14.0}, {"live_load_kpa": 0.0}])).sources)
     assert sources["height"] == "building.height_m; storeys[1].height_ft"
+    goods = [{"name": "tall", "share": 1.0, "width_m": 0.7, "height_m": 2.0}]
+    tall = dict(sm.read_building(given(storeys=[{"goods": goods}, {"live_load_kpa": 0.0}])).sources)
+    assert tall["height"] == "building.height_m"
     assert sources["dead_load"] == "building.dead_load_kpa"
     assert sources["live_load"] == "goods.live_load_kpa; storeys[2].live_load_kpa"
     assert sources["friction"] == "goods.friction"

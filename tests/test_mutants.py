@@ -101,9 +101,9 @@ def test_operators_of_rust_have_a_switch(tools: dict[str, dict[str, Any]], line:
 def test_a_drawn_fault_asks_the_tests_of_its_module(tools: dict[str, dict[str, Any]]) -> None:
     """Those that name it in code, and those with a word of its path in their names; else those that draw."""
     asked = tools["planted_faults"]["tests_of"]
-    module = Path("python/seismass/studies/slip/estimates.py")
+    module = Path("python/seismass/studies/slip/clearance.py")
     tests = {
-        "test_a": "from seismass.studies.slip import demand, estimates",
+        "test_a": "from seismass.studies.slip import clearance, demand",
         "test_b": "sm.rocks(1)",
         "test_c": '"""A block rocks or slides."""',
         "test_d": "from seismass.studies.slip import (\n    rocks,\n)\n",
@@ -114,7 +114,7 @@ def test_a_drawn_fault_asks_the_tests_of_its_module(tools: dict[str, dict[str, A
     assert asked(module, rocks, tests) == ("test_a", "test_b", "test_d", "test_slip_f")
     assert asked(module, "def _rocks():\n    pass\n", {**tests, "test_a": ""}) == ("test_slip_f",)
     many = {f"test_slip_{number}": "" for number in range(13)}
-    assert asked(module, rocks, {**many, "test_a": "estimates.rocks"}) == ("test_a",)
+    assert asked(module, rocks, {**many, "test_a": "clearance.rocks"}) == ("test_a",)
     assert asked(Path("python/seismass/show/cards.py"), rocks, {"test_c": "rocks", "test_e": "plot()"}) == ("test_e",)
 
 

@@ -326,6 +326,24 @@ def test_heights_that_grow_from_storey_to_storey_are_asked_for(tmp_path: Path) -
         assert found.heights.tolist() == pytest.approx(steps, abs=2e-3)
 
 
+@pytest.mark.parametrize("levels", [("N-3.00", "N+3.00", "N+6.50"), ("NPT -3.50", "NPT +3.50", "NPT +7.00")])
+def test_levels_of_one_tower_may_differ_by_their_signs(tmp_path: Path, levels: tuple[str, ...]) -> None:
+    rows = "".join(f"{name},3.5,{600 - number}\n" for number, name in enumerate(reversed(levels)))
+    table = read_storey_table(write(tmp_path, f"Story,Height (m),Mass (t)\n{rows}"), order="roof-first")
+    assert table.names == levels
+
+
+@pytest.mark.parametrize("head", ["Roof Drift (mm)", "Top drift (m)", "Deriva techo (mm)"])
+def test_drifts_of_a_roof_are_none_of_storeys(tmp_path: Path, head: str) -> None:
+    text = f"Story,Height (m),Mass (t),Story Shear (kN),{head}\nRoof,3,300,200,4\nL1,3.5,400,300,7\n"
+    try:
+        table = read_storey_table(write(tmp_path, text))
+    except sm.errors.InvalidBuildingFile as error:
+        assert "those of storeys, called Story Drift" in str(error)
+    else:
+        assert table.stiffness is None
+
+
 @pytest.mark.parametrize("name", ["Tower A L{}", "T1-L{}", "North wing Level {}", "A Piso {}"])
 def test_floors_of_two_towers_by_their_names(tmp_path: Path, name: str) -> None:
     other = name.translate(str.maketrans({"A": "B", "1": "2", "N": "S"}))

@@ -197,7 +197,7 @@ def main() -> int:
             if args.only in name:
                 size, grown, seconds, outcome = tried(name, Path(place))
                 bad += outcome.startswith("defect")
-                words = outcome.replace("|", " ").replace(place, "")
+                words = outcome.replace("|", " ").replace(f"{place}/", "").replace(place, "")
                 shown = f"{size / MB:.0f} MB" if size >= MB else f"{size / 1024:.0f} kB"
                 print(f"| {name} | {shown} | {grown:.0f} MB | {seconds:.1f} s | {words} |", flush=True)
     return int(bad > 0)

@@ -119,6 +119,6 @@ def generated_python(count: int, seed: int) -> list[Fault]:
     faults = []
     for number, (path, what, source, text) in enumerate(random_faults.drawn(sites, count, seed), 1):
         what = f"{path.relative_to(PACKAGE)}: {what}"
-        asked = tuple({*tests_of(path, source, tests), WHOLE_COMMANDS})
+        asked = tuple(dict.fromkeys((*tests_of(path, source, tests), WHOLE_COMMANDS)))
         faults.append(Fault(DRAWN[0], number, what, path, text, asked, reasons.get(what, "")))
     return faults

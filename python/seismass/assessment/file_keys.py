@@ -181,7 +181,8 @@ def sources_of(file: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
         ]
         places: dict[str, list[str]] = {}
         for floor, storey in enumerate(file.get("storeys") or [] if of_storeys else [], start=1):
-            of_kinds = [(f"goods.{key}", value) for kind in storey.get("goods") or [] for key, value in kind.items()]
+            kinds = (storey.get("goods") or []) if place == "goods" else []
+            of_kinds = [(f"goods.{key}", value) for kind in kinds for key, value in kind.items()]
             for key, value in (*storey.items(), *of_kinds):
                 if key.removeprefix("goods.") in keys and value is not None:
                     places.setdefault(key, []).append(str(floor))

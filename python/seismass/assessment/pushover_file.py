@@ -16,6 +16,7 @@ from seismass.assessment.table_words import (
     Order,
     column_kind,
     is_base,
+    is_roof,
     is_roof_first,
     refuse_summaries,
 )
@@ -133,7 +134,7 @@ def read_pushover(
     unit = sheet.units["drift"].strip().lower()
     heads = {kind: re.sub(r"[(\[].*", "", sheet.heads[kind]) for kind in ("drift", "shear")}
     is_drift, is_shear = (column_kind(head, direction, COLUMNS) == kind for kind, head in heads.items())
-    if "storey" in sheet.columns and not (is_drift and is_shear):
+    if "storey" in sheet.columns and (is_roof(heads["drift"]) or not (is_drift and is_shear)):
         need = "called Story Drift and Story Shear, which displacements and forces of floors are not"
         got = f"{short(sheet.heads['drift'])} and {short(sheet.heads['shear'])}"
         raise refusal(InvalidBuildingFile, "columns", sheet.label, need, got)

@@ -34,6 +34,7 @@ from seismass.assessment.table_words import (
     is_basement,
     is_ground,
     is_mezzanine,
+    is_roof,
     is_roof_first,
     plain,
     refuse_summaries,
@@ -216,8 +217,11 @@ class _Rows:
         """Return the numbers of a quantity in SI units by storey, in the rows of a load case; NaN: none."""
         sheet = self.sheet
         unit = sheet.units[kind].strip()
-        ratio = kind == "drift" and unit in ("", "%")
-        factor = (0.01 if unit else 1.0) if ratio else sheet.factor(kind, QUANTITIES[kind], system)
+        if kind == "drift" and is_roof(sheet.heads[kind]):
+            need = "those of storeys, called Story Drift"
+            raise refusal(InvalidBuildingFile, "column of drifts", sheet.label, need, short(sheet.heads[kind]))
+        ratio = kind == "drift" and unit in ("", "%", "rad")
+        factor = (0.01 if unit == "%" else 1.0) if ratio else sheet.factor(kind, QUANTITIES[kind], system)
         owners = [f"row {row + 1}" for row in range(len(sheet.body))]
         for row, name in zip(self.rows, self.names, strict=True):
             owners[row] = f"storey {short(name)}"

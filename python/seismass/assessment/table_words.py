@@ -134,8 +134,8 @@ def refuse_summaries(names: Sequence[str], file: str) -> None:
 
 def refuse_towers(names: Sequence[str], file: str) -> None:
     """Refuse floors whose names differ by what stands before one word and number, as Tower A L2 and Tower B L2."""
-    parts = [re.findall(r"[^\W\d_]+|\d+", plain(name)) for name in names]
-    ends = [tuple(each[-2:]) if len(each) > 2 and each[-1].isdigit() else () for each in parts]
+    parts = [re.findall(r"[^\W\d_]+|-?\d+", plain(name)) for name in names]
+    ends = [tuple(each[-2:]) if len(each) > 2 and each[-1].lstrip("-").isdigit() else () for each in parts]
     alike = [name for name, end in zip(names, ends, strict=True) if end and ends.count(end) > 1]
     if alike:
         need = "of one tower: keep the rows of one, and write a file for each"

@@ -320,7 +320,7 @@ def read_only(array: NDArray[_S]) -> NDArray[_S]:
 def signed(value: float, form: str = "+.0f") -> str:
     """Return a number in a format of Python's; what is written as zero has no sign."""
     text = f"{value:{form}}"
-    return text if text.strip("+-0.e") else text.lstrip("+-")
+    return text if text.strip("+-0.e%") else text.lstrip("+-")
 
 
 def counted(number: int, one: str, several: str | None = None) -> str:

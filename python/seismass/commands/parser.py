@@ -8,10 +8,10 @@ import argparse
 import importlib
 import os
 import re
-import shutil
 import sys
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import Final, NoReturn, TextIO
 
 from seismass._kernel import VERSION
@@ -35,10 +35,14 @@ _HANGING: Final = re.compile(r" +(?:\S+(?: \S+)* {2,})?")
 
 def columns(stream: TextIO | None = None) -> int | None:
     """Return the width of the terminal, which COLUMNS may state; into a file or pipe what COLUMNS states, else None."""
-    if (stream or sys.stdout).isatty():
-        return shutil.get_terminal_size().columns
-    stated = os.environ.get("COLUMNS", "")
-    return int(stated) if stated.isdecimal() and int(stated) > 0 else None
+    stream, stated = stream or sys.stdout, os.environ.get("COLUMNS", "")
+    if stated.isdecimal() and int(stated) > 0:
+        return int(stated)
+    if not stream.isatty():
+        return None
+    with suppress(OSError, ValueError):
+        return os.get_terminal_size(stream.fileno()).columns or 80
+    return 80
 
 
 def tell(message: str) -> None:

@@ -120,7 +120,7 @@ SHARE: Final = f"share {LAMBDA} of the goods attached as mass"
 """Name of the axis of shares."""
 
 _LETTERS: Final = {"alpha": ALPHA, "eta": ETA, "lambda": LAMBDA, "mu": MU, "Omega": OMEGA}
-_MINUS: Final = re.compile(r"(?:(?<![\w.)\]-])|(?<=\de))-(?=\.?\d)|(?<=[\d)] )-(?= \d)")
+_MINUS: Final = re.compile(r"(?:(?<![\w.)\]-])|(?<=\de))-(?=\.?\d)|(?<=[A-Z]\d )-(?= \d)|(?<=\) )-(?= \d)")
 _TIMES: Final = re.compile(r"(?<=\bmu) x(?= \d)")
 _WORD: Final = re.compile(rf"\b({'|'.join(_LETTERS)})(?=\b|_)")
 

@@ -391,7 +391,7 @@ def solve_engine(
     listed, shaken, runs = _used(scenes, motions, rows)
     engine = listed[0].engine if listed else "chain"
     if floor_force and engine != "chain":
-        raise of_chains_alone()
+        raise of_chains_alone("batch")
     how: dict[str, Any] = {"threads": threads, "progress": progress}
     if engine == "plane":
         x, y = zip(*shaken, strict=True)

@@ -157,10 +157,10 @@ class Numbers:
         return json.dumps(self.to_dict(), indent=2, allow_nan=False)
 
 
-def of_chains_alone() -> SeismassError:
+def of_chains_alone(owner: str = "simulate", got: str = "True") -> SeismassError:
     """The error of floor forces that are asked for where another engine than that of chains of storeys solves."""
     requirement = "left out with racks, stops, a stiffness matrix, a sliding base and two directions"
-    return refusal(InvalidOption, "floor_force", "simulate", requirement, "True")
+    return refusal(InvalidOption, "floor_force", owner, requirement, got)
 
 
 def ground_motion(motion: Motion, name: str, rows: int, every: int) -> FloatArray:

@@ -498,7 +498,7 @@ class Response(Numbers):
 
     def _forces(self, name: str) -> FloatArray:
         if self.scene.engine != "chain":
-            raise of_chains_alone()
+            raise of_chains_alone(got="a run that was asked for it")
         return cast(FloatArray, self._asked(name, "floor_force"))
 
     def _history(self, name: str) -> FloatArray:

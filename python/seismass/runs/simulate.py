@@ -115,7 +115,8 @@ def simulate(
     )
     switches = (("displacements_only", displacements_only), ("energy", energy), ("events", events))
     flags = [as_flag(value, name, "simulate", InvalidOption) for name, value in switches]
-    if as_flag(floor_force, "floor_force", "simulate", InvalidOption) and scene.engine != "chain":
+    floor_force = as_flag(floor_force, "floor_force", "simulate", InvalidOption)
+    if floor_force and scene.engine != "chain":
         raise of_chains_alone()
     if scene._plane_scene is not None:
         other = motions[1].acceleration

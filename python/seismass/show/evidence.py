@@ -110,6 +110,8 @@ def advice(result: Evidence) -> str:
         return " and ".join(f"{100.0 * part:.0f} %" for part in parts)
 
     code = result.metadata["codes"][0]
+    if not words or not all(map(right, (BY_CLASS, ROUND, code))):
+        return "No rate of the drift limit is known, so that no fraction follows: see the definitions below."
     return (
         f"In an analysis: the load present on average times {' and '.join(words)}, or the round numbers of the table. "
         f"The rate of the drift limit is then within {RIGHT[0]:g} to {RIGHT[1]:g} times that of goods that slide in "

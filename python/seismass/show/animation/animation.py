@@ -160,8 +160,9 @@ def seconds_played(start: float | None, end: float | None, ground: FloatArray, s
     """Return the first and the last time that are played (s) of the size of a ground acceleration."""
     last = step * (len(ground) - 1)
     before = max(0.0, step * float(np.argmax(ground >= STRONG * ground.max())) - BEFORE)
-    first = before if start is None else as_number(start, "start", OWNER, InvalidOption)
     stop = last if end is None else min(as_number(end, "end", OWNER, InvalidOption), last)
+    shortly = before if before < stop else 0.0
+    first = shortly if start is None else as_number(start, "start", OWNER, InvalidOption)
     if not 0.0 <= first < max(stop, 1e-9):
         raise refusal(InvalidOption, "start", OWNER, "from 0 and before its end", f"{first:g} to {stop:g} s")
     return first, stop

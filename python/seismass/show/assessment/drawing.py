@@ -78,7 +78,9 @@ def _words(result: AssessmentTables, row: dict[str, Any]) -> list[str]:
     weight = units.text("force", STANDARD_GRAVITY * row["mass"])
     lines = textwrap.wrap(f"{name}: W {weight}{height}", LETTERS)
     lines += textwrap.wrap(floor_words(result).get(row["storey"], ""), LETTERS)
-    springs = f"k {units.text('stiffness', row['stiffness'])}, V_y {units.text('force', row['yield_shear'])}"
+    strength = row["yield_shear"]
+    strong = "elastic" if strength is None else f"V_y {units.text('force', strength)}"
+    springs = f"k {units.text('stiffness', row['stiffness'])}, {strong}"
     return [*lines, *[springs] * (len(result.storey_names) <= ROOM)]
 
 

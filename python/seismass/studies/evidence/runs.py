@@ -174,7 +174,7 @@ ALTERATIONS: Final[dict[str, Callable[[Scene], Scene]]] = {
     COLUMNS: with_columns_that_continue,
     PLANE: lambda scene: scene.replace(other_direction=True),
 }
-"""Changes of the scenes of an archetype, real ones and models, by which the general engines solve them."""
+"""Changes of the scenes of an archetype, real ones, and models where they differ, for the general engines."""
 
 
 def _sample(

@@ -56,7 +56,6 @@ _KEYS: Final = (
 )
 _KEY_WIDTH: Final = 18
 _PER_LINE: Final = 8
-_FIELD_WIDTH: Final = 9
 _DIRECTIONS: Final = {
     "N-S": ("N-S", 0.0),
     "E-W": ("E-W", 90.0),

@@ -175,10 +175,8 @@ SCENARIOS: Final = tuple(
 def quantiles_in_random_order(columns: int) -> Array:
     """Return the quantiles of the normal distribution, one for each motion, in an order of its own for each row."""
     count = len(SCENARIOS)
-    source, quantiles = (
-        random.Random(FIRST_SEED - 1),
-        [NormalDist().inv_cdf((i + 0.5) / count) for i in range(count)],
-    )
+    source = random.Random(FIRST_SEED - 1)
+    quantiles = [NormalDist().inv_cdf((i + 0.5) / count) for i in range(count)]
     # Of the methods of Random, Python promises the numbers of random() alone to be the same in all its versions.
     return np.array([sorted(quantiles, key=lambda _: source.random()) for _ in range(columns)])
 
