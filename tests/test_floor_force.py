@@ -94,7 +94,7 @@ def test_they_are_refused_where_no_chain_is_solved() -> None:
         lambda: sm.simulate(plane, (motion, motion), floor_force=True),
         lambda: sm.simulate_many([plane], [(motion, motion)], floor_force=True),
     ):
-        with pytest.raises(sm.errors.InvalidOption, match="floor_force of (simulate|batch) must be left out"):
+        with pytest.raises(sm.errors.InvalidOption, match=r"floor_force of (simulate|batch) must be left out"):
             call()
     with pytest.raises(sm.errors.InvalidOption, match="floor_force of simulate must be asked for"):
         _ = sm.simulate(sm.Scene(building), motion).peak_floor_force
