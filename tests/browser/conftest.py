@@ -47,12 +47,12 @@ def browser() -> Iterator[Browser]:
 def open_page(browser: Browser, tmp_path: Path) -> Callable[..., Any]:
     """Return what opens a page: `with open_page(html, name, width=360, color_scheme="dark") as page`.
 
-    When it is left, there was nothing on the console and no request but that for the page; what a page made itself,
-    such as the script of a worker, is none.
+    What is folded on a phone is opened but with `folded=True`. When it is left, there was nothing on the console and no
+    request but that for the page; what a page made itself, such as the script of a worker, is none.
     """
 
     @contextmanager
-    def opened(html: str, name: str, *, width: int = 1280, **options: Any) -> Iterator[Page]:
+    def opened(html: str, name: str, *, width: int = 1280, folded: bool = False, **options: Any) -> Iterator[Page]:
         file = tmp_path / f"{name}.html"
         file.write_text(html, encoding="utf-8")
         context = browser.new_context(viewport={"width": width, "height": 900}, offline=True, **options)
@@ -63,6 +63,8 @@ def open_page(browser: Browser, tmp_path: Path) -> Callable[..., Any]:
         page.on("pageerror", lambda error: said.append(f"error: {error}"))
         page.on("request", lambda request: None if request.url.startswith("blob:") else asked.append(request.url))
         page.goto(file.as_uri())
+        if not folded:
+            page.evaluate("document.querySelectorAll('.fold[aria-expanded=false]').forEach((button) => button.click())")
         yield page
         context.close()
         assert said == []
@@ -72,14 +74,21 @@ def open_page(browser: Browser, tmp_path: Path) -> Callable[..., Any]:
 
 
 @pytest.fixture(scope="package")
-def axe() -> str:
-    """The source of axe-core, the rules of accessibility by Deque."""
+def violations() -> Callable[[Page], list[str]]:
+    """Return what asks axe-core, the rules of accessibility by Deque, about a page."""
     package = pytest.importorskip("axe_playwright_python", reason="axe-playwright-python is not installed")
-    return (Path(package.__file__).parent / "axe.min.js").read_text(encoding="utf-8")
+    source = (Path(package.__file__).parent / "axe.min.js").read_text(encoding="utf-8")
+
+    def found(page: Page) -> list[str]:
+        page.evaluate(source)
+        listed: list[str] = page.evaluate(AXE_RUN)
+        return listed
+
+    return found
 
 
 @pytest.fixture
-def look(open_page: Callable[..., Any], axe: str) -> Callable[..., None]:
+def look(open_page: Callable[..., Any], violations: Callable[[Page], list[str]]) -> Callable[..., None]:
     """Return what looks at a page as every page is looked at: `look(html, name)`, at all widths and in both schemes.
 
     `prepare` is called with the page before it is looked at.
@@ -94,12 +103,11 @@ def look(open_page: Callable[..., Any], axe: str) -> Callable[..., None]:
                     prepare(page)
                     page.screenshot(path=SCREENSHOTS / f"{name}-{width}-{scheme}.png", full_page=True)
                     found = page.evaluate(CHECKS)
-                    page.evaluate(axe)
-                    violations = page.evaluate(AXE_RUN)
+                    broken = violations(page)
                 where = f"{name} at {width} px, {scheme}"
                 assert found["problems"] == [], where
                 assert found["texts"] > 10, where  # the checks had something to look at
-                assert violations == [], where
+                assert broken == [], where
         with open_page(html, name, width=PRINTED) as page:
             prepare(page)
             page.emulate_media(media="print", color_scheme="light")

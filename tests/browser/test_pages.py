@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 import seismass as sm
 from seismass.media.page import Section, facts_html, figure_html, page_html, table_html, text_html
+from seismass.media.roles import CODE, SLIDE
 
 CLAIMS = pl.DataFrame(
     {
@@ -29,8 +30,8 @@ MINUS, NONE = "\N{MINUS SIGN}", "\N{EN DASH}"
 def figure() -> Figure:
     drawn = Figure(figsize=(6.4, 3.6), layout="constrained")
     for axes in drawn.subplots(1, 2):
-        axes.plot([0.0, 1.0, 2.0], [0.0, 2.0, 1.0], label="real")
-        axes.plot([0.0, 1.0, 2.0], [0.0, 1.0, 1.5], label="model")
+        axes.plot([0.0, 1.0, 2.0], [0.0, 2.0, 1.0], color=SLIDE.colour, label="real")
+        axes.plot([0.0, 1.0, 2.0], [0.0, 1.0, 1.5], color=CODE.colour, label="model")
         axes.set_xlabel("time (s)")
         axes.legend()
     return drawn

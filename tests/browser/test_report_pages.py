@@ -92,6 +92,25 @@ def test_on_a_phone_names_stand_above_values_and_words_of_figures_are_legible(bu
         assert page.evaluate("document.querySelectorAll('.on-wide svg, .on-narrow svg').length") == 2 * 4
 
 
+def test_on_a_phone_a_page_is_twelve_screens_and_its_parts_open(building: str, open_page: Any, violations: Any) -> None:
+    """By a heading, a link and printing; a screen is 900 px high."""
+    opened = "document.querySelectorAll('.fold[aria-expanded=true]').length"
+    with open_page(building, "building", width=360, folded=True) as page:
+        assert page.evaluate("document.documentElement.scrollHeight") <= 12 * 900
+        assert violations(page) == []
+        drifts = page.get_by_role("heading", name="Drifts")
+        assert page.evaluate(opened) == 0
+        drifts.get_by_role("button").click()
+        assert page.evaluate(opened) == 1
+        drifts.get_by_role("button").click()
+        assert page.evaluate(opened) == 0
+        page.locator("nav a", has_text="Assumptions").click()
+        page.wait_for_function(f"{opened} === 1")
+        assert page.locator("section", has_text="Assumptions").last.locator("li").first.is_visible()
+        page.pdf()
+        assert page.evaluate(opened) == page.locator(".sections > section").count()
+
+
 def test_the_sheet_for_the_file_is_one_side_of_a4(building: str, open_page: Any) -> None:
     """297 mm less margins of 16 mm at 96 px an inch; what follows begins on the next page."""
     with open_page(building, "building", width=680) as page:

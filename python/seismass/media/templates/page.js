@@ -59,6 +59,41 @@
     filterable(holder);
   }
 
+  // On a phone the parts of a long page are folded. Their headings open them, and so do links, a search and printing.
+  function folded(section) {
+    const heading = section.querySelector("h2");
+    const part = document.createElement("div");
+    const button = document.createElement("button");
+    part.append(...Array.from(section.childNodes).filter((node) => node !== heading));
+    section.append(part);
+    button.type = "button";
+    button.className = "fold";
+    button.textContent = heading.textContent;
+    heading.replaceChildren(button);
+    const fold = (closed) => {
+      if (closed) part.setAttribute("hidden", "until-found");
+      else part.removeAttribute("hidden");
+      button.setAttribute("aria-expanded", String(!closed));
+    };
+    button.addEventListener("click", () => fold(!part.hidden));
+    part.addEventListener("beforematch", () => fold(false));
+    window.addEventListener("beforeprint", () => fold(false));
+    fold(true);
+    return { section, fold };
+  }
+
+  const sections = Array.from(document.querySelectorAll(".sections > section"));
+  if (sections.length > 6 && window.matchMedia("(max-width: 40rem)").matches) {
+    const folds = sections.map(folded);
+    const reach = () => {
+      const target = document.getElementById(location.hash.slice(1));
+      folds.filter(({ section }) => section.contains(target)).forEach(({ fold }) => fold(false));
+      if (target !== null) target.scrollIntoView();
+    };
+    window.addEventListener("hashchange", reach);
+    reach();
+  }
+
   // What does not scroll is no stop of the Tab key.
   const holders = document.querySelectorAll(".scroll");
   function stops() {
