@@ -30,8 +30,14 @@ pub struct Case {
 }
 
 /// Peaks only, as a study asks for them.
-pub const PEAKS: Options =
-    Options { histories: None, displacements_only: false, energy: false, events: false, peaks_only: true };
+pub const PEAKS: Options = Options {
+    histories: None,
+    displacements_only: false,
+    energy: false,
+    floor_force: false,
+    events: false,
+    peaks_only: true,
+};
 
 /// A scene by name.
 pub fn case(name: &str) -> Result<Case> {
