@@ -57,7 +57,7 @@ def _panel(axes: Any, table: pl.DataFrame, scene: str) -> None:
                 zorder=5 if marker == "*" else 2,
                 label=family,
             )
-    axes.grid(visible=True, which="major", linewidth=0.4, alpha=0.5)
+    axes.grid(visible=True, which="major", color=GREY, linewidth=0.4, alpha=0.5)
     axes.spines[["top", "right"]].set_visible(False)
 
 

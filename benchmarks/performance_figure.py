@@ -51,7 +51,7 @@ def storeys_figure(data: Mapping[str, Any], path: Path) -> None:
     axes.set_xlabel("storeys")
     axes.set_ylabel("time per sample (us)")
     axes.set_title("Single runs, peaks only; calm: without events", fontsize=10, loc="left")
-    axes.grid(visible=True, which="major", linewidth=0.4, alpha=0.5)
+    axes.grid(visible=True, which="major", color=GREY, linewidth=0.4, alpha=0.5)
     axes.spines[["top", "right"]].set_visible(False)
     figure.legend(loc="outside right center", fontsize=8, frameon=False)
     figure.savefig(path, dpi=140)
