@@ -103,6 +103,19 @@ def test_what_has_two_readings_is_asked_for(tmp_path: Path, text: str, options: 
         read_storey_table(write(tmp_path, text), **options)
 
 
+@pytest.mark.parametrize("symbol", [" V_y", ", Vy", " (V_y)", " [Vy]"])
+@pytest.mark.parametrize("unit", [" (kN)", " [kN]", ", kN"])
+def test_the_symbol_of_a_yield_shear_is_no_direction(tmp_path: Path, symbol: str, unit: str) -> None:
+    for name in ("Yield Shear", "Flie\N{LATIN SMALL LETTER SHARP S}kraft"):
+        for direction in ("x", "y"):
+            path = write(tmp_path, f"Story;Height (m);{name}{symbol}{unit}\nL2;4;500\nL1;4;600\n")
+            found = read_storey_table(path, direction=direction)
+            assert found.strength is not None
+            assert found.strength.tolist() == [6e5, 5e5]
+    of_both = f"Story;Yield Shear Vx{unit};Yield Shear{symbol}{unit}\nL2;5;50\nL1;6;60\n"
+    assert read_storey_table(write(tmp_path, of_both)).strength == pytest.approx([6e3, 5e3])
+
+
 def test_numbers_with_every_mark() -> None:
     """Both readings where both are possible; groups of three have one mark between them and begin with no zero."""
     for text, point, comma in (

@@ -443,7 +443,8 @@ def _sheet(path: Path, title: str, rows: Rows, kinds: Kinds, needed: tuple[str, 
     other = "y" if direction == "x" else "x"
     for number, row in enumerate(rows[:_MOST_ABOVE]):
         for head, below in _heads(rows, number, row):
-            held, units_of = map(list, zip(*(_kind_and_unit(cell, kinds, direction) for cell in head), strict=True))
+            named = (_without_symbol(cell, head, kinds, direction) for cell in head)
+            held, units_of = map(list, zip(*(_kind_and_unit(cell, kinds, direction) for cell in named), strict=True))
             body = rows[below:]
             if body and _is_unit_row(body[0], [place for place, kind in enumerate(held) if kind == "storey"]):
                 for place, cell in enumerate(body[0][: len(head)]):
@@ -505,6 +506,14 @@ def _refuse_two(path: Path, kind: str, heads: list[str], columns: list[list[Cell
     if kind not in TEXTS and any(column != columns[0] for column in columns[1:]):
         got = " and ".join(short(head) for head in heads)
         raise refusal(InvalidBuildingFile, f"columns of {kind}", path.name, "one: remove the others", got)
+
+
+def _without_symbol(name: str, head: list[str], kinds: Kinds, direction: str) -> str:
+    """A name without V_x or V_y behind that of a yield shear. V_y is no direction where no column is of x."""
+    of_x = any(re.search(r"(?<![a-z])[ukvf]?_?x(?![a-z])", plain(cell)) for cell in head)
+    shorter = re.sub(rf"(?<=\w)[\s,;(\[]+V_?[{direction}{'' if of_x else 'y'}]\b[)\]]?", "", name, flags=re.IGNORECASE)
+    is_yield_shear = shorter != name and _kind_and_unit(shorter, kinds, direction)[0] == "strength"
+    return shorter if is_yield_shear else name
 
 
 def _refuse_vy(path: Path, head: list[str]) -> None:

@@ -145,11 +145,16 @@ class Rule:
         return self.buildings > 0 and self.short <= SELDOM * self.buildings
 
 
-def percent(value: float | None, digits: int = 0) -> str:
-    """Return a signed percentage with a true minus, or a dash."""
+def percent(value: float | None, digits: int = 0, sign: str = "+") -> str:
+    """Return a signed percentage with a true minus, or a dash; `sign` "-" leaves a plus away."""
     if value is None or not np.isfinite(value):
         return "\N{EN DASH}"
-    return lettered(signed(value, f"+.{digits}f")) + "\N{NO-BREAK SPACE}%"
+    return lettered(signed(value, f"{sign}.{digits}f")) + "\N{NO-BREAK SPACE}%"
+
+
+def _by(value: Any) -> str:
+    """What stands behind "underestimated by"."""
+    return percent(_number(value), sign="-")
 
 
 def compared_rules(fractions: pl.DataFrame) -> list[Rule]:
@@ -178,10 +183,11 @@ def one_line(result: StudyFrames) -> str:
     kind = "yielding" if yielding.height else "elastic"
     first = shown.filter(storey=1)
     means = ", ".join(
-        f"{percent(_number(rows['underestimation_percent'].mean()))} ({occupancy})"
+        f"{_by(missed.mean())} ({occupancy}: {_by(missed.min())} to {_by(missed.max())} in {missed.len()} buildings)"
         for (occupancy,), rows in first.group_by("occupancy", maintain_order=True)
+        for missed in (rows["underestimation_percent"],)
     )
-    worst = percent(_number(shown["underestimation_percent"].max()))
+    worst = _by(shown["underestimation_percent"].max())
     return (
         f"With the share of the live load that {result.metadata['code']['name']} counts as mass, drifts of first "
         f"storeys of {kind} buildings are underestimated by {means} on average, and by up to {worst} in one storey."
@@ -229,12 +235,12 @@ def _underestimation(name: str, rows: pl.DataFrame, code: str, kind: str) -> Mar
         share=share,
         code=code,
         kind=kind,
-        mean=percent(_number(missed.mean())),
-        least=percent(_number(missed.min())),
-        most=percent(_number(missed.max())),
+        mean=_by(missed.mean()),
+        least=_by(missed.min()),
+        most=_by(missed.max()),
         more=int((missed > 0.0).sum()),
         count=missed.len(),
-        worst=percent(worst["underestimation_percent"]),
+        worst=_by(worst["underestimation_percent"]),
         place=place,
     )
 

@@ -72,7 +72,7 @@ function ruleBy(scene, acceleration, constants) {
   const offset = less ? constants.smallOffset : constants.offset;
   const share = (mu) => Math.min(1, Math.max(0, (constants.slope * mu) / coefficient - offset));
   const words =
-    `${constants.slope} mu/C1 - ${fixed(offset, 2)} = ${fixed(share(friction), 3)}; C1 = S_a/R_y^(2/3) = ${fixed(coefficient, 3)}, ` +
+    `${constants.slope} mu/C1 \u2212 ${fixed(offset, 2)} = ${fixed(share(friction), 3)}; C1 = S_a/R_y^(2/3) = ${fixed(coefficient, 3)}, ` +
     `S_a = ${fixed(acceleration, 3)} g, R_y = ${fixed(reduction, 2)}`;
   const kinetic = massRatio.reduce((sum, ratio, i) => sum + ratio * muK[i], 0) / goods;
   return { coefficient, share, estimate: share(friction), overKinetic: friction / kinetic, words };
