@@ -107,7 +107,7 @@ def advice(result: Evidence) -> str:
 
     def right(rule: str) -> str:
         parts = rules.filter(code_id=rule)["right"].to_list()
-        return " and ".join(f"{100.0 * part:.0f} %" for part in parts)
+        return "/".join(f"{100.0 * part:.0f}" for part in parts) + " %"
 
     code = result.metadata["codes"][0]
     if not words or not all(map(right, (BY_CLASS, ROUND, code))):
@@ -115,8 +115,8 @@ def advice(result: Evidence) -> str:
     return (
         f"In an analysis: the load present on average times {' and '.join(words)}, or the round numbers of the table. "
         f"The rate of the drift limit is then within {RIGHT[0]:g} to {RIGHT[1]:g} times that of goods that slide in "
-        f"{right(BY_CLASS)} and in {right(ROUND)} of the archetypes on {' and '.join(result.metadata['suites'])}; with "
-        f"{CODE_NAMES[code]} in {right(code)}. Where one weight also sets the strength, column (e) is that fraction; "
+        f"{right(BY_CLASS)} of the archetypes by these factors, {right(ROUND)} by round numbers and {right(code)} with "
+        f"{CODE_NAMES[code]}, on {' and '.join(result.metadata['suites'])}. Where one weight also sets the strength, column (e) is that fraction; "
         "floors that are always full need what stands for them below."
     )
 
