@@ -50,7 +50,7 @@ fn seeds_that_once_failed_hold() {
 /// dampers, or with P-Delta, and runs ended in an error.
 #[test]
 fn stiff_scenes_with_heavy_goods_are_solved() {
-    for seed in (0..).filter(|&seed| Family::of(seed) == Family::Stiff).take(60).chain([8530, 25_080]) {
+    for seed in (0..).filter(|&seed| Family::of(seed) == Family::Stiff).take(24).chain([8530, 25_080]) {
         let mut tally = Tally::from_seed(seed);
         tally.run(1, 1.0);
         assert!(tally.defects.is_empty() && tally.failed.is_empty(), "{:#?} {:#?}", tally.defects, tally.failed);
