@@ -36,6 +36,14 @@ pub enum JudgeError {
         /// Bound on the series of a run.
         limit: usize,
     },
+    /// All solutions asked for of one scene took too many series together.
+    #[error("more than {limit} series in all solutions of the scene, one in double-double counted as {precise}")]
+    TooDear {
+        /// Bound on the series.
+        limit: usize,
+        /// What one in double-double counts.
+        precise: usize,
+    },
     /// The state left the range of the number type.
     #[error("the response left the range of numbers at t = {time} s")]
     NotFinite {

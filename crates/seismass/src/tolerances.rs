@@ -73,6 +73,9 @@ pub(crate) const TALL_PHASE: f64 = 8.0;
 /// is solved by a series for each radian: shorter steps cost less.
 pub(crate) const SUBSTEP_PHASE: f64 = 4.0;
 
+/// Largest growth of a norm over a step by which it is bounded: its products with bounds of derivatives are numbers.
+pub(crate) const LARGEST_GROWTH: f64 = 1e100;
+
 /// Most radians of the stiffest vibration in a step: each takes a series of its own where something happens.
 pub(crate) const REFUSED_PHASE: f64 = 65536.0;
 

@@ -23,4 +23,4 @@ pub(crate) use plane::solve_plane_scaled;
 pub use plane::{PlaneSolution, compare_plane, plane_solution_of, solve_plane};
 pub use record::GeneralSolution;
 pub use solve::solve_general;
-pub(crate) use solve::{Scale, solve_scaled};
+pub(crate) use solve::{Budget, Scale, solve_scaled};

@@ -1,5 +1,7 @@
 //! The run: sample intervals cut into pieces, pieces cut at events.
 
+use std::cell::Cell;
+
 use seismass::{GeneralEvent, GeneralScene, GeneralStatus, Motion};
 
 use super::arrangement::Machines;
@@ -23,7 +25,45 @@ pub fn solve_general<R: Real>(
     motion: &Motion,
     every: usize,
 ) -> Result<GeneralSolution, JudgeError> {
-    solve_scaled(scene, motion, every, Scale::<R>::none())
+    solve_scaled(scene, motion, every, Scale::<R>::none(), &Budget::unlimited())
+}
+
+/// Series that all solutions of one scene may take together. One in double-double counts as thirty: so much longer it takes.
+#[derive(Debug)]
+pub(crate) struct Budget {
+    limit: usize,
+    spent: Cell<usize>,
+}
+
+impl Budget {
+    /// What a series in double-double counts.
+    const PRECISE: usize = 30;
+
+    /// So many series in double precision.
+    pub(crate) fn of(limit: usize) -> Self {
+        Self { limit, spent: Cell::new(0) }
+    }
+
+    pub(super) fn unlimited() -> Self {
+        Self::of(usize::MAX)
+    }
+
+    /// Takes one series.
+    ///
+    /// # Errors
+    /// [`JudgeError::TooDear`] where there are none left.
+    pub(super) fn spend<R: Real>(&self) -> Result<(), JudgeError> {
+        self.check()?;
+        self.spent.set(self.spent.get() + if R::EPSILON < f64::EPSILON { Self::PRECISE } else { 1 });
+        Ok(())
+    }
+
+    /// # Errors
+    /// [`JudgeError::TooDear`] where no series are left.
+    pub(crate) fn check(&self) -> Result<(), JudgeError> {
+        let left = self.spent.get() < self.limit;
+        if left { Ok(()) } else { Err(JudgeError::TooDear { limit: self.limit, precise: Self::PRECISE }) }
+    }
 }
 
 /// Factors of the motion. In double-double they may differ from 1 by less than a double can.
@@ -47,12 +87,13 @@ impl<R: Real> Scale<R> {
     }
 }
 
-/// As [`solve_general`], under the motion times factors.
+/// As [`solve_general`], under the motion times factors and within a budget.
 pub(crate) fn solve_scaled<R: Real>(
     scene: &GeneralScene,
     motion: &Motion,
     every: usize,
     scale: Scale<R>,
+    budget: &Budget,
 ) -> Result<GeneralSolution, JudgeError> {
     if every == 0 {
         return Err(JudgeError::NoDecimation);
@@ -86,7 +127,7 @@ pub(crate) fn solve_scaled<R: Real>(
         run.start = R::of(i as f64) * dt;
         for piece in 0..pieces {
             let ends = [piece, piece + 1].map(|p| dt * R::of(p as f64) / R::of(pieces as f64));
-            if let Some((node, time)) = run.solve_piece(ends, &mut recorder)? {
+            if let Some((node, time)) = run.solve_piece(ends, &mut recorder, budget)? {
                 status = GeneralStatus::Collapsed { number: node + 1, time };
                 break 'run;
             }
@@ -139,9 +180,11 @@ impl<R: Real> Run<R> {
         &mut self,
         [begin, end]: [R; 2],
         recorder: &mut Recorder<R>,
+        budget: &Budget,
     ) -> Result<Option<(usize, f64)>, JudgeError> {
         let (mut tau, mut events) = (begin, 0);
         loop {
+            budget.spend::<R>()?;
             let rest = end - tau;
             let short = self.stretches.longest(&self.model, &self.state).filter(|&longest| longest < rest);
             let length = short.unwrap_or(rest);

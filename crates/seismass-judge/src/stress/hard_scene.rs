@@ -1,4 +1,5 @@
-//! The hard family of random scenes: every number drawn from a range far wider than buildings have.
+//! The hard family of random scenes: every number drawn from a range far wider than buildings have. And those among them
+//! that are stiff, with heavy goods.
 
 use std::sync::Arc;
 
@@ -12,6 +13,15 @@ use crate::random_scene::{Draw, mass_above, samples_of, spring};
 /// Largest product of the highest frequency and the time step: beyond, one interval has hundreds of vibrations.
 const LARGEST_PHASE: f64 = 200.0;
 
+/// What is drawn of a hard scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// Everything.
+    Any,
+    /// Steps in which the stiffest mode turns by 50 to 1000 radians, under goods 10 to 10000 times as heavy as their floor.
+    Stiff,
+}
+
 /// A scene and a motion drawn from a seed: periods of 1e-3 to 100 s, stiffness contrasts up to 1e6, floor masses over
 /// four decades, block masses 1e-9 to 1e6 of their floor's, mu from 0 to 100, strengths from 1e-9 W to infinity, peaks of
 /// 1e-6 to 1e3 m/s2, steps of 1e-3 to 0.1 s (shorter for the stiffest), vertical motion of up to 3 g.
@@ -19,21 +29,41 @@ const LARGEST_PHASE: f64 = 200.0;
 /// # Errors
 /// None for any seed, as the stress suite asserts; validation is the scene's own.
 pub fn hard_scene(seed: u64) -> Result<(Scene, Motion)> {
+    scene_of_kind(seed, Kind::Any)
+}
+
+/// As [`hard_scene`], with steps in which the stiffest mode turns by 50 to 1000 radians, and goods 10 to 10000 times as
+/// heavy as their floor: such motions are not divided into substeps where goods are heavier than that than the lightest
+/// floor.
+///
+/// # Errors
+/// As there.
+pub fn stiff_scene(seed: u64) -> Result<(Scene, Motion)> {
+    scene_of_kind(seed, Kind::Stiff)
+}
+
+fn scene_of_kind(seed: u64, kind: Kind) -> Result<(Scene, Motion)> {
     let mut draw = Draw(seed ^ 0x6861_7264);
     let draw = &mut draw;
-    let storeys = draw.one_of(&[0, 1, 1, 1, 2, 2, 3, 4, 6, 10]);
+    let any = [0, 1, 1, 1, 2, 2, 3, 4, 6, 10];
+    let storeys = draw.one_of(if kind == Kind::Any { &any } else { &any[1..] });
     let pga = draw.scale(1e-6, 1e3);
-    let samples = 40 + (draw.bits() % 160) as usize;
+    // Few, so that the judge can follow stiff ones.
+    let [least, others] = if kind == Kind::Any { [40, 160] } else { [10, 40] };
+    let samples = (least + draw.bits() % others) as usize;
     let mut dt = draw.one_of(&[0.001, 0.005, 0.01, 0.02, 0.05, 0.1]);
     let mut scene = if storeys == 0 {
-        Scene::new(None, blocks(draw, &[], pga))?
+        Scene::new(None, blocks(draw, kind, &[], pga))?
     } else {
         let mass: Vec<f64> = (0..storeys).map(|_| 1000.0 * draw.scale(0.01, 100.0)).collect();
-        let mut blocks = blocks(draw, &mass, pga);
+        let mut blocks = blocks(draw, kind, &mass, pga);
         let building = building(draw, seed, mass, &mut blocks, pga)?;
         let shortest = building.periods().into_iter().fold(f64::INFINITY, f64::min);
         let longest_step = LARGEST_PHASE * shortest / std::f64::consts::TAU;
-        dt = f64::min(dt, longest_step * if draw.one_in(30) { 1.0 } else { 0.03 });
+        dt = match kind {
+            Kind::Any => f64::min(dt, longest_step * if draw.one_in(30) { 1.0 } else { 0.03 }),
+            Kind::Stiff => longest_step * draw.scale(0.25, 5.0),
+        };
         Scene::new(Some(Arc::new(building)), blocks)?
     };
     if let Some(building) = scene.building().cloned().filter(|_| draw.one_in(5)) {
@@ -84,7 +114,7 @@ fn building(draw: &mut Draw, seed: u64, mass: Vec<f64>, blocks: &mut [Block], pg
     Building::new(mass, storeys, damping)?.with_gravity(gravity)
 }
 
-fn blocks(draw: &mut Draw, mass: &[f64], pga: f64) -> Vec<Block> {
+fn blocks(draw: &mut Draw, kind: Kind, mass: &[f64], pga: f64) -> Vec<Block> {
     let typical = (pga / STANDARD_GRAVITY).min(50.0);
     let mut blocks = Vec::new();
     for floor in 0..=mass.len() {
@@ -98,7 +128,11 @@ fn blocks(draw: &mut Draw, mass: &[f64], pga: f64) -> Vec<Block> {
             };
             let mu_k = mu_s * draw.one_of(&[1.0, 1.0, 0.9, 0.1, 0.0]);
             let floor_mass = if floor > 0 { mass[floor - 1] } else { 1000.0 };
-            let alpha = if draw.one_in(3) { draw.scale(1e-9, 1e6) } else { draw.scale(0.05, 20.0) };
+            let alpha = match kind {
+                Kind::Stiff => draw.scale(10.0, 1e4),
+                Kind::Any if draw.one_in(3) => draw.scale(1e-9, 1e6),
+                Kind::Any => draw.scale(0.05, 20.0),
+            };
             let velocity = draw.one_in(12).then(|| draw.between(-1.0, 1.0) * pga * 0.1);
             blocks.push(Block { mu_k, velocity, ..Block::new(floor, alpha * floor_mass, mu_s) });
         }

@@ -112,10 +112,11 @@ pub fn page(findings: &[Finding], tally: &Tally) -> String {
          neither move nor exceed their limit, peaks that no sample beats.\n\n{}\n\
          ## Random scenes\n\n\
          Seeded scenes that draw every feature of the model; the hard family draws every number from a range far wider than \
-         buildings have, the tall one has 13 to 64 storeys, and that of laws has springs of the further laws and friction that \
-         changes with the path slipped, as a third of the hard and tall scenes have too (`random_scene.rs`, `law_scene.rs`, \
+         buildings have, the stiff one has steps in which the stiffest mode turns by 50 to 1000 radians, under goods 10 to \
+         10000 times as heavy as their floor, the tall one has 13 to 64 storeys, and that of laws has springs of the further laws and friction that \
+         changes with the path slipped, as a third of the hard, stiff and tall scenes have too (`random_scene.rs`, `law_scene.rs`, \
          `stress/hard_scene.rs` and `stress/tall_scene.rs` of `crates/seismass-judge`). Every run is checked by itself, a tenth with energies, a \
-         random part against the judge, of the tall family a larger one. Where the two part, the judge is asked again with \
+         random part against the judge, of the stiff and tall families a larger one. Where the two part, the judge is asked again with \
          its input changed in the last digits: a grazing is explained if it then comes to the same events, times and numbers as \
          the kernel, and a scene is sensitive if it has the kernel's events and moves as far from itself as the kernel is \
          from it. Where all numbers agree and the logs \

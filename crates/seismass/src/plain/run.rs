@@ -31,7 +31,7 @@ use crate::state::State;
 use crate::state::limits::BoundsInLanes;
 use crate::state::sample::Sample;
 use crate::step::steps::Whole;
-use crate::tolerances::{NO_CONTACT, SERIES_PHASE};
+use crate::tolerances::{LARGEST_GROWTH, NO_CONTACT, SERIES_PHASE};
 use crate::units::STANDARD_GRAVITY;
 
 /// The larger of two separations, of the start and the end of a step, and a norm times the margin per unit of it.
@@ -81,6 +81,10 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
     let regime = step_columns.regime;
     let (mass, tangent): ([V; K], [V; K]) = (regime.lanes(Row::RootMass), regime.lanes(Row::RootTangent));
     let growth = regime.growth_over(h);
+    // Over many radians of a regime that may grow the bound overflows, and clears nothing: series are shorter.
+    if growth >= LARGEST_GROWTH {
+        return first;
+    }
     // Per unit of the norm at the start of a step.
     let widening = V::splat(growth * off_cubic(h));
     let mut margins = [[V::splat(0.0); K]; 4];
@@ -289,7 +293,7 @@ fn clear_steps_in_lanes<V: Vector, const K: usize, const S: usize, const SLIDING
         ranges.keep(&guard_check.ranges, guard_check.near_bound);
         ranges.near_bound[0] |= plain_loop.beaten.followed();
         ranges.near_bound[1] |= plain_loop.beaten.followed();
-        ranges.are_known = true;
+        ranges.are_known = ranges.are_finite();
     }
     sample.put_into(&mut state.kinematics);
     reached

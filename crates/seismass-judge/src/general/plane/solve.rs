@@ -7,7 +7,7 @@ use super::series::PlaneSeries;
 use super::state::{Direction, Plane};
 use crate::general::guards::Guard;
 use crate::general::series::MAX_PHASE;
-use crate::general::solve::Scale;
+use crate::general::solve::{Budget, Scale};
 use crate::real::Real;
 use crate::solve::{JudgeError, MAX_EVENTS, MAX_PIECES};
 
@@ -24,15 +24,16 @@ pub fn solve_plane<R: Real>(
     motion: &PlaneMotion,
     every: usize,
 ) -> Result<PlaneSolution, JudgeError> {
-    solve_plane_scaled(scene, motion, every, Scale::<R>::none())
+    solve_plane_scaled(scene, motion, every, Scale::<R>::none(), &Budget::unlimited())
 }
 
-/// As [`solve_plane`], under the motion times factors.
+/// As [`solve_plane`], under the motion times factors and within a budget.
 pub(crate) fn solve_plane_scaled<R: Real>(
     scene: &PlaneScene,
     motion: &PlaneMotion,
     every: usize,
     scale: Scale<R>,
+    budget: &Budget,
 ) -> Result<PlaneSolution, JudgeError> {
     if every == 0 {
         return Err(JudgeError::NoDecimation);
@@ -59,7 +60,7 @@ pub(crate) fn solve_plane_scaled<R: Real>(
         plane.start = R::of(i as f64) * dt;
         for piece in 0..pieces {
             let ends = [piece, piece + 1].map(|p| dt * R::of(p as f64) / R::of(pieces as f64));
-            if let Some((node, time)) = plane.solve_piece(ends, &mut recorder)? {
+            if let Some((node, time)) = plane.solve_piece(ends, &mut recorder, budget)? {
                 status = GeneralStatus::Collapsed { number: node + 1, time };
                 break 'run;
             }
@@ -93,9 +94,11 @@ impl<R: Real> Plane<R> {
         &mut self,
         [begin, end]: [R; 2],
         recorder: &mut PlaneRecorder<R>,
+        budget: &Budget,
     ) -> Result<Option<(usize, f64)>, JudgeError> {
         let (mut tau, mut events) = (begin, 0);
         while events < MAX_EVENTS {
+            budget.spend::<R>()?;
             self.series += 1;
             let limit = MAX_SERIES[usize::from(R::EPSILON < f64::EPSILON)];
             if self.series > limit {

@@ -12,7 +12,7 @@ use seismass::{Event, GeneralStatus};
 
 use super::subject::Subject;
 use crate::compare::{scales, values};
-use crate::general::{GeneralSolution, Scale, apart_by_machine};
+use crate::general::{Budget, GeneralSolution, Scale, apart_by_machine};
 use crate::stress::grazing::AMPLIFICATION;
 use crate::stress::verdict::AGREEMENT;
 use crate::{DoubleDouble, Real};
@@ -38,7 +38,12 @@ enum Scaled {
 
 /// The change of the ground acceleration, or of g + a_v, in last digits (2^-52), with which the judge in double-double agrees
 /// with a response that has histories at every sample and events. `exact` is the unchanged judge.
-pub(super) fn backward_error<S: Subject>(subject: &S, response: &S::Solution, exact: &S::Solution) -> Option<f64> {
+pub(super) fn backward_error<S: Subject>(
+    subject: &S,
+    response: &S::Solution,
+    exact: &S::Solution,
+    budget: &Budget,
+) -> Option<f64> {
     [Scaled::Ground, Scaled::Contact].into_iter().find_map(|scaled| {
         let judge = |change: DoubleDouble| {
             let (one, factor) = (DoubleDouble::of(1.0), DoubleDouble::of(1.0) + change);
@@ -46,7 +51,7 @@ pub(super) fn backward_error<S: Subject>(subject: &S, response: &S::Solution, ex
                 Scaled::Ground => Scale { ground: factor, contact: one },
                 Scaled::Contact => Scale { ground: one, contact: factor },
             };
-            subject.solve(scale).ok()
+            subject.solve(scale, budget).ok()
         };
         seek::<S>(response, exact, judge)
     })
@@ -220,7 +225,9 @@ mod tests {
         let motion = changed(&|_| 0.0);
         let exact = solve_general::<DoubleDouble>(&scene, &motion, 1).unwrap();
         let subject = (scene.clone(), motion);
-        let found = |response: &GeneralResponse| backward_error(&subject, &solution_of(response).unwrap(), &exact);
+        let found = |response: &GeneralResponse| {
+            backward_error(&subject, &solution_of(response).unwrap(), &exact, &Budget::of(usize::MAX))
+        };
 
         let mut response = run(&subject.1);
         assert!(compare_general(&response, &exact).mismatch.is_some());

@@ -6,8 +6,8 @@ use seismass::{Error, EventCounts, GeneralStatus, Options, Peak};
 
 use super::before_stops::BeforeStops;
 use super::subject::Subject;
-use super::verdict::judge;
-use crate::general::Scale;
+use super::verdict::{MAX_SERIES, judge};
+use crate::general::{Budget, Scale};
 use crate::random_scene::Draw;
 use crate::stress::grazing::AMPLIFICATION;
 use crate::stress::random::LARGEST_RESIDUAL;
@@ -58,7 +58,7 @@ pub(super) fn examine<S: Subject>(seed: u64, judged: bool, precisely: bool) -> F
         Ok(response) => response,
         Err(error) => {
             // In doubles: where steps are short, double-double takes hours to say the same.
-            let solution = subject.solve::<f64>(Scale::none());
+            let solution = subject.solve::<f64>(Scale::none(), &Budget::of(MAX_SERIES));
             let alike = solution.as_ref().is_err_and(|other| fail_alike(&error, other));
             let judge = solution.map_or_else(|other| format!("fails: {other}"), |_| "solves it".into());
             return found.without_response(format!("error: {error}; the judge {judge}"), !alike);
@@ -98,9 +98,9 @@ pub(super) fn examine<S: Subject>(seed: u64, judged: bool, precisely: bool) -> F
                 }
                 found.verdict = Some(verdict);
             }
-            Err(error) => {
+            Err(reason) => {
                 let apart = beyond.map_or(String::new(), |apart| format!("; by division or image {apart:.1e} away"));
-                found.not_followed = Some(format!("{error}{apart}"));
+                found.not_followed = Some(format!("{reason}{apart}"));
             }
         }
     }
@@ -122,8 +122,10 @@ impl Found {
 fn fail_alike(engine: &Error, judge: &JudgeError) -> bool {
     matches!(
         (engine, judge),
-        (Error::TooManyEvents { .. }, JudgeError::TooManyEvents { .. } | JudgeError::TooManySeries { .. })
-            | (Error::TooStiff { .. }, JudgeError::TooStiff { .. })
+        (
+            Error::TooManyEvents { .. },
+            JudgeError::TooManyEvents { .. } | JudgeError::TooManySeries { .. } | JudgeError::TooDear { .. }
+        ) | (Error::TooStiff { .. }, JudgeError::TooStiff { .. })
             | (Error::NotFinite { .. }, JudgeError::NotFinite { .. })
     )
 }

@@ -7,7 +7,7 @@ use seismass::{
 use super::changed::{Factors, changed_motion};
 use super::invariants;
 use super::subject::{Subject, Summary};
-use crate::general::{GeneralSolution, Scale, divided, solution_of, solve_scaled};
+use crate::general::{Budget, GeneralSolution, Scale, divided, solution_of, solve_scaled};
 use crate::general_scene::general_scene;
 use crate::{Comparison, JudgeError, Real};
 
@@ -23,8 +23,8 @@ impl Subject for (GeneralScene, Motion) {
         simulate_general(&self.0, &self.1, options)
     }
 
-    fn solve<R: Real>(&self, scale: Scale<R>) -> std::result::Result<GeneralSolution, JudgeError> {
-        solve_scaled(&self.0, &self.1, 1, scale)
+    fn solve<R: Real>(&self, scale: Scale<R>, budget: &Budget) -> std::result::Result<GeneralSolution, JudgeError> {
+        solve_scaled(&self.0, &self.1, 1, scale, budget)
     }
 
     fn divided(&self, parts: usize) -> Result<Self> {

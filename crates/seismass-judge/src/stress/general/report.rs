@@ -7,6 +7,7 @@ use seismass::EventKind;
 use super::chains::{Chains, PEAK};
 use super::examine::LARGEST_DIVISION;
 use super::tally::{Directions, GeneralTally};
+use super::verdict::MAX_SERIES;
 use crate::stress::random::LARGEST_RESIDUAL;
 use crate::stress::verdict::AGREEMENT;
 
@@ -44,7 +45,7 @@ pub fn distribution(tally: &GeneralTally) -> String {
         let apart = "apart in peak accelerations just before stops alone, by no more than friction does as it turns";
         row(apart, tally.before_stops.len().to_string());
     }
-    row("not compared: the plain implementation takes too many steps", tally.not_followed.len().to_string());
+    row("not judged, too dear: the plain implementation takes too many steps", tally.not_followed.len().to_string());
     row("parted at a grazing, explained", tally.grazing.len().to_string());
     row("parted by sensitivity, explained", tally.sensitive.len().to_string());
     row("defects: panics, NaN, errors, residuals, broken invariants, unexplained", tally.defects.len().to_string());
@@ -63,9 +64,13 @@ pub fn distribution(tally: &GeneralTally) -> String {
             let _ = writeln!(text, "- seed {seed}, {digits}: `{difference}`");
         }
     }
+    let not_judged = format!(
+        "Not judged: the plain implementation has explicit steps alone, and takes more than {MAX_SERIES} in all solutions of \
+         the scene, one in double-double counted as thirty, or too many in one of them"
+    );
     for (heading, list) in [
         ("Apart in peak accelerations just before stops alone", &tally.before_stops),
-        ("Scenes that the plain implementation, which has explicit steps alone, cannot follow", &tally.not_followed),
+        (&*not_judged, &tally.not_followed),
         (
             "Failed runs, no defects where the judge fails for the same reason or takes too many steps itself",
             &tally.failed,

@@ -3,7 +3,7 @@
 use seismass::{Event, EventCounts, GeneralStatus, Options, Peak, Result};
 
 use super::before_stops::BeforeStops;
-use crate::general::{GeneralSolution, Scale};
+use crate::general::{Budget, GeneralSolution, Scale};
 use crate::{Comparison, JudgeError, Real};
 
 /// What is counted of a response.
@@ -25,8 +25,8 @@ pub(super) trait Subject: Sized {
     /// Solved by the engine.
     fn simulate(&self, options: &Options) -> Result<Self::Response>;
 
-    /// Solved by the judge, under the motion times factors.
-    fn solve<R: Real>(&self, scale: Scale<R>) -> std::result::Result<Self::Solution, JudgeError>;
+    /// Solved by the judge, under the motion times factors and within a budget.
+    fn solve<R: Real>(&self, scale: Scale<R>, budget: &Budget) -> std::result::Result<Self::Solution, JudgeError>;
 
     /// With every sample interval in so many parts.
     fn divided(&self, parts: usize) -> Result<Self>;

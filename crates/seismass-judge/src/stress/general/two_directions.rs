@@ -7,7 +7,9 @@ use super::changed::{Factors, changed_motion};
 use super::one_direction::{mirrored, of_peaks, opposite, without_times};
 use super::plane_invariants;
 use super::subject::{Subject, Summary};
-use crate::general::{GeneralSolution, PlaneSolution, Scale, divided_plane, plane_solution_of, solve_plane_scaled};
+use crate::general::{
+    Budget, GeneralSolution, PlaneSolution, Scale, divided_plane, plane_solution_of, solve_plane_scaled,
+};
 use crate::plane_scene::plane_scene;
 use crate::{Comparison, JudgeError, Real, larger};
 
@@ -23,8 +25,8 @@ impl Subject for (PlaneScene, PlaneMotion) {
         simulate_plane(&self.0, &self.1, options)
     }
 
-    fn solve<R: Real>(&self, scale: Scale<R>) -> std::result::Result<PlaneSolution, JudgeError> {
-        solve_plane_scaled(&self.0, &self.1, 1, scale)
+    fn solve<R: Real>(&self, scale: Scale<R>, budget: &Budget) -> std::result::Result<PlaneSolution, JudgeError> {
+        solve_plane_scaled(&self.0, &self.1, 1, scale, budget)
     }
 
     fn divided(&self, parts: usize) -> Result<Self> {

@@ -6,10 +6,14 @@ use seismass::Event;
 use super::backward_error::backward_error;
 use super::before_stops::BeforeStops;
 use super::subject::Subject;
-use crate::general::{GeneralSolution, Scale, apart_by_machine};
+use crate::general::{Budget, GeneralSolution, Scale, apart_by_machine};
 use crate::stress::grazing::AMPLIFICATION;
 use crate::stress::verdict::{AGREEMENT, LAST_DIGITS, TRIALS, Verdict};
 use crate::{Comparison, DoubleDouble, JudgeError, Real};
+
+/// Series of all solutions of one scene by the judge, one in double-double counted as thirty: some minutes. A scene in which
+/// the two part and whose explanation takes more is not judged.
+pub(super) const MAX_SERIES: usize = 2_000_000;
 
 /// Different changes of each size for the judge in double-double.
 const PRECISE_TRIALS: u64 = 2;
@@ -18,16 +22,17 @@ const PRECISE_TRIALS: u64 = 2;
 /// still, looks for a grazing.
 ///
 /// # Errors
-/// [`JudgeError::TooManySeries`] where the judge takes too many. In double-double it takes more, and is not asked where it
+/// Why there is none, where the judge takes too many series. In double-double it takes more, and is not asked where it
 /// fails in double precision; where it takes too many, agreement in double precision counts.
-pub(super) fn judge<S: Subject>(subject: &S, response: &S::Response, precisely: bool) -> Result<Verdict, JudgeError> {
+pub(super) fn judge<S: Subject>(subject: &S, response: &S::Response, precisely: bool) -> Result<Verdict, String> {
+    let budget = &Budget::of(MAX_SERIES);
     let stops = &subject.before_stops(response);
     let Some(response) = S::as_solution(response) else {
         return Ok(Verdict::Unexplained("a response without events, histories or energies".into()));
     };
-    let plain = subject.solve::<f64>(Scale::none());
+    let plain = subject.solve::<f64>(Scale::none(), budget);
     match &plain {
-        Err(error @ JudgeError::TooManySeries { .. }) => return Err(error.clone()),
+        Err(error) if takes_too_many(error) => return Err(error.to_string()),
         Ok(plain) if !precisely => {
             if let Some(verdict) = agreement::<S>(&response, plain, stops) {
                 return Ok(verdict);
@@ -35,14 +40,20 @@ pub(super) fn judge<S: Subject>(subject: &S, response: &S::Response, precisely: 
         }
         _ => {}
     }
-    let exact = match subject.solve::<DoubleDouble>(Scale::none()) {
+    let exact = match subject.solve::<DoubleDouble>(Scale::none(), budget) {
         Ok(exact) => exact,
-        Err(error @ JudgeError::TooManySeries { .. }) => {
-            return plain.ok().and_then(|plain| agreement::<S>(&response, &plain, stops)).ok_or(error);
+        Err(error) if takes_too_many(&error) => {
+            let agreed = plain.ok().and_then(|plain| agreement::<S>(&response, &plain, stops));
+            return agreed.ok_or_else(|| error.to_string());
         }
         Err(error) => return Ok(Verdict::Unexplained(format!("the judge failed: {error}"))),
     };
-    Ok(agreement::<S>(&response, &exact, stops).unwrap_or_else(|| explanation(subject, &response, &exact, plain.ok())))
+    let agreed = agreement::<S>(&response, &exact, stops);
+    agreed.map_or_else(|| explanation(subject, (&response, &exact), plain.ok(), budget), Ok)
+}
+
+fn takes_too_many(error: &JudgeError) -> bool {
+    matches!(error, JudgeError::TooManySeries { .. } | JudgeError::TooDear { .. })
 }
 
 /// The verdict where a response agrees with a solution, but for accelerations just before stops.
@@ -57,30 +68,35 @@ fn agreement<S: Subject>(response: &S::Solution, exact: &S::Solution, stops: &Be
 }
 
 /// Looks for a grazing where a response parts from the judge in double-double.
+///
+/// # Errors
+/// How they part, where the budget ends before one is found.
 fn explanation<S: Subject>(
     subject: &S,
-    response: &S::Solution,
-    exact: &S::Solution,
+    (response, exact): (&S::Solution, &S::Solution),
     plain: Option<S::Solution>,
-) -> Verdict {
+    budget: &Budget,
+) -> Result<Verdict, String> {
     let comparison = S::compare(response, exact);
     let difference = difference(&comparison);
     let same_events = comparison.mismatch.is_none();
     if same_events && plain.is_some_and(|plain| moves_as_far::<S>(response, exact, &plain)) {
-        return Verdict::Sensitive { digits: 0.0, difference };
+        return Ok(Verdict::Sensitive { digits: 0.0, difference });
     }
     // In doubles first: the judge's own rounding, some last digits too, is cheaper than its precision.
-    let changed = explain::<S, f64>(subject, response, exact, TRIALS);
-    let changed = changed.or_else(|| explain::<S, DoubleDouble>(subject, response, exact, PRECISE_TRIALS));
-    match changed {
-        Some((true, digits)) => Verdict::Grazing { digits, difference },
-        Some((false, digits)) => Verdict::Sensitive { digits, difference },
-        // A chaotic scene: no change at random follows the engine to the end, as the one sought does.
-        None => match backward_error(subject, response, exact) {
-            Some(digits) => Verdict::Sensitive { digits: (100.0 * digits).round() / 100.0, difference },
-            None => Verdict::Unexplained(difference),
-        },
+    let changed = explain::<S, f64>(subject, (response, exact), TRIALS, budget);
+    let precisely = || explain::<S, DoubleDouble>(subject, (response, exact), PRECISE_TRIALS, budget);
+    match changed.or_else(precisely) {
+        Some((true, digits)) => return Ok(Verdict::Grazing { digits, difference }),
+        Some((false, digits)) => return Ok(Verdict::Sensitive { digits, difference }),
+        None => {}
     }
+    // A chaotic scene: no change at random follows the engine to the end, as the one sought does.
+    if let Some(digits) = backward_error(subject, response, exact, budget) {
+        return Ok(Verdict::Sensitive { digits: (100.0 * digits).round() / 100.0, difference });
+    }
+    budget.check().map_err(|error| format!("parts from the judge: {difference}; {error}"))?;
+    Ok(Verdict::Unexplained(difference))
 }
 
 /// Whether the judge with its input changed in the last digits comes to the engine's events and numbers (true), or moves as
@@ -88,16 +104,16 @@ fn explanation<S: Subject>(
 /// unchanged judge are others, two changed ones that have the engine's are compared with each other.
 fn explain<S: Subject, R: Real>(
     subject: &S,
-    response: &S::Solution,
-    exact: &S::Solution,
+    (response, exact): (&S::Solution, &S::Solution),
     trials: u64,
+    budget: &Budget,
 ) -> Option<(bool, f64)> {
     let same_events = S::compare(response, exact).mismatch.is_none();
     let mut alike: Vec<S::Solution> = Vec::new();
     for digits in LAST_DIGITS {
         for trial in 0..trials {
             let Some(changed) = subject.changed(digits, trial) else { continue };
-            let Ok(other) = changed.solve::<R>(Scale::none()) else { continue };
+            let Ok(other) = changed.solve::<R>(Scale::none(), budget) else { continue };
             let left = S::compare(response, &other);
             if left.agrees(AGREEMENT) {
                 return Some((true, digits));
