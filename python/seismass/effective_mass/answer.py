@@ -121,10 +121,8 @@ def solved_designs(
     how: dict[str, Any] = {"drift": options.drift, "drift_cap": options.drift_cap, "threads": options.threads}
 
     def designed(share: float) -> Scene:
-        building: Any = design(share)
-        other: Any = False
-        if isinstance(building, tuple) and len(building) == 2:
-            building, other = building
+        given: Any = design(share)
+        building, other = given if isinstance(given, tuple) and len(given) == 2 else (given, False)
         if not isinstance(building, Building):
             raise refusal(InvalidScene, "design", OWNER, "a Building, or two in x and y", brief(building))
         what: dict[str, Any] = {"base": base, "fixed_goods": fixed_goods, "collapse_drift": collapse_drift}
