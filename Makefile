@@ -116,7 +116,7 @@ lint-quick: build
 lint: lint-quick
 	@cargo clippy --version >/dev/null || \
 		{ echo "make lint and make test-all need clippy: rustup component add clippy" >&2; exit 1; }
-	cargo clippy --locked --workspace --all-targets -- -D warnings
+	cargo clippy --locked --workspace --all-targets --features seismass/serde -- -D warnings
 	# Alone, and thus without the kernel's feature tall-buildings, as it is compiled for the live page.
 	cargo clippy --locked -p seismass-web -- -D warnings
 	$(PYTHON) tools/make_stubs.py --check
@@ -124,20 +124,20 @@ lint: lint-quick
 
 # Integration tests share the kernel that is compiled for the extension: its profile, and the same packages, so that crates
 # have the same features. Benchmarks hold no tests. The kernel's unit tests compile it once more, in a profile that compiles
-# quickly.
+# quickly, and with its feature serde, whose tests are among them.
 SHARED_RUST := cargo test --locked --workspace --exclude seismass-bench --release
 
 test-rust: build
 	$(SHARED_RUST) --test '*' --examples
 	$(SHARED_RUST) --exclude seismass --lib --bins
-	cargo test --locked -p seismass --lib
+	cargo test --locked -p seismass --lib --features serde
 	$(SHARED_RUST) --doc
 
 # Fewer random scenes, with the same checks of each.
 test-rust-quick: build
 	SEISMASS_STRESS_SCENES=300 SEISMASS_JUDGE_SCENES=20 $(SHARED_RUST) --test '*'
 	$(SHARED_RUST) --exclude seismass --lib --bins
-	cargo test --locked -p seismass --lib
+	cargo test --locked -p seismass --lib --features serde
 
 # Two processes, a file's tests in one of them: they share its fixtures.
 PYTEST := $(PYTHON) -m pytest --numprocesses 2 --dist loadfile
@@ -162,7 +162,7 @@ test-aarch64:
 
 # The documentation site in out/site: pages, reference, examples that run, rustdoc. Warnings and broken links are errors.
 docs: build web-kernel $(VENV)/site
-	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps
+	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps --features seismass/serde
 	sh tools/make-site $(PYTHON) out/site
 
 clean:

@@ -30,6 +30,18 @@ def test_without_motion_in_y_it_is_that_of_one_direction() -> None:
         assert (found.kind, found.collapses) == (expected.kind, expected.collapses)
 
 
+def test_a_design_of_two_buildings_is_solved_in_both_directions() -> None:
+    def design(share: float) -> sm.Building:
+        return BUILDING.replace(yield_shear=(1.0 + 0.5 * share) * BUILDING.yield_shear)
+
+    still = [(record.motion, sm.Motion(np.zeros(record.samples), record.dt)) for record in RECORDS]
+    goods, chosen = sm.blocks_on_floors([0.5, 0.5], mu=0.2), {"fractions": SHARES, "resamples": 10}
+    expected = sm.effective_mass_of_design(design, goods, list(RECORDS), **chosen)
+    found = sm.effective_mass_of_design(lambda share: (design(share), design(share)), goods, list(still), **chosen)
+    assert 0.0 < expected.value < 1.0
+    assert found.value == pytest.approx(expected.value, abs=1e-10)
+
+
 def test_along_the_diagonal_friction_is_shared_by_both_directions() -> None:
     """Equal motions and springs in x and y: in each the run of one direction with mu over the root of two.
 

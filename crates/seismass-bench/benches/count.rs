@@ -15,7 +15,7 @@ mod common;
 use std::hint::black_box;
 use std::num::NonZeroUsize;
 
-use common::{PEAKS, Result, case};
+use common::{Result, case};
 use seismass::reference::{Method, integrate};
 use seismass::spectrum::response_spectra;
 use seismass::{Control, Motion, Options, Response, Run, Scene, simulate_many};
@@ -63,15 +63,15 @@ fn main() -> Result<()> {
     };
     print("samples", motion.acceleration().len());
     match work.as_str() {
-        "run" => batch(vec![motion], PEAKS)?,
+        "run" => batch(vec![motion], Options::PEAKS)?,
         "mirrored" => {
             let mirrored = Motion::new(times(&motion, -1.0).collect::<Vec<_>>(), dt, None)?;
-            batch(vec![motion, mirrored], PEAKS)?;
+            batch(vec![motion, mirrored], Options::PEAKS)?;
         }
-        "calm" => batch(vec![Motion::new(times(&motion, CALM).collect::<Vec<_>>(), dt, None)?], PEAKS)?,
+        "calm" => batch(vec![Motion::new(times(&motion, CALM).collect::<Vec<_>>(), dt, None)?], Options::PEAKS)?,
         "continued" => {
             let longer: Vec<f64> = times(&motion, CALM).chain(times(&motion, 0.9 * CALM)).collect();
-            batch(vec![Motion::new(longer, dt, None)?], PEAKS)?;
+            batch(vec![Motion::new(longer, dt, None)?], Options::PEAKS)?;
         }
         "histories" => batch(vec![motion], Options { histories: Some(NonZeroUsize::MIN), ..Options::default() })?,
         "leapfrog" => {

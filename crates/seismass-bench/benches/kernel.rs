@@ -4,7 +4,7 @@ mod common;
 
 use std::num::NonZeroUsize;
 
-use common::{Case, NAMES, PEAKS, case, motion};
+use common::{Case, NAMES, case, motion};
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use seismass::reference::{Method, integrate};
@@ -29,7 +29,7 @@ fn samples(case: &Case) -> ItemsCount {
 #[divan::bench(args = NAMES)]
 fn peaks(bencher: Bencher, name: &str) {
     let case = known(name);
-    bencher.counter(samples(&case)).bench(|| simulate(&case.scene, black_box(&case.motion), &PEAKS));
+    bencher.counter(samples(&case)).bench(|| simulate(&case.scene, black_box(&case.motion), &Options::PEAKS));
 }
 
 /// The same with histories of everything at every sample.

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use seismass::{
-    Block, Damping, GeneralBuilding, GeneralScene, Goods, GravityEffect, Motion, Rack, Result, STANDARD_GRAVITY, Stops,
-    Storey, UniformBuilding,
+    Block, Damping, GeneralBuilding, GeneralScene, Goods, GravityEffect, Motion, Rack, Result, STANDARD_GRAVITY,
+    SlidingBase, Stops, Storey, UniformBuilding,
 };
 
 use crate::law_scene::{of_law, wear};
@@ -23,7 +23,7 @@ const SINGULAR: f64 = 1e-9;
 /// and yielding, with goods that are fixed to their frames and P/h of their levels. Up to three blocks per floor, level
 /// and on the ground: equal ones, mu_s > mu_k, mu = 0, wear, an initial velocity; stops on one side, on both or on none,
 /// clearances down to 0, contacts soft and stiff, with a damper and without. Sines, noise and steps, with and without
-/// vertical motion. Beside a wall, P-Delta comes with collapse drifts.
+/// vertical motion. In a sixth of the scenes all of it stands on a sliding base. Beside a wall, P-Delta comes with collapse drifts.
 ///
 /// # Errors
 /// None for any seed, as the stress suite asserts; validation is the scene's own.
@@ -47,13 +47,28 @@ pub fn general_scene(seed: u64) -> Result<(GeneralScene, Motion)> {
         goods.push(Block::new(0, 1000.0, 0.5 * pga / STANDARD_GRAVITY).into());
     }
     let building = (storeys > 0).then(|| building(draw, mass, &goods, &racks, pga)).transpose()?;
-    let scene = with_states(draw, GeneralScene::new(building.map(Arc::new), goods, racks)?)?;
+    let base = base(seed, building.as_ref(), pga);
+    let scene = with_states(draw, GeneralScene::on_base(building.map(Arc::new), goods, racks, base)?)?;
     let acceleration = samples_of(draw, samples, dt, pga);
     let vertical = draw.one_in(4).then(|| {
         let peak = STANDARD_GRAVITY * draw.one_of(&[0.3, 0.8, 1.3, 2.0]);
         samples_of(draw, samples, dt, peak).into()
     });
     Ok((scene, Motion::new(acceleration, dt, vertical)?))
+}
+
+/// In a sixth of the scenes a sliding base, flat or a pendulum, light and heavy. It is drawn by itself: other scenes do not
+/// depend on it.
+fn base(seed: u64, building: Option<&GeneralBuilding>, pga: f64) -> Option<SlidingBase> {
+    let draw = &mut Draw(seed ^ 0x0062_6173_6520);
+    if !draw.one_in(6) {
+        return None;
+    }
+    let of_floor = building.map_or(1000.0, |building| building.mass()[0]);
+    let mu_s = if draw.one_in(20) { 0.0 } else { (pga / STANDARD_GRAVITY).clamp(0.02, 1.0) * draw.scale(0.1, 1.5) };
+    let mu_k = mu_s * draw.one_of(&[1.0, 1.0, 1.0, 0.8, 0.3]);
+    let radius = if draw.one_in(2) { f64::INFINITY } else { draw.scale(0.2, 5.0) };
+    Some(SlidingBase { mass: of_floor * draw.scale(0.03, 5.0), mu_s, mu_k, radius })
 }
 
 /// In some scenes initial drifts and velocities, and collapse drifts, which a wall that leans has always.

@@ -16,7 +16,7 @@ use std::path::Path;
 
 use general_files::read_general;
 use references::reference_files;
-use seismass::{GeneralScene, Options, simulate, simulate_general};
+use seismass::{Block, Event, GeneralScene, Options, Scene, SlidingBase, simulate, simulate_general};
 use seismass_judge::general::{as_chain, compare_general, solve_general};
 use seismass_judge::general_scene::general_scene;
 use seismass_judge::law_scene::law_scene;
@@ -25,14 +25,8 @@ use seismass_judge::stress::general::{Directions, GeneralTally, compare_engines,
 use seismass_judge::stress::program;
 use seismass_judge::{DoubleDouble, compare, compare_events, solve};
 
-const OPTIONS: Options = Options {
-    histories: NonZeroUsize::new(1),
-    displacements_only: false,
-    energy: true,
-    floor_force: false,
-    events: true,
-    peaks_only: false,
-};
+const OPTIONS: Options =
+    Options { histories: NonZeroUsize::new(1), energy: true, events: true, peaks_only: false, ..Options::PEAKS };
 
 /// `SEISMASS_JUDGE_SCENES` sets another number of random scenes.
 fn scenes(usual: u64) -> u64 {
@@ -68,6 +62,36 @@ fn both_judges_agree_on_shear_buildings() {
         let comparison = compare(&response, &of_chain);
         assert!(comparison.residuals < 1e-12, "{comparison:?}");
         assert!(own.energy.relative_residual.abs() < 1e-28, "{:?}", own.energy);
+    }
+}
+
+/// The other judge has blocks on the ground and no slabs.
+#[test]
+fn a_slab_alone_is_a_block_on_the_ground() {
+    for seed in 0..6 {
+        let (_, motion) = general_scene(seed).unwrap();
+        let block = Block { mu_k: 0.1, ..Block::new(0, 700.0, 0.15) };
+        let base = SlidingBase { mu_k: 0.1, ..SlidingBase::new(700.0, 0.15) };
+        let slab = GeneralScene::on_base(None, Vec::new(), Vec::new(), Some(base)).unwrap();
+        let own = solve_general::<DoubleDouble>(&slab, &motion, 1).unwrap();
+        let expected = solve::<DoubleDouble>(&Scene::new(None, vec![block]).unwrap(), &motion, 1).unwrap();
+        let log: Vec<_> = own.events.iter().map(|entry| Event { number: 1, ..entry.event }).collect();
+        assert!(compare_events(&log, &expected.events).unwrap() < 1e-14, "seed {seed}");
+        let (base, slip) = (own.base.unwrap(), expected.peaks.slip[0].value);
+        let found = [base.slip.value - slip, base.residual_slip - expected.residual_slip[0]];
+        assert!(found.iter().all(|difference| difference.abs() <= 1e-15 * slip), "seed {seed}: {found:?}");
+        assert!(own.energy.relative_residual.abs() < 1e-28, "{:?}", own.energy);
+    }
+}
+
+/// Pendulums with racks, walls, stops and vertical motion.
+#[test]
+fn energies_of_the_judge_balance_on_a_base() {
+    let has_base = |scene: &GeneralScene| scene.base().is_some_and(|base| base.radius.is_finite());
+    let drawn = (0..).map(|seed| (seed, general_scene(seed).unwrap()));
+    for (seed, (scene, motion)) in drawn.filter(|(_, (scene, _))| has_base(scene)).take(5) {
+        let own = solve_general::<DoubleDouble>(&scene, &motion, 1).unwrap();
+        assert!(own.energy.relative_residual.abs() < 1e-25, "seed {seed}: {:?}", own.energy);
     }
 }
 

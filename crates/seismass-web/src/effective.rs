@@ -34,7 +34,7 @@ impl Peaks {
     /// Solves a scene of a case.
     fn new(case: &Case, scene: Scene, motions: &[Motion]) -> Result<Self> {
         let runs: Vec<Run> = (0..motions.len()).map(|motion| Run::new(0, motion)).collect();
-        let options = Options { peaks_only: true, ..Options::default() };
+        let options = Options::PEAKS;
         let scene_slides = !scene.blocks().is_empty();
         let keep = |response: Response| match response.status {
             Status::Completed => Some(response.peaks),

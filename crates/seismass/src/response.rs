@@ -4,6 +4,7 @@ use std::fmt::{Display, Formatter};
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
 pub enum Status {
     /// The motion ended.
     Completed,
@@ -18,6 +19,7 @@ pub enum Status {
 
 /// Largest absolute value over continuous time, and when it was first reached.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Peak {
     /// Absolute value (SI).
     pub value: f64,
@@ -39,6 +41,7 @@ impl Peak {
 
 /// Peaks in continuous time. Storeys, floors and blocks in order; index 0 is storey 1.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Peaks {
     /// Storey drift (m).
     pub drift: Vec<Peak>,
@@ -53,6 +56,7 @@ pub struct Peaks {
 /// Kinds of events (`numerics`, section 5).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
 pub enum EventKind {
     /// A spring comes to the next segment of its backbone.
     Yield,
@@ -133,6 +137,7 @@ impl Display for EventKind {
 
 /// One event of the log.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Event {
     /// Time (s).
     pub time: f64,
@@ -150,6 +155,7 @@ pub struct Event {
 
 /// How often each kind of event happened, in the order of [`EventKind::ALL`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct EventCounts(pub [usize; EventKind::ALL.len()]);
 
 impl EventCounts {
@@ -174,6 +180,7 @@ impl EventCounts {
 /// They are memory of their own in each run. Where the allocator gives it back to the system in between, the faults of its
 /// new pages can cost as much as the run. glibc is made to keep it, up to 32 MB, unless its thresholds are set by hand.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Histories {
     /// Decimation: one row every so many samples, from sample 0.
     pub every: usize,
@@ -195,6 +202,7 @@ pub struct Histories {
 
 /// Energies at the end of the run, relative to the moving ground (J).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Energy {
     /// Kinetic plus elastic energy at the start.
     pub initial: f64,
@@ -217,6 +225,7 @@ pub struct Energy {
 /// What a scene did not need and was left out, exactly (`numerics`, section 6).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Skipped {
     /// Storeys that cannot yield: no spring state, no guard.
     pub elastic_storeys: usize,
@@ -231,6 +240,7 @@ pub struct Skipped {
 /// The work done. Deterministic: the same for any thread count and batch order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Statistics {
     /// Sample intervals solved.
     pub intervals: usize,
@@ -255,6 +265,7 @@ pub struct Statistics {
 /// The result of one run.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Response {
     /// How the run ended.
     pub status: Status,

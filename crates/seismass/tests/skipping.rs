@@ -36,7 +36,7 @@ fn vertical() -> Arc<[f64]> {
 fn a_quiet_tail_is_left_out_when_only_peaks_are_wanted() {
     let motion = motion(0, 5000);
     let whole = simulate(&scene(0.2), &motion, &Options::default()).unwrap();
-    let short = simulate(&scene(0.2), &motion, &Options { peaks_only: true, ..Options::default() }).unwrap();
+    let short = simulate(&scene(0.2), &motion, &Options::PEAKS).unwrap();
     assert_eq!(whole.peaks, short.peaks);
     assert_eq!(whole.statistics.events, short.statistics.events);
     assert!(short.statistics.skipped.tail_samples > 4000, "{:?}", short.statistics.skipped);
@@ -296,7 +296,7 @@ fn what_is_asked_for_changes_no_bit() {
         assert_eq!(whole.peaks, with_energy.peaks, "{storeys} storeys");
         let without = simulate(&scene, &motion, &Options::default()).unwrap();
         assert_eq!((&whole.peaks, &whole.slip_path), (&without.peaks, &without.slip_path), "{storeys} storeys");
-        let peaks = simulate(&scene, &motion, &Options { peaks_only: true, ..Options::default() }).unwrap();
+        let peaks = simulate(&scene, &motion, &Options::PEAKS).unwrap();
         assert_eq!((whole.peaks, whole.end_time), (peaks.peaks, peaks.end_time), "{storeys} storeys");
     }
     assert!(plain_steps > 5000, "{plain_steps}");
@@ -315,7 +315,7 @@ fn an_undamped_tail_is_not_left_out() {
         });
         let motion = Motion::new(samples.collect::<Vec<_>>(), 0.02, None).unwrap();
         let whole = simulate(&scene, &motion, &Options::default()).unwrap();
-        let peaks = simulate(&scene, &motion, &Options { peaks_only: true, ..Options::default() }).unwrap().peaks;
+        let peaks = simulate(&scene, &motion, &Options::PEAKS).unwrap().peaks;
         assert_eq!(peaks, whole.peaks, "{turn}");
     }
 }

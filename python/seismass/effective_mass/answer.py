@@ -121,10 +121,8 @@ def solved_designs(
     how: dict[str, Any] = {"drift": options.drift, "drift_cap": options.drift_cap, "threads": options.threads}
 
     def designed(share: float) -> Scene:
-        building: Any = design(share)
-        other: Any = False
-        if isinstance(building, tuple) and len(building) == 2:
-            building, other = building
+        given: Any = design(share)
+        building, other = given if isinstance(given, tuple) and len(given) == 2 else (given, False)
         if not isinstance(building, Building):
             raise refusal(InvalidScene, "design", OWNER, "a Building, or two in x and y", brief(building))
         what: dict[str, Any] = {"base": base, "fixed_goods": fixed_goods, "collapse_drift": collapse_drift}
@@ -249,9 +247,9 @@ def effective_mass(
 
 
 def effective_mass_of_design(
-    design: Callable[[float], Building],
+    design: Callable[[float], Designed],
     blocks: Iterable[Block],
-    motions: MotionLike | Iterable[MotionLike],
+    motions: MotionsLike,
     *,
     racks: Iterable[Rack] = (),
     base: SlidingBase | None = None,
@@ -274,7 +272,7 @@ def effective_mass_of_design(
     Parameters
     ----------
     design : callable
-        Takes a share from 0 to 1, returns the Building designed with it; floor masses without goods.
+        Takes a share from 0 to 1, returns the Building designed with it, or two in x and y; floor masses without goods.
     blocks : iterable of Block
         The goods, the same for every design.
     racks : iterable of Rack, optional
@@ -306,7 +304,9 @@ def effective_mass_of_design(
     >>> 0.0 <= sm.effective_mass_of_design(design, goods, suite).value <= 1.0
     True
     """
-    named = named_motions(motions, OWNER)
+    first: Any = design(0.0) if callable(design) else None
+    in_plane = isinstance(first, tuple) and len(first) == 2
+    named = named_motions(motions, OWNER, Scene(first[0], other_direction=first[1]) if in_plane else None)
     parameters = (statistic, damping, fractions, confidence, resamples, seed, threads, progress)
     options = checked_options(*parameters, LARGER, drift_cap, target)
     return solved_designs(design, blocks, named, options, racks, base=base).answer()

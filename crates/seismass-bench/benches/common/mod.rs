@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use seismass::{Block, Damping, Motion, Options, STANDARD_GRAVITY, Scene, Storey, UniformBuilding};
+use seismass::{Block, Damping, Motion, STANDARD_GRAVITY, Scene, Storey, UniformBuilding};
 
 /// What can go wrong before anything is measured.
 pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
@@ -28,16 +28,6 @@ pub struct Case {
     pub scene: Scene,
     pub motion: Motion,
 }
-
-/// Peaks only, as a study asks for them.
-pub const PEAKS: Options = Options {
-    histories: None,
-    displacements_only: false,
-    energy: false,
-    floor_force: false,
-    events: false,
-    peaks_only: true,
-};
 
 /// A scene by name.
 pub fn case(name: &str) -> Result<Case> {

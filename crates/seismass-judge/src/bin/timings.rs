@@ -18,14 +18,6 @@ use seismass_judge::scene_text;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
-const PEAKS: Options = Options {
-    histories: None,
-    displacements_only: false,
-    energy: false,
-    floor_force: false,
-    events: false,
-    peaks_only: true,
-};
 /// Turns that are taken whatever they cost.
 const LEAST_TURNS: usize = 5;
 /// Factor of a motion under which nothing yields and nothing slides.
@@ -82,13 +74,13 @@ fn runs(scene: &Scene, motion: &Motion, seconds: f64) -> Outcome<()> {
     };
     let times = alternate(
         seconds,
-        &mut [&mut || exact(&PEAKS), &mut || exact(&displacements), &mut || exact(&histories), &mut || {
+        &mut [&mut || exact(&Options::PEAKS), &mut || exact(&displacements), &mut || exact(&histories), &mut || {
             black_box(integrate(scene, black_box(motion), &Method::Leapfrog { substeps: 1 })?);
             Ok(())
         }],
     )?;
     print("samples", motion.acceleration().len() as f64);
-    print_work(&simulate(scene, motion, &PEAKS)?);
+    print_work(&simulate(scene, motion, &Options::PEAKS)?);
     for (name, time) in ["peaks", "displacements", "histories", "leapfrog"].into_iter().zip(times) {
         print(name, time);
     }
@@ -144,13 +136,14 @@ fn steps(scene: &Scene, motion: &Motion, seconds: f64) -> Outcome<()> {
     }
     // What nine tenths of a calm motion add to it beats no peak: plain steps are all they cost.
     let (calm, continued) = (scaled(motion, &[CALM])?, scaled(motion, &[CALM, 0.9 * CALM])?);
-    let (of_calm, of_continued) = (simulate(scene, &calm, &PEAKS)?.statistics, simulate(scene, &continued, &PEAKS)?);
+    let (of_calm, of_continued) =
+        (simulate(scene, &calm, &Options::PEAKS)?.statistics, simulate(scene, &continued, &Options::PEAKS)?);
     let of_continued = of_continued.statistics;
     if of_calm.events.total() > 0 || of_calm.series_steps != of_continued.series_steps {
         return Err("the calm motion has events, or its continuation is not all plain steps".into());
     }
     let run = |motion: &Motion| -> Outcome<()> {
-        black_box(simulate(scene, black_box(motion), &PEAKS)?);
+        black_box(simulate(scene, black_box(motion), &Options::PEAKS)?);
         Ok(())
     };
     let state = black_box(Chain::<{ 2 * STOREYS }>::new());

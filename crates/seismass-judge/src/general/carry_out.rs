@@ -3,6 +3,7 @@
 use seismass::EventKind;
 
 use super::arrangement::Machines;
+use super::base::contact_after;
 use super::decide::Cause;
 use super::guards::{Guard, ROUNDING};
 use super::series::Series;
@@ -34,6 +35,13 @@ impl<R: Real> Machines<'_, R> {
             Guard::Arrival { block } => {
                 self.arrive_together(block, series, tau);
                 self.settle(self.model.goods[block].node, tau, Cause::Arrival);
+            }
+            Guard::BaseBreakaway { sign } => self.settle(None, tau, Cause::Base(sign)),
+            Guard::BaseArrival => {
+                if let Some(base) = &mut self.state.base {
+                    (base.velocity, base.moved) = (R::zero(), true);
+                }
+                self.settle(None, tau, Cause::Arrival);
             }
             Guard::Wear { block } => self.wear(block, tau),
             Guard::Touch { block, side } => {
@@ -133,14 +141,11 @@ impl<R: Real> Machines<'_, R> {
         let kind = if *self.airborne { EventKind::Lift } else { EventKind::Land };
         for j in 0..self.state.blocks.len() {
             let block = &mut self.state.blocks[j];
-            block.contact = match kind {
-                EventKind::Lift => Contact::Airborne,
-                _ if block.velocity == R::zero() => Contact::Stuck,
-                _ => Contact::Sliding(Sign::of(block.velocity)),
-            };
+            block.contact = contact_after(kind, block.velocity);
             let sign = block.velocity_sign();
             self.note(tau, kind, j, sign, 0);
         }
+        self.change_contact_of_base(kind, tau);
         if kind == EventKind::Land {
             self.settle_all(tau);
         }

@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use seismass::{
-    Event, EventKind, GeneralEvent, GeneralPeaks, GeneralResponse, GeneralStatus, Peak, Peaks, Response, Status,
+    Event, EventKind, GeneralBase, GeneralEvent, GeneralPeaks, GeneralResponse, GeneralStatus, Peak, Peaks, Response,
+    Status,
 };
 
 use super::record::GeneralSolution;
@@ -12,16 +13,22 @@ use crate::compare::{Comparison, LEAST_PART, compare_endings, compare_events, di
 /// Velocities at stops and of events count relative to the largest, and to this at least (m/s).
 const LEAST_VELOCITY: f64 = 1e-3;
 /// Kinds of peaks.
-pub(crate) const KINDS: usize = 7;
+pub(crate) const KINDS: usize = 9;
 /// Of them, those of forces.
 const FORCES: std::ops::Range<usize> = 3..6;
+/// Of them, that of velocities at stops.
+const VELOCITIES: usize = 6;
+/// Of them, the slip of the base.
+const BASE_SLIP: usize = 7;
 
-/// Drift, slip, acceleration, shear and base shear, contact force, contact velocity.
-fn lists(peaks: &GeneralPeaks) -> [Vec<f64>; KINDS] {
+/// Drift, slip, acceleration, shear and base shear, contact force, contact velocity, slip and acceleration of the base.
+fn lists(peaks: &GeneralPeaks, base: Option<&GeneralBase>) -> [Vec<f64>; KINDS] {
     let GeneralPeaks { drift, acceleration, shear, base_shear, slip, contact_force, contact_velocity } = peaks;
     let own = |list: &[Peak]| values(list);
-    let [base, contact, velocity] = [&[*base_shear][..], contact_force, contact_velocity].map(own);
-    [own(drift), own(slip), own(acceleration), own(shear), base, contact, velocity]
+    let [shear_at_base, contact, velocity] = [&[*base_shear][..], contact_force, contact_velocity].map(own);
+    let [of_slip, of_acceleration] = [|base: &GeneralBase| base.slip, |base: &GeneralBase| base.acceleration]
+        .map(|peak| own(base.map(peak).as_slice()));
+    [own(drift), own(slip), own(acceleration), own(shear), shear_at_base, contact, velocity, of_slip, of_acceleration]
 }
 
 /// The ending as one of the chain engine.
@@ -59,6 +66,7 @@ struct Parts<'a> {
     residual_slip: &'a [f64],
     slip_path: &'a [f64],
     histories: Option<(&'a [f64], &'a [f64])>,
+    base: Option<&'a GeneralBase>,
     events: Option<&'a [GeneralEvent]>,
 }
 
@@ -77,6 +85,7 @@ impl GeneralSolution {
             residual_slip: &other.residual_slip,
             slip_path: &other.slip_path,
             histories: Some((&other.drift, &other.slip)),
+            base: other.base.as_ref(),
             events: Some(&other.events),
         };
         self.judge_parts(&found, least)
@@ -85,28 +94,40 @@ impl GeneralSolution {
     /// What counts at least of a peak that is compared beside those of this solution, by kind. Forces are of one kind: a stop
     /// may be touched in one direction alone.
     pub(crate) fn least_scales(&self) -> [f64; KINDS] {
-        let mut least = lists(&self.peaks).map(|peaks| LEAST_PART * peaks.into_iter().fold(0.0, f64::max));
+        let mut least =
+            lists(&self.peaks, self.base.as_ref()).map(|peaks| LEAST_PART * peaks.into_iter().fold(0.0, f64::max));
         let largest = least[FORCES].iter().copied().fold(0.0, f64::max);
         least[FORCES].fill(largest);
         least
     }
 
     fn judge_parts(&self, found: &Parts, mut least: [f64; KINDS]) -> Comparison {
-        let own = lists(&self.peaks);
-        let peaks = lists(found.peaks);
+        let own = lists(&self.peaks, self.base.as_ref());
+        let peaks = lists(found.peaks, found.base);
         // A stop that is touched at rest has no velocity but rounding.
-        least[KINDS - 1] = least[KINDS - 1].max(LEAST_VELOCITY);
+        least[VELOCITIES] = least[VELOCITIES].max(LEAST_VELOCITY);
         let scales_of = |(own, least): (&Vec<f64>, f64)| scales(own).into_iter().map(move |s| s.max(least)).collect();
         let all: Vec<Vec<f64>> = own.iter().zip(least).map(scales_of).collect();
         let (drift_scale, slip_scale) = (&all[0], &all[1]);
         let peaks = peaks.iter().zip(&own).zip(&all).map(|((found, own), scales)| difference(found, own, scales));
+        let of_base = |value: fn(&GeneralBase) -> &[f64], scales: &[f64]| {
+            let [found, own] = [found.base, self.base.as_ref()].map(|base| base.map_or(&[][..], value));
+            difference(found, own, scales)
+        };
+        let residual_of_base = of_base(|base| std::slice::from_ref(&base.residual_slip), &all[BASE_SLIP]);
         let residuals = [
             difference(found.residual_drift, &self.residual_drift, drift_scale),
             difference(found.residual_slip, &self.residual_slip, slip_scale),
+            residual_of_base,
         ];
         let (drift, slip) = found.histories.map_or((0.0, 0.0), |(drift, slip)| {
-            (difference(drift, &self.drift, drift_scale), difference(slip, &self.slip, slip_scale))
+            let slip_of_base = of_base(|base| &base.history, &all[BASE_SLIP]);
+            let slip = larger(difference(slip, &self.slip, slip_scale), slip_of_base);
+            (difference(drift, &self.drift, drift_scale), slip)
         });
+        let own_path = self.base.as_ref().map_or(0.0, |base| base.slip_path);
+        let path_of_base = of_base(|base| std::slice::from_ref(&base.slip_path), &[own_path]);
+        let slip_path = difference(found.slip_path, &self.slip_path, &scales(&self.slip_path));
         let expected = events_of(&self.events);
         let events = found.events.map_or(Ok(0.0), |events| {
             let found = events_of(events);
@@ -127,7 +148,7 @@ impl GeneralSolution {
             slip,
             peaks: peaks.fold(velocities, larger),
             residuals: residuals.into_iter().fold(0.0, larger),
-            slip_path: difference(found.slip_path, &self.slip_path, &scales(&self.slip_path)),
+            slip_path: larger(slip_path, path_of_base),
             event_time,
             duration: self.end_time,
             mismatch: ending.err().or(events.err()),
@@ -166,6 +187,7 @@ pub(crate) fn compare_beside(
         residual_slip: &response.residual_slip,
         slip_path: &response.slip_path,
         histories: response.histories.as_ref().map(|h| (&h.drift[..], &h.slip[..])),
+        base: response.base.as_ref(),
         events: response.events.as_deref(),
     };
     solution.judge_parts(&found, least)
@@ -184,6 +206,7 @@ pub fn solution_of(response: &GeneralResponse) -> Option<GeneralSolution> {
         residual_drift: response.residual_drift.clone(),
         residual_slip: response.residual_slip.clone(),
         slip_path: response.slip_path.clone(),
+        base: response.base.clone(),
         events: response.events.clone()?,
         energy: response.energy?,
     })

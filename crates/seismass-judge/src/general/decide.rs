@@ -27,6 +27,15 @@ pub(super) enum Cause {
     Jump,
     /// Contact begins: the start of a run, or a landing.
     Contact,
+    /// The slab has reached its limit, with this sign of the force that holds it.
+    Base(Sign),
+}
+
+impl Cause {
+    /// Whether what has broken away at this instant goes on.
+    fn follows(self) -> bool {
+        matches!(self, Self::Breakaway(..) | Self::Wear(_) | Self::Base(_))
+    }
 }
 
 impl<R: Real> Machines<'_, R> {
@@ -42,8 +51,17 @@ impl<R: Real> Machines<'_, R> {
     /// when another block follows it: without contact force and acceleration all limits are reached at once, and only
     /// rates tell.
     pub(super) fn settle(&mut self, node: Option<usize>, tau: R, cause: Cause) {
+        if node.is_none() && self.base_decides(cause.follows()) {
+            self.settle_base(tau, cause);
+        } else {
+            self.settle_goods(node, tau, cause);
+        }
+    }
+
+    /// The same of the goods alone.
+    pub(super) fn settle_goods(&mut self, node: Option<usize>, tau: R, cause: Cause) {
         let mut still = self.on_node(node);
-        let follows = matches!(cause, Cause::Breakaway(..) | Cause::Wear(_));
+        let follows = cause.follows();
         still.retain(|&j| {
             let block = &self.state.blocks[j];
             let goes_on = follows && !block.moved && matches!(block.contact, Contact::Sliding(_));
@@ -170,9 +188,10 @@ impl<R: Real> Machines<'_, R> {
         let (driven, size) = self.driven(block, node, tau);
         let state = &self.state.blocks[block];
         let contact = self.drive.contact_at(tau);
-        let heavier = node.map_or(R::of(1.0), |p| {
+        let slab = self.model.base.as_ref().filter(|_| self.state.base_moves()).map(|base| base.mass);
+        let heavier = node.map_or(slab, |p| Some(self.model.mass[p])).map_or(R::of(1.0), |mass| {
             let goods = self.on_node(node).into_iter().fold(R::zero(), |sum, j| sum + self.model.goods[j].mass);
-            (self.model.mass[p] + goods) / self.model.mass[p]
+            (mass + goods) / mass
         });
         let tolerance = R::of(AT_STOPS) * R::epsilon() * (state.mu_s * contact + size) * heavier;
         match state.contact {

@@ -29,6 +29,10 @@ pub(super) enum Guard {
     Arrival { block: usize },
     /// A sliding block's path stays below that of its next stage of wear.
     Wear { block: usize },
+    /// A stuck slab stays below its limit, with this sign of the force that holds it.
+    BaseBreakaway { sign: Sign },
+    /// The velocity of a sliding slab keeps its sign.
+    BaseArrival,
     /// A moving block stays within its clearance on this side.
     Touch { block: usize, side: Sign },
     /// The force of a stop stays above zero.
@@ -90,12 +94,13 @@ impl<R: Real> Machines<'_, R> {
                 Contact::Airborne => {}
             }
         }
+        self.base(series, &mut first);
         first.found
     }
 
     pub(super) fn contact_and_springs(&self, series: &Series<R>, sizes: &[R], first: &mut First<R>) {
         let (model, state) = (self.model, &*self.state);
-        if !state.blocks.is_empty() {
+        if !state.blocks.is_empty() || state.base.is_some() {
             let gravity = model.gravity + series.contact.size();
             let rounding = first.rounding * gravity;
             let mut contact = series.contact.clone();

@@ -1,6 +1,7 @@
 //! The judge of the general engine: racks, walls and stops, written a second time from `numerics`, section 9.
 
 mod arrangement;
+mod base;
 mod carry_out;
 mod compare;
 mod decide;
@@ -11,6 +12,7 @@ mod model;
 mod plane;
 mod record;
 mod series;
+mod slab;
 mod solve;
 mod state;
 mod stretches;

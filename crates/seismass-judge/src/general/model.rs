@@ -2,6 +2,7 @@
 
 use seismass::{GeneralScene, Goods, Rack, STANDARD_GRAVITY};
 
+use super::base::BaseData;
 use super::modal::modal_damping;
 use crate::model::{Stage, StoreyData, Terms, storey_data};
 use crate::real::Real;
@@ -44,6 +45,8 @@ pub(crate) struct Model<R> {
     pub(super) matrix: Vec<Vec<R>>,
     dampers: Vec<Dampers<R>>,
     pub(crate) goods: Vec<GoodsData<R>>,
+    /// The slab that what has no node stands on; none: the ground.
+    pub(super) base: Option<BaseData<R>>,
     pub(super) gravity: R,
     /// Whether the first node is a floor of a building.
     pub(super) has_building: bool,
@@ -58,6 +61,7 @@ impl<R: Real> Model<R> {
             matrix: Vec::new(),
             dampers: Vec::new(),
             goods: Vec::new(),
+            base: scene.base().map(|base| BaseData::new(base, scene)),
             gravity: R::of(STANDARD_GRAVITY),
             has_building: scene.building().is_some(),
         };
@@ -123,12 +127,26 @@ impl<R: Real> Model<R> {
         self.matrix.iter().map(force).collect()
     }
 
+    /// Force of each spring with P-Delta and damper on what it stands on.
+    fn actions(&self, springs: &[R], drift: &[R], rate: &[R], terms: Terms) -> Vec<R> {
+        let damping = self.damping_forces(rate, terms);
+        let action = |p: usize| terms.of(springs[p]) + terms.of(-self.springs[p].geometric * drift[p]) + damping[p];
+        (0..self.mass.len()).map(action).collect()
+    }
+
+    /// The force of springs, matrix, P-Delta and dampers on the slab or the ground.
+    pub(super) fn pull_below(&self, springs: &[R], drift: &[R], rate: &[R], terms: Terms) -> R {
+        let actions = self.actions(springs, drift, rate, terms).into_iter().zip(&self.parent);
+        let of_springs =
+            actions.filter(|(_, parent)| parent.is_none()).fold(R::zero(), |sum, (action, _)| sum + action);
+        let displacement = self.displacements(drift, terms);
+        self.matrix_forces(&displacement, terms).into_iter().fold(of_springs, |sum, force| sum + terms.of(force))
+    }
+
     /// Q: the force of springs, matrix, P-Delta and dampers on each node, at these spring forces, drifts and drift rates.
     pub(super) fn pull(&self, springs: &[R], drift: &[R], rate: &[R], terms: Terms) -> Vec<R> {
-        let damping = self.damping_forces(rate, terms);
         let mut pull = vec![R::zero(); self.mass.len()];
-        for (p, spring) in self.springs.iter().enumerate() {
-            let action = terms.of(springs[p]) + terms.of(-spring.geometric * drift[p]) + damping[p];
+        for (p, action) in self.actions(springs, drift, rate, terms).into_iter().enumerate() {
             pull[p] = pull[p] + terms.of(-action);
             if let Some(parent) = self.parent[p] {
                 pull[parent] = pull[parent] + action;
@@ -148,47 +166,60 @@ impl<R: Real> Model<R> {
         let (n, m) = (self.mass.len(), self.goods.len());
         let none = vec![R::zero(); n];
         let unit = |at: usize, value: R| (0..n).map(|i| if i == at { value } else { R::zero() }).collect::<Vec<R>>();
-        let largest = |column: &dyn Fn(usize) -> (Vec<R>, Vec<R>)| {
-            let mut sums = vec![0.0; n + m];
-            for index in 0..n + m {
-                let (force, on_goods) = column(index);
+        // By the force on the slab, on each node and on each block, per unit of a drift, a slip, or that of the slab.
+        let largest = |column: &dyn Fn(usize) -> (R, Vec<R>, Vec<R>)| {
+            let mut sums = vec![0.0; n + m + 1];
+            for index in 0..=n + m {
+                let (below, force, on_goods) = column(index);
+                let slab = self.base.as_ref().map_or(R::zero(), |base| below / base.mass);
                 let a = |p: usize| force[p] / self.mass[p];
                 for p in 0..n {
-                    let below = self.parent[p].map_or(R::zero(), a);
-                    sums[p] += (a(p) - below).to_f64().abs();
+                    sums[p] += (a(p) - self.parent[p].map_or(slab, a)).to_f64().abs();
                 }
                 for (j, goods) in self.goods.iter().enumerate() {
-                    let node = goods.node.map_or(R::zero(), a);
-                    sums[n + j] += (on_goods[j] / goods.mass - node).to_f64().abs();
+                    sums[n + j] += (on_goods[j] / goods.mass - goods.node.map_or(slab, a)).to_f64().abs();
                 }
+                sums[n + m] += slab.to_f64().abs();
             }
-            let counts = |&(row, _): &(usize, &f64)| row < n || presses(row - n);
+            let counts = |&(row, _): &(usize, &f64)| row < n || row == n + m || presses(row - n);
             sums.iter().enumerate().filter(counts).fold(0.0, |largest: f64, (_, &sum)| largest.max(sum))
         };
         // Force of a stop on its block's node and on the block, per unit of slip or of its rate.
         let stop = |j: usize, of: &dyn Fn(&StopData<R>) -> R| {
             let value = self.goods[j].stops.as_ref().filter(|_| presses(j)).map_or(R::zero(), of);
-            let force = self.goods[j].node.map_or(none.clone(), |node| unit(node, value));
-            (force, (0..m).map(|i| if i == j { -value } else { R::zero() }).collect())
+            let (below, force) =
+                self.goods[j].node.map_or((value, none.clone()), |node| (R::zero(), unit(node, value)));
+            (below, force, (0..m).map(|i| if i == j { -value } else { R::zero() }).collect())
         };
+        let of_slab = |force: R| (force, none.clone(), vec![R::zero(); m]);
         let kappa = largest(&|index| {
+            if index == n + m {
+                return of_slab(self.base.as_ref().map_or(R::zero(), |base| base.most_stiffness));
+            }
             if index >= n {
                 return stop(index - n, &|s| s.stiffness);
             }
             let spring = &self.springs[index];
             let stiffness = spring.spring.largest_stiffness() + spring.geometric;
             let mut force = self.pull(&unit(index, stiffness), &none, &none, Terms::Signed);
+            let mut below = self.pull_below(&unit(index, stiffness), &none, &none, Terms::Signed);
             let displacement = self.displacements(&unit(index, R::of(1.0)), Terms::Signed);
             for (p, of_matrix) in self.matrix_forces(&displacement, Terms::Signed).into_iter().enumerate() {
                 force[p] = force[p] - of_matrix;
+                below = below + of_matrix;
             }
-            (force, vec![R::zero(); m])
+            (below, force, vec![R::zero(); m])
         });
         let gamma = largest(&|index| {
+            if index == n + m {
+                return of_slab(R::zero());
+            }
             if index >= n {
                 return stop(index - n, &|s| s.damping);
             }
-            (self.pull(&none, &none, &unit(index, R::of(1.0)), Terms::Signed), vec![R::zero(); m])
+            let rate = unit(index, R::of(1.0));
+            let below = self.pull_below(&none, &none, &rate, Terms::Signed);
+            (below, self.pull(&none, &none, &rate, Terms::Signed), vec![R::zero(); m])
         });
         kappa.sqrt() + gamma
     }

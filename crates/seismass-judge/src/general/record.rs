@@ -1,6 +1,6 @@
 //! What a run gives back, gathered stretch by stretch: peaks, slip paths, energies, histories.
 
-use seismass::{EventKind, GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralStatus, Peak};
+use seismass::{EventKind, GeneralBase, GeneralEnergy, GeneralEvent, GeneralPeaks, GeneralStatus, Peak};
 
 use super::model::Model;
 use super::series::Series;
@@ -8,7 +8,7 @@ use super::state::{State, Stopped};
 use crate::model::Terms;
 use crate::polynomial::{Polynomial, term};
 use crate::real::Real;
-use crate::state::Contact;
+use crate::state::{BlockState, Contact};
 
 /// The response of a scene with racks, walls and stops, rounded to doubles. Storeys, then levels of racks; goods on floors,
 /// then those of racks.
@@ -32,6 +32,8 @@ pub struct GeneralSolution {
     pub residual_slip: Vec<f64>,
     /// Path slipped by each block in contact with its node (m).
     pub slip_path: Vec<f64>,
+    /// Of a sliding base.
+    pub base: Option<GeneralBase>,
     /// All events, in order.
     pub events: Vec<GeneralEvent>,
     /// Energies at the end.
@@ -55,6 +57,8 @@ pub(super) struct Recorder<R> {
     every: usize,
     drift: Vec<f64>,
     slip: Vec<f64>,
+    base: GeneralBase,
+    base_path: R,
 }
 
 fn beat<R: Real>(peak: &mut Peak, p: &Polynomial<R>, time: R, length: R) {
@@ -93,9 +97,16 @@ impl<R: Real> Recorder<R> {
             every,
             drift: Vec::new(),
             slip: Vec::new(),
+            base: GeneralBase::default(),
+            base_path: zero,
         };
         recorder.sample(state, 0);
         recorder
+    }
+
+    /// Takes in the acceleration of the slab at t = 0.
+    pub(super) fn begin_base(&mut self, acceleration: R) {
+        self.base.acceleration.value = acceleration.abs().to_f64();
     }
 
     /// Adds a row of the histories if the sample has one.
@@ -103,6 +114,7 @@ impl<R: Real> Recorder<R> {
         if sample.is_multiple_of(self.every) {
             self.drift.extend(state.drift.iter().map(|d| d.to_f64()));
             self.slip.extend(state.blocks.iter().map(|b| b.slip.to_f64()));
+            self.base.history.extend(state.base.iter().map(|b| b.slip.to_f64()));
         }
     }
 
@@ -136,6 +148,13 @@ impl<R: Real> Recorder<R> {
                 self.path[j] = self.path[j] + series.length * series.velocity[j].absolute_integral();
             }
         }
+        if let Some(base) = &series.base {
+            take(&mut self.base.slip, &base.slip);
+            take(&mut self.base.acceleration, &series.acceleration[0]);
+            if let Some(BlockState { contact: Contact::Sliding(_), .. }) = state.base {
+                self.base_path = self.base_path + series.length * base.velocity.absolute_integral();
+            }
+        }
         self.add_work(model, state, series);
     }
 
@@ -152,17 +171,31 @@ impl<R: Real> Recorder<R> {
             }
         }
         let work = &mut self.work;
-        let mut momentum = Polynomial::constant(R::zero());
+        let zero = Polynomial::constant(R::zero());
+        let below = series.base.as_ref().map_or(&zero, |base| &base.velocity);
+        let mut momentum = below.scaled(model.base.as_ref().map_or(R::zero(), |base| base.mass));
+        if let (Some(data), Some(base), Some(own)) = (&model.base, &state.base, &series.base) {
+            // By the slope of a pendulum the vertical motion, or in flight nothing, does the work of a_v or of -g.
+            let in_contact = base.contact != Contact::Airborne;
+            let contact = if in_contact { series.contact.clone() } else { zero.clone() };
+            let along = own.slip.times(&own.velocity).scaled(length * data.restoring);
+            let vertical = contact.plus(&Polynomial::constant(-model.gravity));
+            work.input = work.input - along.times(&vertical).integral();
+            if let Contact::Sliding(sign) = base.contact {
+                let friction = contact.scaled(sign.times(length * base.mu_k * data.carried));
+                work.friction = work.friction + friction.times(&own.velocity).integral();
+            }
+        }
         let mut velocity: Vec<Polynomial<R>> = Vec::with_capacity(n);
         for p in 0..n {
             let own = &series.rate[p];
-            velocity.push(model.parent[p].map_or(own.clone(), |parent| velocity[parent].plus(own)));
+            velocity.push(model.parent[p].map_or(below, |parent| &velocity[parent]).plus(own));
             momentum = momentum.plus(&velocity[p].scaled(model.mass[p]));
             work.viscous = work.viscous + length * damping[p].times(own).integral();
         }
         for (j, data) in model.goods.iter().enumerate() {
             let relative = &series.velocity[j];
-            let node = data.node.map_or(Polynomial::constant(R::zero()), |node| velocity[node].clone());
+            let node = data.node.map_or(below, |node| &velocity[node]);
             momentum = momentum.plus(&node.plus(relative).scaled(data.mass));
             if let Contact::Sliding(_) = state.blocks[j].contact {
                 work.friction = work.friction + length * series.friction[j].times(relative).integral();
@@ -188,6 +221,9 @@ impl<R: Real> Recorder<R> {
         let rows = (samples - 1) / self.every + 1;
         self.drift.resize(rows * state.drift.len(), f64::NAN);
         self.slip.resize(rows * state.blocks.len(), f64::NAN);
+        self.base.history.resize(rows * usize::from(state.base.is_some()), f64::NAN);
+        self.base.residual_slip = state.base.map_or(0.0, |base| base.slip.to_f64());
+        self.base.slip_path = self.base_path.to_f64();
         for entry in events.iter().filter(|entry| entry.event.kind == EventKind::TouchStop) {
             let (peak, value) = (&mut self.peaks.contact_velocity[entry.event.number - 1], entry.velocity.abs());
             if value > peak.value {
@@ -210,6 +246,7 @@ impl<R: Real> Recorder<R> {
             residual_drift: state.drift.iter().map(|d| d.to_f64()).collect(),
             residual_slip: state.blocks.iter().map(|b| b.slip.to_f64()).collect(),
             slip_path: self.path.iter().map(|p| p.to_f64()).collect(),
+            base: state.base.map(|_| self.base),
             events,
             energy: GeneralEnergy {
                 initial: initial.to_f64(),

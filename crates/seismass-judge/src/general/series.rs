@@ -1,5 +1,6 @@
 //! The Taylor series of everything over a stretch of time in one regime, as polynomials on [0, 1].
 
+use super::base::BaseSeries;
 use super::model::Model;
 use super::state::{State, Stopped};
 use crate::model::Terms;
@@ -22,7 +23,7 @@ pub(super) struct Series<R> {
     pub(super) rate: Vec<Polynomial<R>>,
     /// Forces of the parts of each spring.
     pub(super) force: Vec<Vec<Polynomial<R>>>,
-    /// Absolute acceleration of the ground (index 0) and of each node.
+    /// Absolute acceleration of the ground or the slab on it (index 0) and of each node.
     pub(super) acceleration: Vec<Polynomial<R>>,
     /// Velocity of each block relative to its node.
     pub(super) velocity: Vec<Polynomial<R>>,
@@ -31,6 +32,8 @@ pub(super) struct Series<R> {
     pub(super) push: Vec<Polynomial<R>>,
     /// Friction of each block on its node, constant zero where it does not slide.
     pub(super) friction: Vec<Polynomial<R>>,
+    /// Of the slab.
+    pub(super) base: Option<BaseSeries<R>>,
     /// Slopes of the parts of each spring.
     tangent: Vec<Vec<R>>,
 }
@@ -84,18 +87,33 @@ impl<R: Real> Series<R> {
             slip: starts(&state.blocks.iter().map(|b| b.slip).collect::<Vec<_>>()),
             push: starts(&(0..m).map(|j| state.push(model, j)).collect::<Vec<_>>()),
             friction: state.blocks.iter().map(friction).collect(),
+            base: state.base.as_ref().map(BaseSeries::at_start),
             tangent: parts.iter().map(|s| s.iter().map(|part| part.tangent).collect()).collect(),
         }
+    }
+
+    /// Coefficients of this order of the forces of the springs.
+    pub(super) fn spring_terms(&self, state: &State<R>, order: usize) -> Vec<R> {
+        let spring = |p: usize| {
+            let parts = self.force[p].iter().fold(R::zero(), |sum, part| sum + term(part, order));
+            parts + state.springs[p].linear() * term(&self.drift[p], order)
+        };
+        (0..state.springs.len()).map(spring).collect()
+    }
+
+    /// Sizes of the terms of the forces of the springs over the stretch.
+    pub(super) fn spring_sizes(&self, state: &State<R>) -> Vec<R> {
+        let spring = |p: usize| {
+            let parts = self.force[p].iter().fold(R::zero(), |sum, part| sum + part.size());
+            parts + state.springs[p].linear() * self.drift[p].size()
+        };
+        (0..state.springs.len()).map(spring).collect()
     }
 
     /// Coefficients of this order of the forces on each node and on each block, without friction; those of lower orders are
     /// known. A block that sticks has none of its own.
     pub(super) fn forces(&mut self, model: &Model<R>, state: &State<R>, order: usize) -> (Vec<R>, Vec<R>) {
-        let spring = |p: usize| {
-            let parts = self.force[p].iter().fold(R::zero(), |sum, part| sum + term(part, order));
-            parts + state.springs[p].linear() * term(&self.drift[p], order)
-        };
-        let springs: Vec<R> = (0..model.mass.len()).map(spring).collect();
+        let springs = self.spring_terms(state, order);
         let terms = |list: &[Polynomial<R>]| list.iter().map(|p| term(p, order)).collect::<Vec<R>>();
         let mut pull = model.pull(&springs, &terms(&self.drift), &terms(&self.rate), Terms::Signed);
         let mut on_block = vec![R::zero(); model.goods.len()];
@@ -126,8 +144,8 @@ impl<R: Real> Series<R> {
         on_block: &[R],
     ) {
         let (length, one) = (self.length, R::of(1.0));
-        let ground = term(&self.ground, order);
-        self.acceleration[0].0.push(ground);
+        let below = self.below(model, state, order);
+        self.acceleration[0].0.push(below);
         for (of_node, &value) in self.acceleration[1..].iter_mut().zip(acceleration) {
             of_node.0.push(value);
         }
@@ -151,8 +169,9 @@ impl<R: Real> Series<R> {
     /// Restricts the stretch to its first part, of this fraction.
     pub(super) fn shrink(&mut self, place: R) {
         self.length = self.length * place;
-        let Self { ground, contact, drift, rate, force, acceleration, velocity, slip, push, friction, .. } = self;
-        let lists = [drift, rate, acceleration, velocity, slip, push, friction].into_iter().flatten();
+        let Self { ground, contact, drift, rate, force, acceleration, velocity, slip, push, friction, base, .. } = self;
+        let of_base = base.iter_mut().flat_map(BaseSeries::polynomials);
+        let lists = [drift, rate, acceleration, velocity, slip, push, friction].into_iter().flatten().chain(of_base);
         for polynomial in lists.chain(force.iter_mut().flatten()).chain([ground, contact]) {
             polynomial.shrink(place);
         }
@@ -164,6 +183,10 @@ impl<R: Real> Series<R> {
             state.springs[p].advance(&self.course(p));
             state.drift[p] = self.drift[p].end();
             state.rate[p] = self.rate[p].end();
+        }
+        if let (Some(own), Some(base)) = (&self.base, &mut state.base) {
+            (base.velocity, base.slip) = (own.velocity.end(), own.slip.end());
+            base.moved |= self.length > R::zero();
         }
         for (j, block) in state.blocks.iter_mut().enumerate() {
             block.velocity = self.velocity[j].end();
@@ -194,14 +217,11 @@ impl<R: Real> Series<R> {
         slipped
     }
 
-    /// Size of the terms of each node's acceleration over the stretch (index 0: the ground): the measure of its rounding.
+    /// Size of the terms of each node's acceleration over the stretch (index 0: the ground or the slab): the measure of its
+    /// rounding.
     pub(super) fn acceleration_sizes(&self, model: &Model<R>, state: &State<R>) -> Vec<R> {
         let sizes = |list: &[Polynomial<R>]| list.iter().map(Polynomial::size).collect::<Vec<R>>();
-        let spring = |p: usize| {
-            let parts = self.force[p].iter().fold(R::zero(), |sum, part| sum + part.size());
-            parts + state.springs[p].linear() * self.drift[p].size()
-        };
-        let springs: Vec<R> = (0..model.springs.len()).map(spring).collect();
+        let springs = self.spring_sizes(state);
         let mut force = model.pull(&springs, &sizes(&self.drift), &sizes(&self.rate), Terms::Sizes);
         let mass = state.mass_with_stuck(model);
         for (j, (block, data)) in state.blocks.iter().zip(&model.goods).enumerate() {
@@ -214,7 +234,9 @@ impl<R: Real> Series<R> {
             }
         }
         let of_nodes = force.into_iter().zip(mass).map(|(force, mass)| force / mass);
-        [self.ground.size()].into_iter().chain(of_nodes).collect()
+        let (slab, moved) = self.size_below(model, state);
+        let below = if state.base_moves() { slab / moved } else { self.ground.size() };
+        [below].into_iter().chain(of_nodes).collect()
     }
 
     /// Size of the terms of the force of a stop.

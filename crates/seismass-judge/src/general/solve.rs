@@ -98,7 +98,8 @@ pub(crate) fn solve_scaled<R: Real>(
     if every == 0 {
         return Err(JudgeError::NoDecimation);
     }
-    let model = Model::<R>::new(scene);
+    let mut model = Model::<R>::new(scene);
+    model.base.iter_mut().for_each(|base| base.bound(motion));
     let phase = model.frequency_bound(|_| false) * motion.dt() / MAX_PHASE;
     if phase > MAX_PIECES {
         return Err(JudgeError::TooStiff { longest: motion.dt() * MAX_PIECES / phase, dt: motion.dt() });
@@ -118,9 +119,10 @@ pub(crate) fn solve_scaled<R: Real>(
         parted: R::zero(),
     };
     run.begin();
-    let acceleration = |p| run.state.acceleration(&run.model, Some(p), &run.drive, R::zero(), Terms::Signed);
-    let acceleration = (0..run.model.mass.len()).map(acceleration).collect();
+    let at_start = |node| run.state.acceleration(&run.model, node, &run.drive, R::zero(), Terms::Signed);
+    let acceleration = (0..run.model.mass.len()).map(|p| at_start(Some(p))).collect();
     let mut recorder = Recorder::new(&run.model, &run.state, acceleration, every);
+    recorder.begin_base(at_start(None));
     let mut status = GeneralStatus::Completed;
     'run: for i in 0..samples - 1 {
         run.drive = scale.drive(motion, i);
@@ -169,7 +171,7 @@ impl<R: Real> Run<R> {
         let [contact, change] = self.drive.contact;
         self.airborne = contact < R::zero() || contact == R::zero() && change <= R::zero();
         if self.airborne {
-            self.state.blocks.iter_mut().for_each(|b| b.contact = Contact::Airborne);
+            self.state.blocks.iter_mut().chain(&mut self.state.base).for_each(|b| b.contact = Contact::Airborne);
         } else {
             self.machines().settle_all(R::zero());
         }

@@ -2,6 +2,7 @@
 
 use seismass::GeneralScene;
 
+use super::base::BaseData;
 use super::model::Model;
 use crate::model::{Stage, Terms};
 use crate::real::Real;
@@ -28,6 +29,8 @@ pub(crate) struct State<R> {
     pub(super) springs: Vec<Box<dyn Spring<R>>>,
     pub(super) blocks: Vec<BlockState<R>>,
     pub(super) stopped: Vec<Stopped>,
+    /// The slab on the ground.
+    pub(super) base: Option<BlockState<R>>,
 }
 
 impl<R: Real> State<R> {
@@ -67,6 +70,7 @@ impl<R: Real> State<R> {
             springs: springs.collect(),
             blocks: blocks.collect(),
             stopped: vec![Stopped::Free; model.goods.len()],
+            base: model.base.as_ref().map(BaseData::at_rest),
             drift,
             rate,
         }
@@ -117,7 +121,7 @@ impl<R: Real> State<R> {
         R::of(0.5) * stops.stiffness * beyond * beyond
     }
 
-    /// Absolute acceleration of a node (none: the ground) in the present regime, or the size of its terms.
+    /// Absolute acceleration of a node (none: the ground or the slab) in the present regime, or the size of its terms.
     pub(super) fn acceleration(
         &self,
         model: &Model<R>,
@@ -126,7 +130,10 @@ impl<R: Real> State<R> {
         tau: R,
         terms: Terms,
     ) -> R {
-        let Some(node) = node else { return terms.of(drive.ground_at(tau)) };
+        let Some(node) = node else {
+            let (force, mass) = self.on_slab(model, drive, tau, terms);
+            return if self.base_moves() { force / mass } else { terms.of(drive.ground_at(tau)) };
+        };
         let mut force = model.pull(&self.spring_forces(terms), &self.drift, &self.rate, terms)[node];
         let mut mass = model.mass[node];
         for (j, (block, data)) in self.blocks.iter().zip(&model.goods).enumerate() {
@@ -150,16 +157,19 @@ impl<R: Real> State<R> {
 
     /// Kinetic energy of nodes and blocks, relative to the ground.
     pub(super) fn kinetic_energy(&self, model: &Model<R>) -> R {
-        let velocity = model.displacements(&self.rate, Terms::Signed);
-        let nodes = model.mass.iter().zip(&velocity).fold(R::zero(), |sum, (&m, &v)| sum + m * v * v);
+        let below = self.base_velocity();
+        let of_nodes = model.displacements(&self.rate, Terms::Signed);
+        let velocity: Vec<R> = of_nodes.into_iter().map(|v| below + v).collect();
+        let slab = model.base.as_ref().map_or(R::zero(), |base| base.mass * below * below);
+        let nodes = model.mass.iter().zip(&velocity).fold(slab, |sum, (&m, &v)| sum + m * v * v);
         let blocks = model.goods.iter().zip(&self.blocks).fold(R::zero(), |sum, (data, block)| {
-            let v = data.node.map_or(R::zero(), |node| velocity[node]) + block.velocity;
+            let v = data.node.map_or(below, |node| velocity[node]) + block.velocity;
             sum + data.mass * v * v
         });
         R::of(0.5) * (nodes + blocks)
     }
 
-    /// Energy stored in springs, matrix and stops, less the work of P-Delta.
+    /// Energy stored in springs, matrix and stops, and in the height of a pendulum, less the work of P-Delta.
     pub(super) fn elastic_energy(&self, model: &Model<R>) -> R {
         let half = R::of(0.5);
         let mut energy = R::zero();
@@ -170,6 +180,9 @@ impl<R: Real> State<R> {
         let displacement = model.displacements(&self.drift, Terms::Signed);
         for (u, force) in displacement.iter().zip(model.matrix_forces(&displacement, Terms::Signed)) {
             energy = energy + half * *u * force;
+        }
+        if let (Some(data), Some(base)) = (&model.base, &self.base) {
+            energy = energy + half * data.restoring * model.gravity * base.slip * base.slip;
         }
         let pressing = (0..self.blocks.len()).filter(|&j| matches!(self.stopped[j], Stopped::Pressing(_)));
         pressing.fold(energy, |sum, j| sum + self.stop_energy(model, j))
@@ -183,7 +196,7 @@ impl<R: Real> State<R> {
     }
 
     pub(super) fn is_finite(&self) -> bool {
-        let blocks = self.blocks.iter().flat_map(|b| [b.velocity, b.slip]);
+        let blocks = self.blocks.iter().chain(&self.base).flat_map(|b| [b.velocity, b.slip]);
         self.drift.iter().chain(&self.rate).copied().chain(blocks).all(|x| x.to_f64().is_finite())
     }
 }

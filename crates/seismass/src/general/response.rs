@@ -4,6 +4,7 @@ use crate::response::{Event, Histories, Peak, Statistics};
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
 pub enum GeneralStatus {
     /// The motion ended.
     Completed,
@@ -19,6 +20,7 @@ pub enum GeneralStatus {
 /// Peaks in continuous time. Storeys and floors in order, then the levels of each rack; goods on floors, then those of
 /// racks.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GeneralPeaks {
     /// Drift of each storey, and of each rack level relative to the one below or to what the rack stands on (m).
     pub drift: Vec<Peak>,
@@ -39,6 +41,7 @@ pub struct GeneralPeaks {
 /// What the sliding base did.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GeneralBase {
     /// Peak slip of the slab on the ground (m).
     pub slip: Peak,
@@ -54,6 +57,7 @@ pub struct GeneralBase {
 
 /// An event with the relative velocity of its block.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GeneralEvent {
     /// The event. Numbers of springs count storeys, then rack levels; numbers of blocks the goods on floors, then those of
     /// racks; the sliding base has number 0 where blocks have theirs.
@@ -64,6 +68,7 @@ pub struct GeneralEvent {
 
 /// Energies at the end of the run, relative to the moving ground (J).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GeneralEnergy {
     /// Kinetic plus elastic energy at the start.
     pub initial: f64,
@@ -89,6 +94,7 @@ pub struct GeneralEnergy {
 /// The result of one run of the general engine. Lists by node and by goods are as in [`GeneralPeaks`].
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GeneralResponse {
     /// Number of storeys of the building.
     pub storeys: usize,

@@ -10,6 +10,7 @@ pub const MAX_WEAR_STAGES: usize = 100;
 
 /// Friction coefficients of a block from a slip path on.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Wear {
     /// Path slipped in contact (m) from which they hold.
     pub path: f64,
@@ -21,6 +22,7 @@ pub struct Wear {
 
 /// A rigid block that sticks to its floor or slides on it by Coulomb friction.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Block {
     /// Floor that carries it, counted from 1; 0 is the ground slab.
     pub floor: usize,
@@ -33,6 +35,7 @@ pub struct Block {
     /// Initial velocity relative to the ground (m/s); default: its floor's.
     pub velocity: Option<f64>,
     /// Coefficients that follow those above, by the path slipped; paths increase. Empty: they stay as they are.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub wear: Vec<Wear>,
 }
 

@@ -17,6 +17,11 @@ pub const MAX_STOREYS: usize = 4;
 
 /// Where the P-Delta effect comes from.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case", deny_unknown_fields)
+)]
 pub enum GravityEffect {
     /// No P-Delta.
     #[default]
@@ -64,12 +69,36 @@ impl GravityEffect {
 
 /// A shear building: lumped floor masses, storey springs, damping.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "BuildingForm"))]
 pub struct Building {
     mass: Vec<f64>,
     storeys: Vec<Storey>,
     damping: Damping,
     gravity: GravityEffect,
+    #[cfg_attr(feature = "serde", serde(skip))]
     storey_damping: StoreyDamping,
+}
+
+/// What is read of one with the feature `serde`: the fields of the same names.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BuildingForm {
+    mass: Vec<f64>,
+    storeys: Vec<Storey>,
+    #[serde(default)]
+    damping: Damping,
+    #[serde(default)]
+    gravity: GravityEffect,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<BuildingForm> for Building {
+    type Error = Error;
+
+    fn try_from(form: BuildingForm) -> Result<Self> {
+        Self::new(form.mass, form.storeys, form.damping)?.with_gravity(form.gravity)
+    }
 }
 
 impl Building {

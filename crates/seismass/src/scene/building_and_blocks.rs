@@ -10,13 +10,48 @@ use crate::units::STANDARD_GRAVITY;
 
 /// Building and blocks, with their initial state.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "SceneForm"))]
 pub struct Scene {
     building: Option<Arc<Building>>,
     blocks: Vec<Block>,
     initial_drift: Vec<f64>,
     initial_velocity: Vec<f64>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     geometric_stiffness: Vec<f64>,
+    #[cfg_attr(feature = "serde", serde(with = "crate::scene::form"))]
     collapse_drift: Option<Vec<f64>>,
+}
+
+/// What is read of one with the feature `serde`: the fields of the same names.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SceneForm {
+    building: Option<Arc<Building>>,
+    #[serde(default)]
+    blocks: Vec<Block>,
+    #[serde(default)]
+    initial_drift: Vec<f64>,
+    #[serde(default)]
+    initial_velocity: Vec<f64>,
+    #[serde(default, with = "crate::scene::form")]
+    collapse_drift: Option<Vec<f64>>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<SceneForm> for Scene {
+    type Error = Error;
+
+    fn try_from(form: SceneForm) -> Result<Self> {
+        let scene = Self::new(form.building, form.blocks)?;
+        let or_zero = |list: Vec<f64>| if list.is_empty() { vec![0.0; scene.storeys()] } else { list };
+        let (drift, velocity) = (or_zero(form.initial_drift), or_zero(form.initial_velocity));
+        let scene = scene.with_initial(drift, velocity)?;
+        match form.collapse_drift {
+            None => Ok(scene),
+            Some(limits) => scene.with_collapse_drift(limits),
+        }
+    }
 }
 
 impl Scene {

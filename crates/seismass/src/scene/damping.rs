@@ -15,6 +15,11 @@ const MAX_SWEEPS: usize = 60;
 
 /// How the damping matrix C of the bare building is made; it stays constant through yielding and sliding.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case", deny_unknown_fields)
+)]
 pub enum Damping {
     /// This ratio of critical damping in every vibration mode.
     Modal {
@@ -29,7 +34,7 @@ pub enum Damping {
         modes: [usize; 2],
     },
     /// A symmetric matrix in floor coordinates (N s/m).
-    Matrix(DMatrix<f64>),
+    Matrix(#[cfg_attr(feature = "serde", serde(with = "crate::scene::form"))] DMatrix<f64>),
 }
 
 impl Default for Damping {

@@ -6,6 +6,8 @@ mod building_and_blocks;
 mod check;
 mod columns;
 mod damping;
+#[cfg(feature = "serde")]
+mod form;
 mod general;
 mod motion;
 mod options;

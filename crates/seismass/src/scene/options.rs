@@ -17,3 +17,15 @@ pub struct Options {
     /// effect where histories or energies are asked for.
     pub peaks_only: bool,
 }
+
+impl Options {
+    /// Peaks alone, as a study asks for them.
+    pub const PEAKS: Self = Self {
+        histories: None,
+        displacements_only: false,
+        energy: false,
+        floor_force: false,
+        events: false,
+        peaks_only: true,
+    };
+}

@@ -13,6 +13,11 @@ pub const MAX_BACKBONE_POINTS: usize = 100;
 /// The law of a storey's lateral spring (`numerics`, section 3): piecewise linear, so that the response between events is
 /// solved in closed form.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "snake_case", deny_unknown_fields)
+)]
 pub enum SpringLaw {
     /// Trilinear backbone with Masing unloading (paper, Fig. 3).
     #[default]
@@ -50,10 +55,12 @@ pub enum SpringLaw {
 /// the next one aims at by the factor 1 - E_i / (lambda V_y d_y - sum of E_j), E_i the energy dissipated in it and E_j in it
 /// and those before (Rahnama and Krawinkler 1993, exponent 1).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct PeakOriented {
     /// Exponent a of the unloading stiffness, 0 <= a < 1.
     pub unloading_exponent: f64,
     /// Energy that a storey can dissipate, lambda, over yield force times yield drift; infinite: no cyclic loss.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scene::form"))]
     pub energy_capacity: f64,
     /// Residual strength over the first yield shear, 0 to 1: strength does not fall below it.
     pub residual_strength: f64,
@@ -71,10 +78,12 @@ impl Default for PeakOriented {
 /// Slope `stiffness` up to `yield_shear`, `second_slope * stiffness` up to `overstrength * yield_shear`,
 /// `third_slope * stiffness` beyond.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Storey {
     /// Initial stiffness k (N/m).
     pub stiffness: f64,
     /// First yield shear V_y (N); infinite: the storey stays elastic.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scene::form"))]
     pub yield_shear: f64,
     /// Overstrength factor Omega >= 1.
     pub overstrength: f64,
@@ -83,6 +92,7 @@ pub struct Storey {
     /// Third slope over the first, r3, with 0 <= r3 <= r2 <= 1; from -1 on with a peak-oriented law.
     pub third_slope: f64,
     /// The law of the spring.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub law: SpringLaw,
 }
 

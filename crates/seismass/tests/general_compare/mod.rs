@@ -14,14 +14,7 @@ const INSTANT: f64 = 1e-10;
 pub const ENERGY: f64 = 1e-11;
 
 /// What the comparison needs of a run.
-pub const OPTIONS: Options = Options {
-    histories: None,
-    displacements_only: false,
-    energy: true,
-    floor_force: false,
-    events: true,
-    peaks_only: false,
-};
+pub const OPTIONS: Options = Options { energy: true, events: true, peaks_only: false, ..Options::PEAKS };
 
 /// An event by its time and what it says.
 pub type Entry = (f64, String);

@@ -18,7 +18,7 @@ impl<R: Real> Plane<R> {
     pub(super) fn carry_out(&mut self, (a, guard): (usize, Guard), series: &PlaneSeries<R>, tau: R) {
         let node = |plane: &Self, block: usize| plane.directions[0].model.goods[block].node;
         match guard {
-            Guard::Collapse { .. } | Guard::Arrival { .. } => {}
+            Guard::Collapse { .. } | Guard::Arrival { .. } | Guard::BaseBreakaway { .. } | Guard::BaseArrival => {}
             Guard::Contact => self.change_contact(tau),
             Guard::Breakaway { block, .. } => {
                 self.settle(node(self, block), tau, Cause::Breakaway(block, Sign::Positive))

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use seismass::{Block, Damping, GeneralBuilding, GeneralScene, Goods, GravityEffect, Motion, Rack, SpringLaw, Storey};
+use seismass::{
+    Block, Damping, GeneralBuilding, GeneralScene, Goods, GravityEffect, Motion, Rack, SlidingBase, SpringLaw, Storey,
+};
 
 use crate::random_scene::Draw;
 
@@ -51,7 +53,13 @@ impl Factors {
             building.as_ref().map_or(Vec::new(), |b| b.storeys().iter().map(Storey::elastic_drift).collect());
         let goods = scene.goods().iter().map(|goods| self.goods(goods)).collect();
         let racks = scene.racks().iter().map(|rack| self.rack(rack)).collect();
-        let mut changed = GeneralScene::new(building, goods, racks).ok()?;
+        let base = scene.base().map(|base| SlidingBase {
+            mass: base.mass * self.mass,
+            mu_s: base.mu_s * self.friction,
+            mu_k: base.mu_k * self.friction,
+            radius: base.radius * self.clearance,
+        });
+        let mut changed = GeneralScene::on_base(building, goods, racks, base).ok()?;
         let drift = scene.initial_drift().iter().zip(limits).map(|(d, limit)| (d * self.start).clamp(-limit, limit));
         changed = changed.with_initial(drift.collect(), scaled(scene.initial_velocity(), self.start)).ok()?;
         if let Some(drift) = scene.collapse_drift() {

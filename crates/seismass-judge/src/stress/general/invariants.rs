@@ -2,8 +2,8 @@
 //! limits, stops that never pull, slips within clearances and penetrations.
 
 use seismass::{
-    Event, EventKind, GeneralResponse, GeneralScene, GeneralStatus, Histories, Motion, STANDARD_GRAVITY, SpringLaw,
-    Stops,
+    Event, EventKind, GeneralResponse, GeneralScene, GeneralStatus, Goods, Histories, Motion, STANDARD_GRAVITY,
+    SpringLaw, Stops,
 };
 
 use crate::larger;
@@ -48,6 +48,13 @@ pub(super) fn numbers(response: &GeneralResponse, h: &Histories) -> Result<(), S
             }
         }
     }
+    if let Some(base) = &response.base {
+        let of_run = [base.slip.value, base.acceleration.value, base.residual_slip, base.slip_path];
+        let completed = response.status == GeneralStatus::Completed;
+        if !of_run.iter().chain(base.history.iter().filter(|_| completed)).all(|value| value.is_finite()) {
+            return Err("numbers of the base that are not finite".into());
+        }
+    }
     let residuals = [&response.residual_drift, &response.residual_slip, &response.slip_path];
     let histories = [&h.drift, &h.slip, &h.floor_velocity, &h.block_velocity, &h.floor_acceleration, &h.storey_force];
     let finite = |lists: &[&Vec<f64>]| lists.iter().all(|list| list.iter().all(|value| value.is_finite()));
@@ -75,14 +82,17 @@ pub(super) fn energies(response: &GeneralResponse) -> Result<(), String> {
 pub(super) fn peaks(scene: &GeneralScene, response: &GeneralResponse, h: &Histories) -> Result<(), String> {
     let (n, m) = (scene.nodes(), scene.all_goods().count());
     let p = &response.peaks;
+    let of_base = response.base.as_ref().map(|base| vec![base.slip]).unwrap_or_default();
+    let base = response.base.as_ref().map_or(&h.drift, |base| &base.history);
     let lists = [
+        ("slip of base", base, &of_base, of_base.len()),
         ("drift", &h.drift, &p.drift, n),
         ("slip", &h.slip, &p.slip, m),
         ("acceleration", &h.floor_acceleration, &p.acceleration, n),
         ("shear", &h.storey_force, &p.shear, n),
     ];
     for (name, values, peaks, width) in lists {
-        for (i, value) in values.iter().enumerate() {
+        for (i, value) in values.iter().enumerate().filter(|_| width > 0) {
             let peak = peaks[i % width].value;
             if value.abs() > peak * (1.0 + ROUNDING) {
                 return Err(format!("{name} {} is {value:e} at sample {}, peak {peak:e}", i % width + 1, i / width));
@@ -121,6 +131,9 @@ pub(super) struct Walk<'a> {
     response: &'a GeneralResponse,
     histories: &'a Histories,
     contact: Vec<Contact>,
+    /// That of the slab; none: the ground.
+    base: Option<Contact>,
+    base_changed: f64,
     stopped: Vec<Stopped>,
     last_change: Vec<f64>,
     mu_s: Vec<f64>,
@@ -162,6 +175,8 @@ impl<'a> Walk<'a> {
             last_change: vec![f64::NEG_INFINITY; contact.len()],
             mu_s: scene.all_goods().map(|goods| goods.block.mu_s).collect(),
             fastest: velocities.filter(|v| !v.is_nan()).fold(0.0, |most, v| larger(most, v.abs())),
+            base: scene.base().map(|_| if airborne { Contact::Airborne } else { Contact::Stuck }),
+            base_changed: f64::NEG_INFINITY,
             scene,
             motion,
             response,
@@ -181,7 +196,11 @@ impl<'a> Walk<'a> {
             while let Some(event) = events.next_if(|e| e.time <= time) {
                 self.carry_out(event)?;
             }
-            for (j, goods) in self.scene.all_goods().enumerate() {
+            self.rests(row)?;
+            let moves = self.base.is_some() && !self.is_base_stuck();
+            // Nothing has the velocity of a slab that moves.
+            let known = |&(j, _): &(usize, &Goods)| self.node[j].is_some() || !moves;
+            for (j, goods) in self.scene.all_goods().enumerate().filter(known) {
                 let fault = |message: String| format!("block {} at t = {time} s: {message}", j + 1);
                 self.friction(j, row).map_err(fault)?;
                 goods.stops.as_ref().map_or(Ok(()), |stops| self.stop(j, row, stops)).map_err(fault)?;
@@ -191,7 +210,12 @@ impl<'a> Walk<'a> {
     }
 
     pub(super) fn carry_out(&mut self, event: &Event) -> Result<(), String> {
-        let j = event.number - 1;
+        let Some(j) = event.number.checked_sub(1) else {
+            let before = self.base.ok_or("an event of no base")?;
+            self.base = Some(step(before, event).ok_or_else(|| format!("base: {event:?} while {before:?}"))?);
+            self.base_changed = event.time;
+            return Ok(());
+        };
         let goods = self.scene.all_goods().nth(j).ok_or("an event of no block")?;
         self.last_change[j] = event.time;
         let side = event.sign;
@@ -218,6 +242,21 @@ impl<'a> Walk<'a> {
             let before = self.contact[j];
             self.contact[j] =
                 step(before, event).ok_or_else(|| format!("block machine: {event:?} while {before:?}"))?;
+        }
+        Ok(())
+    }
+
+    fn is_base_stuck(&self) -> bool {
+        matches!(self.base, Some(Contact::Stuck | Contact::Landed))
+    }
+
+    /// A slab that sticks does not creep.
+    fn rests(&self, row: usize) -> Result<(), String> {
+        let Some(base) = &self.response.base else { return Ok(()) };
+        let time = row as f64 * self.motion.dt();
+        let rests = row > 0 && self.is_base_stuck() && self.base_changed < time - self.motion.dt();
+        if rests && base.history[row] != base.history[row - 1] {
+            return Err(format!("the base creeps from {} to {}", base.history[row - 1], base.history[row]));
         }
         Ok(())
     }

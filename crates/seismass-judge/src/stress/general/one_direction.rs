@@ -40,11 +40,14 @@ impl Subject for (GeneralScene, Motion) {
         Ok((mirrored(&self.0)?, opposite(&self.1)?))
     }
 
-    const ACCELERATIONS: &'static [usize] = &[1];
+    const ACCELERATIONS: &'static [usize] = &[1, 9];
 
     fn peaks(response: &GeneralResponse, _of_image: bool) -> Vec<Vec<Peak>> {
         let mut lists = of_peaks(&response.peaks);
         lists.push(without_times(&response.slip_path));
+        let base = response.base.as_ref();
+        lists.extend([base.map_or(Vec::new(), |b| vec![b.slip]), base.map_or(Vec::new(), |b| vec![b.acceleration])]);
+        lists.push(base.map_or(Vec::new(), |b| without_times(&[b.slip_path])));
         lists
     }
 
@@ -58,8 +61,11 @@ impl Subject for (GeneralScene, Motion) {
     }
 
     fn same_bits(one: &GeneralResponse, other: &GeneralResponse) -> bool {
-        (&other.peaks, &other.residual_drift, &other.residual_slip, &other.slip_path, other.status)
-            == (&one.peaks, &one.residual_drift, &one.residual_slip, &one.slip_path, one.status)
+        let base = |of: &GeneralResponse| {
+            of.base.as_ref().map(|base| (base.slip, base.acceleration, base.residual_slip, base.slip_path))
+        };
+        (&other.peaks, &other.residual_drift, &other.residual_slip, &other.slip_path, other.status, base(other))
+            == (&one.peaks, &one.residual_drift, &one.residual_slip, &one.slip_path, one.status, base(one))
     }
 
     fn as_solution(response: &GeneralResponse) -> Option<GeneralSolution> {
@@ -105,7 +111,7 @@ pub(super) fn mirrored(scene: &GeneralScene) -> Result<GeneralScene> {
     let of_rack = |rack: &Rack| Rack { goods: rack.goods.iter().map(goods).collect(), ..rack.clone() };
     let negative = |values: &[f64]| values.iter().map(|v| -v).collect();
     let (on_floors, racks) = (scene.goods().iter().map(goods).collect(), scene.racks().iter().map(of_rack).collect());
-    let mut image = GeneralScene::new(scene.building().cloned(), on_floors, racks)?;
+    let mut image = GeneralScene::on_base(scene.building().cloned(), on_floors, racks, scene.base().copied())?;
     if scene.building().is_some() {
         image = image.with_initial(negative(scene.initial_drift()), negative(scene.initial_velocity()))?;
     }

@@ -150,14 +150,15 @@ fn of_one_direction(tally: &GeneralTally) -> String {
          Random scenes with racks, walls and stops (`general_scene.rs` of `crates/seismass-judge`): up to six storeys of every \
          spring law, or none, with cantilevers, braces and random matrices beside them; up to three racks of one to four \
          levels on floors and on the ground; several blocks per node, with stops of clearances down to zero, soft and stiff, \
-         with dampers and without; goods that are fixed; every kind of damping; P-Delta, vertical motion, wear, initial states.\n\n\
+         with dampers and without; goods that are fixed; every kind of damping; P-Delta, vertical motion, wear, initial states; \
+         in a sixth of the scenes all of it on a sliding base.\n\n\
          Every run is checked by itself: finite numbers; energy balance; legal sequences of events; stuck blocks that neither \
          move nor exceed their limit; stops that never pull, and blocks that press where they must; slips within clearance and \
          penetration; peaks that no sample beats. A fifth is solved again with every sample interval divided by four, as its \
          image in a mirror, and for peaks alone, which must not change a bit. Where one of the first two changes events, or \
          numbers beyond the limit, changes of the input by some last digits must move the engine as far, or a second \
          implementation is asked. A random part is compared with that implementation, written from the \
-         specification alone (`crates/seismass-judge/src/general`): a tenth of it in double-double, the others in double \
+         specification alone, but for the sliding base, whose engine was known (`crates/seismass-judge/src/general`): a tenth of it in double-double, the others in double \
          precision and in double-double where that parts. The modal damping of racks is its own; that of the building is the \
          kernel's, and a test compares it. Where the two part, the judge is asked again with its input changed in the last \
          digits, as on the page of the chain engine. Some scenes are chaotic: blocks that are thrown to and fro between stops \

@@ -5,6 +5,7 @@ use crate::response::{Histories, Peak, Statistics};
 
 /// A horizontal direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
 pub enum Axis {
     /// The first.
     X,
@@ -14,6 +15,7 @@ pub enum Axis {
 
 /// Peaks of the lengths of vectors in continuous time.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct VectorPeaks {
     /// Drift vector of each storey and rack level (m).
     pub drift: Vec<Peak>,
@@ -30,6 +32,7 @@ pub struct VectorPeaks {
 /// Peaks by direction and of vectors.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PlanePeaks {
     /// Peaks in x and in y.
     pub directions: [GeneralPeaks; 2],
@@ -39,6 +42,7 @@ pub struct PlanePeaks {
 
 /// An event in the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PlaneEvent {
     /// The event. Its sign is zero where it is of a vector; its velocity is then the length of the relative velocity.
     pub event: GeneralEvent,
@@ -51,6 +55,7 @@ pub struct PlaneEvent {
 
 /// Energies by direction, each of which balances by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PlaneEnergy {
     /// Energies of x and of y (J).
     pub directions: [GeneralEnergy; 2],
@@ -61,6 +66,7 @@ pub struct PlaneEnergy {
 /// The result of one run in the plane. Lists are as in [`GeneralPeaks`]; pairs are of x and y.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PlaneResponse {
     /// Number of storeys of the building.
     pub storeys: usize,

@@ -9,6 +9,7 @@ use crate::scene::check::check;
 ///
 /// Floor 0 of the scene is the slab: storey 1, and goods and racks on floor 0, stand on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct SlidingBase {
     /// Mass of the slab (kg).
     pub mass: f64,
@@ -17,6 +18,7 @@ pub struct SlidingBase {
     /// Kinetic friction coefficient, at most the static one.
     pub mu_k: f64,
     /// Effective radius of a pendulum (m): the contact force over it is the restoring stiffness. Infinite: a flat slider.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scene::form"))]
     pub radius: f64,
 }
 

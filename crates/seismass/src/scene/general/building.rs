@@ -12,15 +12,44 @@ use crate::scene::storey::Storey;
 /// Floor masses, storey springs, and an elastic matrix over the floors that stands for walls, braces over several storeys or
 /// a condensed model.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "GeneralBuildingForm"))]
 pub struct GeneralBuilding {
     mass: Vec<f64>,
     storeys: Vec<Storey>,
+    #[cfg_attr(feature = "serde", serde(rename = "stiffness_matrix", with = "crate::scene::form"))]
     matrix: Option<DMatrix<f64>>,
     gravity: GravityEffect,
+    damping: Damping,
     /// Symmetric matrix from drift rates to storey damping forces (N s/m).
-    damping: DMatrix<f64>,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    storey_damping: DMatrix<f64>,
     /// The elastic matrix between storey drifts (N/m).
+    #[cfg_attr(feature = "serde", serde(skip))]
     elastic: Option<DMatrix<f64>>,
+}
+
+/// What is read of one with the feature `serde`: the fields of the same names.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GeneralBuildingForm {
+    mass: Vec<f64>,
+    storeys: Vec<Storey>,
+    #[serde(default, with = "crate::scene::form")]
+    stiffness_matrix: Option<DMatrix<f64>>,
+    #[serde(default)]
+    gravity: GravityEffect,
+    #[serde(default)]
+    damping: Damping,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<GeneralBuildingForm> for GeneralBuilding {
+    type Error = Error;
+
+    fn try_from(form: GeneralBuildingForm) -> Result<Self> {
+        Self::new(form.mass, form.storeys, form.stiffness_matrix, &form.damping, form.gravity)
+    }
 }
 
 impl GeneralBuilding {
@@ -56,8 +85,9 @@ impl GeneralBuilding {
         let gravity = gravity.checked(n)?;
         let matrix = checked(&matrix, n)?;
         let elastic = between_storeys(&matrix);
-        let damping = damping_between_storeys(&mass, &storeys, &matrix, damping)?;
-        Ok(Self { mass, storeys, matrix: Some(matrix), gravity, damping, elastic: Some(elastic) })
+        let storey_damping = damping_between_storeys(&mass, &storeys, &matrix, damping)?;
+        let (damping, matrix, elastic) = (damping.clone(), Some(matrix), Some(elastic));
+        Ok(Self { mass, storeys, matrix, gravity, damping, storey_damping, elastic })
     }
 
     /// Number of storeys.
@@ -90,15 +120,20 @@ impl GeneralBuilding {
         &self.gravity
     }
 
+    /// How damping was given.
+    pub fn damping(&self) -> &Damping {
+        &self.damping
+    }
+
     /// Symmetric matrix D from drift rates to storey damping forces (N s/m).
     pub fn storey_damping(&self) -> &DMatrix<f64> {
-        &self.damping
+        &self.storey_damping
     }
 
     /// Damping matrix C in floor coordinates (N s/m).
     pub fn damping_matrix(&self) -> DMatrix<f64> {
         let n = self.len();
-        let at = |i: usize, j: usize| if i < n && j < n { self.damping[(i, j)] } else { 0.0 };
+        let at = |i: usize, j: usize| if i < n && j < n { self.storey_damping[(i, j)] } else { 0.0 };
         DMatrix::from_fn(n, n, |i, j| at(i, j) - at(i + 1, j) - at(i, j + 1) + at(i + 1, j + 1))
     }
 
@@ -145,7 +180,7 @@ impl From<&Building> for GeneralBuilding {
     /// A shear building.
     fn from(building: &Building) -> Self {
         let n = building.len();
-        let damping = match building.storey_damping() {
+        let storey_damping = match building.storey_damping() {
             StoreyDamping::None => DMatrix::zeros(n, n),
             StoreyDamping::Dense(d) => d.clone(),
             StoreyDamping::Rayleigh { .. } => between_storeys(&building.damping_matrix()),
@@ -155,7 +190,8 @@ impl From<&Building> for GeneralBuilding {
             storeys: building.storeys().to_vec(),
             matrix: None,
             gravity: building.gravity().clone(),
-            damping,
+            damping: building.damping().clone(),
+            storey_damping,
             elastic: None,
         }
     }

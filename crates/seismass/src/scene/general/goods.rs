@@ -9,9 +9,11 @@ use crate::scene::check::check;
 /// Stops on either side of a block, fixed to what carries it: an elastic spring and a viscous damper in parallel, which act
 /// while the block is beyond its clearance and their force is not negative.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Stops {
     /// Slip at which the stop on the negative and on the positive side touches, from the block's first place (m); not
     /// negative, infinite: none on that side.
+    #[cfg_attr(feature = "serde", serde(with = "crate::scene::form"))]
     pub clearance: [f64; 2],
     /// Stiffness of the contact (N/m).
     pub stiffness: f64,
@@ -38,6 +40,7 @@ impl Stops {
 
 /// A rigid block that sticks or slides by Coulomb friction, between stops or without.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Goods {
     /// The block. Its floor is that of the building (0: the ground) or, in a rack, the rack's level from 1.
     pub block: Block,

@@ -10,8 +10,26 @@ use crate::scene::motion::Motion;
 /// A structure in two horizontal directions, x and y: the same masses and goods, with springs, damping, elastic matrices,
 /// stops and initial states of each direction. Friction is of the circle.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "PlaneSceneForm"))]
 pub struct PlaneScene {
     directions: [GeneralScene; 2],
+}
+
+/// What is read of one with the feature `serde`: the fields of the same names.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PlaneSceneForm {
+    directions: [GeneralScene; 2],
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<PlaneSceneForm> for PlaneScene {
+    type Error = Error;
+
+    fn try_from(PlaneSceneForm { directions: [x, y] }: PlaneSceneForm) -> Result<Self> {
+        Self::new(x, y)
+    }
 }
 
 impl PlaneScene {

@@ -10,6 +10,7 @@ use crate::scene::storey::Storey;
 
 /// A rack with goods on its levels. Its drifts are relative to what it stands on.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Rack {
     /// Floor of the building that it stands on, from 1; 0: the ground.
     pub floor: usize,
@@ -20,8 +21,10 @@ pub struct Rack {
     /// Damping ratio in every mode of the rack alone, fixed at its base, with frame and all goods attached.
     pub damping_ratio: f64,
     /// P/h of each level (N/m); empty: no P-Delta.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub geometric_stiffness: Vec<f64>,
     /// Goods that may slide; the floor of a block is the level, from 1.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub goods: Vec<Goods>,
 }
 
