@@ -96,6 +96,31 @@ fn a_strong_damper_pushes_hardest_at_the_touch() {
     }
 }
 
+/// A constant push against a stop damped at 200 times the critical: the block creeps by the slow mode long after the fast one,
+/// exp(-t/0.46 ms), has decayed, and steps are as long as the sample intervals.
+#[test]
+fn a_block_creeps_into_a_heavily_damped_stop() {
+    let (push, gap, m, k) = (0.8_f64, 0.1_f64, 3.0_f64, 90.0_f64);
+    let (w, zeta) = ((k / m).sqrt(), 200.0);
+    let stops = Stops { clearance: [gap, gap], stiffness: k, damping: 2.0 * zeta * m * w };
+    let samples = 301;
+    let motion = Motion::new(vec![-push; samples], 0.01, None).unwrap();
+    let response = solve(&thrown(0.0, m, stops), &motion);
+    let (fast, touch) = (w * (zeta + (zeta * zeta - 1.0).sqrt()), (2.0 * gap / push).sqrt());
+    let slow = w * w / fast;
+    // e = rest + a exp(-fast t) + b exp(-slow t), from e = 0 at the velocity of the touch.
+    let (rest, velocity, t) = (push * m / k, (2.0 * gap * push).sqrt(), 3.0 - touch);
+    let a = (slow * rest - velocity) / (fast - slow);
+    let b = -rest - a;
+    let e = a * (-fast * t).exp() - rest * (-slow * t).exp_m1() - a * (-slow * t).exp();
+    close(times(&response, EventKind::TouchStop)[0], touch, 1e-14, "touch");
+    close(response.residual_slip[0] - gap, e, 1e-12, "creep");
+    close(response.peaks.contact_force[0].value, stops.damping * velocity, 1e-13, "force at the touch");
+    let lost = m * push * (gap + e) - 0.5 * k * e * e - 0.5 * m * (b * slow * (-slow * t).exp()).powi(2);
+    close(response.energy.unwrap().contact, lost, 1e-12, "energy of the contact");
+    assert!(response.statistics.series_steps < samples + 40, "{} steps", response.statistics.series_steps);
+}
+
 /// A block held by friction against its stop keeps k e: it is at rest where the spring force is below mu m g.
 #[test]
 fn a_block_sticks_at_its_stop() {

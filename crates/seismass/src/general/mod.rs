@@ -8,6 +8,7 @@ mod base;
 mod base_guards;
 mod base_law;
 mod block_guards;
+mod decay;
 mod decide;
 mod energy;
 mod forces;

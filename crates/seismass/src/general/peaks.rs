@@ -199,13 +199,9 @@ impl Observer {
 
 /// The base shear over a step as a polynomial, or its rate, without what it is at the bases of the segments.
 fn base_shear_terms(state: &GeneralState, series: &Series, quantity: Quantity, count: usize) -> Polynomial {
-    let mut total = Polynomial::new([0.0]);
-    for (i, k) in base_stiffness(state, count).iter().enumerate() {
-        let (p, _) = series.polynomial(quantity, i + 1, *k, 0.0);
-        total.length = p.length;
-        total.coefficients.iter_mut().zip(p.coefficients()).for_each(|(sum, c)| *sum += c);
-    }
-    total
+    let stiffness = base_stiffness(state, count);
+    let of_order = |row: &[f64]| stiffness.iter().zip(&row[1..]).fold(0.0, |sum, (k, value)| sum + k * value);
+    Polynomial::new(series.orders(quantity).map(of_order))
 }
 
 /// The base shear over a step as a polynomial.

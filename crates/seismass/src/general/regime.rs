@@ -1,9 +1,11 @@
 //! The linear system of one tuple of machine states, and the bound of its frequencies.
 
+use std::cell::OnceCell;
 use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
 
+use crate::general::decay::DecayingMode;
 use crate::general::system::System;
 
 /// Regimes that are kept; beyond, the cache starts afresh.
@@ -24,12 +26,18 @@ pub(super) struct Regime {
     pub(super) slab_mass: f64,
     /// No frequency of the system, damped as it is, is above this (rad/s).
     pub(super) frequency: f64,
+    /// No rate of decay is above this (1/s).
+    pub(super) damping: f64,
+    /// Modes that decay fast, the fastest first, once they are asked for.
+    pub(super) decaying: OnceCell<Vec<DecayingMode>>,
 }
 
 /// A block that moves at its stop.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MovingContact {
     pub(super) block: usize,
+    /// Its place among the blocks that move.
+    pub(super) position: usize,
     pub(super) stiffness: f64,
     pub(super) damping: f64,
 }
@@ -53,14 +61,14 @@ impl Regime {
             mass[0] = 0.0;
         }
         let inverse_mass: Vec<f64> = mass.iter().map(|&m| if m > 0.0 { 1.0 / m } else { 0.0 }).collect();
-        let frequency = frequency(system, &tangent, &inverse_mass, contacts);
-        Self { tangent, inverse_mass, slab_mass, frequency }
+        let (frequency, damping) = frequency(system, &tangent, &inverse_mass, contacts);
+        Self { tangent, inverse_mass, slab_mass, frequency, damping, decaying: OnceCell::new() }
     }
 }
 
 /// w = kappa/2 + sqrt(kappa^2/4 + sigma) with Gershgorin's bounds kappa and sigma of damping and stiffness in coordinates
-/// scaled by the roots of the masses (`numerics`, section 4.3). A block at its stop is a mass of its own.
-fn frequency(system: &System, tangent: &[f64], inverse_mass: &[f64], contacts: &[MovingContact]) -> f64 {
+/// scaled by the roots of the masses (`numerics`, section 4.3), and kappa. A block at its stop is a mass of its own.
+fn frequency(system: &System, tangent: &[f64], inverse_mass: &[f64], contacts: &[MovingContact]) -> (f64, f64) {
     let width = system.nodes + 1;
     let root: Vec<f64> = inverse_mass.iter().map(|inverse| inverse.sqrt()).collect();
     let (mut kappa, mut sigma) = (vec![0.0; width], vec![0.0; width]);
@@ -69,16 +77,17 @@ fn frequency(system: &System, tangent: &[f64], inverse_mass: &[f64], contacts: &
     }
     for p in 0..width {
         let row = p * width..(p + 1) * width;
-        let of =
-            |sizes: &[f64]| -> f64 { root[p] * sizes.iter().zip(&root).map(|(size, root)| size * root).sum::<f64>() };
-        kappa[p] += of(&system.damping_sizes[row.clone()]);
-        sigma[p] += of(&system.elastic_sizes[row]);
+        let of = |entries: &[f64]| -> f64 {
+            root[p] * entries.iter().zip(&root).map(|(entry, root)| entry.abs() * root).sum::<f64>()
+        };
+        kappa[p] += of(&system.damping[row.clone()]);
+        sigma[p] += of(&system.elastic[row]);
         let (size, parent) = (tangent[p].abs(), system.parent[p]);
         sigma[p] += size * root[p] * (root[p] + root[parent]);
         sigma[parent] += size * root[parent] * (root[p] + root[parent]);
     }
     let (mut of_blocks, mut damping_of_blocks) = (0.0_f64, 0.0_f64);
-    for &MovingContact { block, stiffness, damping } in contacts {
+    for &MovingContact { block, stiffness, damping, .. } in contacts {
         let (node, own) = (system.blocks[block].floor, 1.0 / system.blocks[block].mass.sqrt());
         of_blocks = of_blocks.max(stiffness * own * (own + root[node]));
         damping_of_blocks = damping_of_blocks.max(damping * own * (own + root[node]));
@@ -87,7 +96,7 @@ fn frequency(system: &System, tangent: &[f64], inverse_mass: &[f64], contacts: &
     }
     let largest = |list: &[f64], other: f64| list.iter().copied().fold(other, f64::max);
     let (kappa, sigma) = (largest(&kappa, damping_of_blocks), largest(&sigma, of_blocks));
-    0.5 * kappa + (0.25 * kappa * kappa + sigma).sqrt()
+    (0.5 * kappa + (0.25 * kappa * kappa + sigma).sqrt(), kappa)
 }
 
 /// Regimes that a run has met.

@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::error::{Error, Result};
+use crate::general::decay::{DecayingMode, decayed};
 use crate::general::energy::Balance;
 use crate::general::guards::{Guard, Search};
 use crate::general::histories::Recorder;
@@ -126,14 +127,8 @@ impl Run<'_> {
         let (mut events, mut tau) = (0, 0.0);
         let mut is_recorded = false;
         while tau < h {
-            let remaining = h - tau;
-            let phase = self.phase_of(remaining)?;
-            let pieces = (phase / GENERAL_PHASE).ceil().max(1.0);
-            self.series.form(&self.state, tau, remaining / pieces);
-            if phase > SERIES_PHASE * pieces {
-                self.series.end_by_terms();
-            }
-            let step = self.series.h;
+            self.form_series(tau, h - tau)?;
+            let (step, remaining) = (self.series.h, h - tau);
             self.statistics.series_steps += 1;
             let (first, isolated) = Search::first(&self.state, &self.series);
             self.statistics.guards_isolated += isolated;
@@ -160,6 +155,27 @@ impl Run<'_> {
             }
         }
         Ok(None)
+    }
+
+    /// Forms the series from `tau` on, as long as terms allow, within the time that remains.
+    fn form_series(&mut self, tau: f64, remaining: f64) -> Result<()> {
+        let whole = self.phase_of(remaining)?;
+        let decayed = decayed(&mut self.state, &mut self.series, tau, remaining);
+        let modes = self.state.regime.decaying.get().filter(|modes| whole > SERIES_PHASE && !modes.is_empty());
+        let bound = |modes: &Vec<DecayingMode>| match modes.get(decayed) {
+            Some(alive) => alive.rate.max(alive.left),
+            None => modes[decayed - 1].left,
+        };
+        let phase = modes.map_or(whole, |modes| bound(modes) * remaining);
+        let pieces = (phase / GENERAL_PHASE).ceil().max(1.0);
+        // What is left beside such modes is known less closely: the series has all orders, and ends by its terms.
+        let of_order = if modes.is_some() { GENERAL_PHASE } else { phase / pieces };
+        self.series.form(&self.state, tau, (remaining / pieces, of_order), decayed);
+        if of_order > SERIES_PHASE {
+            self.series.end_by_terms();
+        }
+        self.series.bound_changes();
+        Ok(())
     }
 
     /// Advances to the place of the present series, which is at `tau`.

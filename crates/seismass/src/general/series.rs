@@ -51,12 +51,12 @@ pub(super) struct BlockSeries {
 pub(super) struct Series {
     pub(super) tau: f64,
     pub(super) h: f64,
-    width: usize,
+    pub(super) width: usize,
     /// Highest order of accelerations; rates have one more, drifts two.
     order: usize,
-    acceleration: Vec<f64>,
-    rate: Vec<f64>,
-    drift: Vec<f64>,
+    pub(super) acceleration: Vec<f64>,
+    pub(super) rate: Vec<f64>,
+    pub(super) drift: Vec<f64>,
     /// Bounds of the sums of all terms but the first, by node.
     pub(super) acceleration_change: Vec<f64>,
     pub(super) rate_change: Vec<f64>,
@@ -80,18 +80,25 @@ pub(super) enum Quantity {
 }
 
 impl Series {
-    /// Forms the series of a step of `h` from `tau`.
-    pub(super) fn form(&mut self, state: &GeneralState, tau: f64, h: f64) {
-        self.begin(state, tau, h, terms::<Plain>(state.regime.frequency * h));
+    /// Forms the series of a step of `h`, so many radians, from `tau`, on which the fastest modes have decayed; changes are
+    /// not bounded yet.
+    pub(super) fn form(&mut self, state: &GeneralState, tau: f64, (h, phase): (f64, f64), decayed: usize) {
+        self.begin_sliding(state, tau, h, terms::<Plain>(phase));
+        let modes = state.regime.decaying.get().map_or(&[][..], |modes| &modes[..decayed]);
+        for k in 0..=self.order {
+            self.form_order(state, k);
+            modes.iter().for_each(|mode| mode.correct(state, self, k));
+        }
+    }
+
+    /// The first terms of a series of accelerations to an order, and friction, which is known in one direction.
+    pub(super) fn begin_sliding(&mut self, state: &GeneralState, tau: f64, h: f64, order: usize) {
+        self.begin(state, tau, h, order);
         let contact = [state.contact_at(tau), state.interval.contact_slope * h];
         for (block, &j) in self.blocks.iter_mut().zip(&state.moving) {
             let coefficient = state.friction_coefficient(j);
             (block.friction[0], block.friction[1]) = (coefficient * contact[0], coefficient * contact[1]);
         }
-        for k in 0..=self.order {
-            self.form_order(state, k);
-        }
-        self.bound_changes();
     }
 
     /// The first terms of a series of accelerations to an order, without friction.
@@ -206,13 +213,11 @@ impl Series {
             of_nodes.chain(of_blocks).fold(0.0, |most: f64, term| most.max(term.abs()))
         };
         let largest = (0..=order).map(of_order).fold(0.0, f64::max);
-        let end = [order - 1, order]
-            .map(|k| libm::pow(SERIES_ROUNDING * largest / of_order(k), 1.0 / k as f64))
-            .into_iter()
-            .fold(1.0, f64::min);
+        let allowed = [order - 1, order].map(|k| (SERIES_ROUNDING * largest / of_order(k), 1.0 / k as f64));
+        let too_long = allowed.into_iter().filter(|(part, _)| *part < 1.0);
+        let end = too_long.map(|(part, root)| libm::pow(part, root)).fold(1.0, f64::min);
         if end < 1.0 {
             self.shorten(end, order);
-            self.bound_changes();
         }
     }
 
@@ -276,6 +281,12 @@ impl Series {
             Quantity::Rate => (&self.rate, self.order + 1),
             Quantity::Acceleration => (&self.acceleration, self.order),
         }
+    }
+
+    /// Terms of a quantity by node, order by order.
+    pub(super) fn orders(&self, quantity: Quantity) -> impl Iterator<Item = &[f64]> {
+        let (rows, last) = self.rows(quantity);
+        rows.chunks_exact(self.width).take(last + 1)
     }
 
     /// `constant` + `factor` times a quantity of a node as a polynomial, and the sum of the sizes of its terms.
@@ -385,10 +396,11 @@ mod tests {
         state.interval = interval(&motion, None, 0);
         state.follow();
         let (mut ended, mut formed) = (Series::default(), Series::default());
-        ended.form(&state, 0.0, 0.01);
+        let phase_of = |h: f64| (h, state.regime.frequency * h);
+        ended.form(&state, 0.0, phase_of(0.01), 0);
         ended.end_by_terms();
         assert!(ended.h > 0.004 && ended.h < 0.008, "{} s", ended.h);
-        formed.form(&state, 0.0, ended.h);
+        formed.form(&state, 0.0, phase_of(ended.h), 0);
         let everything = |series: &Series| -> Vec<f64> {
             let (velocity, slip) = series.block_changes(0, 1.0);
             let of_nodes = [Quantity::Drift, Quantity::Rate, Quantity::Acceleration].map(|q| {

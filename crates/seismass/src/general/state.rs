@@ -34,6 +34,8 @@ pub(super) struct GeneralState<'a> {
     pub(super) interval: Interval,
     pub(super) regime: Rc<Regime>,
     pub(super) regimes: Regimes,
+    /// Time until which the fastest mode that decays has a part in the motion still, if that is known (s).
+    pub(super) decays_until: f64,
     key: Key,
     /// Blocks that move, and those of them at a stop.
     pub(super) moving: Vec<usize>,
@@ -73,6 +75,7 @@ impl<'a> GeneralState<'a> {
             interval: Interval::default(),
             regime: Rc::new(Regime::default()),
             regimes: Regimes::default(),
+            decays_until: 0.0,
             key: Key::default(),
             moving: Vec::new(),
             moving_contacts: Vec::new(),
@@ -126,6 +129,7 @@ impl<'a> GeneralState<'a> {
     /// Enters the regime of the present machines.
     fn enter_regime(&mut self) {
         let system = self.system;
+        self.decays_until = 0.0;
         let tangent =
             |p: usize, springs: &[StoreySpring]| springs[p - 1].segment().tangent - system.laws[p - 1].geometric;
         self.moving.clear();
@@ -147,8 +151,8 @@ impl<'a> GeneralState<'a> {
             self.moving.push(j);
             if let (Some(_), Some(stops)) = (self.stops[j].touching(), system.stops[j]) {
                 bits |= 2;
-                let (stiffness, damping) = (stops.stiffness, stops.damping);
-                self.moving_contacts.push(MovingContact { block: j, stiffness, damping });
+                let (position, stiffness, damping) = (self.moving.len() - 1, stops.stiffness, stops.damping);
+                self.moving_contacts.push(MovingContact { block: j, position, stiffness, damping });
             }
         }
         words.push(bits);

@@ -34,9 +34,9 @@ pub(super) struct System {
     /// Law of the spring of node p, at p - 1.
     pub(super) laws: Vec<StoreyLaw>,
     pub(super) parts: Vec<Part>,
-    /// Sums over columns of |C_pq| and |K_pq| by node, of damping and of the elastic matrix: rows one after the other.
-    pub(super) damping_sizes: Vec<f64>,
-    pub(super) elastic_sizes: Vec<f64>,
+    /// Damping and the elastic matrix between displacements of the nodes: rows one after the other.
+    pub(super) damping: Vec<f64>,
+    pub(super) elastic: Vec<f64>,
     /// Goods; their floor is a node.
     pub(super) blocks: Vec<BlockLaw>,
     pub(super) stops: Vec<Option<Stops>>,
@@ -60,8 +60,8 @@ impl System {
             mass: vec![scene.base().map_or(0.0, |base| base.mass)],
             laws: Vec::with_capacity(nodes),
             parts: Vec::new(),
-            damping_sizes: Vec::new(),
-            elastic_sizes: Vec::new(),
+            damping: Vec::new(),
+            elastic: Vec::new(),
             blocks: Vec::new(),
             stops: Vec::new(),
             on_node: vec![Vec::new(); nodes + 1],
@@ -76,8 +76,8 @@ impl System {
             system.add_rack(rack)?;
         }
         system.wears = system.blocks.iter().any(|block| !block.wear.is_empty());
-        system.damping_sizes = system.sizes(|part| &part.damping);
-        system.elastic_sizes = system.sizes(|part| &part.elastic);
+        system.damping = system.between_nodes(|part| &part.damping);
+        system.elastic = system.between_nodes(|part| &part.elastic);
         Ok(system)
     }
 
@@ -122,8 +122,8 @@ impl System {
         self.stops.push(goods.stops);
     }
 
-    /// Sizes of the entries by node of a matrix that is given between the drifts of each part.
-    fn sizes(&self, of: impl Fn(&Part) -> &Vec<f64>) -> Vec<f64> {
+    /// The entries by node of a matrix that is given between the drifts of each part.
+    fn between_nodes(&self, of: impl Fn(&Part) -> &Vec<f64>) -> Vec<f64> {
         let width = self.nodes + 1;
         let mut total = vec![0.0; width * width];
         for part in self.parts.iter().filter(|part| !of(part).is_empty()) {
@@ -140,7 +140,6 @@ impl System {
                 }
             }
         }
-        total.iter_mut().for_each(|value| *value = value.abs());
         total
     }
 

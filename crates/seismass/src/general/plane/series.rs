@@ -67,7 +67,8 @@ impl PlaneSeries {
         self.begin(state);
         if self.slides.is_empty() {
             for (series, axis) in self.axes.iter_mut().zip(&state.axes) {
-                series.form(axis, tau, longest);
+                series.form(axis, tau, (longest, axis.regime.frequency * longest), 0);
+                series.bound_changes();
             }
             return None;
         }
