@@ -21,7 +21,6 @@ from seismass.cli import main
 from seismass.effective_mass.rule import RULE
 from seismass.media.roles import LAMBDA, lettered
 from seismass.show.assessment.page import building_page
-from seismass.show.assessment.tables import assessment_tables
 from seismass.show.study.answer import answer, assumptions, compared_rules, one_line, percent
 from seismass.show.study.figures import slip_demand
 from seismass.show.study.tables import READ, StudyTables, read_study_tables, study_tables
@@ -254,6 +253,31 @@ def test_page_of_a_building_is_made_again_from_the_tables_alone(building: Path, 
     assert len(page) < 3_000_000
 
 
+def test_an_assessment_read_from_its_folder_is_the_one_that_was_written(building: Path, tmp_path: Path) -> None:
+    read, solved = sm.Assessment.read(building), sm.assess(example_file())
+    assert read.content == json.loads(solved.to_json())
+    assert read.answer == solved.answer
+    assert {name: one.equals(read.tables[name]) for name, one in solved.tables.items()} == dict.fromkeys(
+        read.tables, True
+    )
+    for name, one in solved.effective.items():
+        assert read.effective[name].to_dict() == one.to_dict()
+        assert read.effective[name].curve.equals(one.curve)
+        assert read.effective[name].records.equals(one.records)
+        assert read.effective[name].text == one.text
+    assert read.text == solved.text == (building / "assessment.txt").read_text(encoding="utf-8").removesuffix("\n")
+    assert read._repr_html_() == solved._repr_html_()
+    files = read.write(tmp_path / "again")
+    kinds, of_the_command = (".html", ".json", ".csv"), ("explorer.html", "files.json")
+    assert {file.name: file.read_bytes() for file in files if file.suffix in kinds and file.name != "files.json"} == {
+        file.name: file.read_bytes()
+        for file in building.iterdir()
+        if file.suffix in kinds and file.name not in of_the_command
+    }
+    with pytest.raises(sm.errors.InvalidOption, match="must be one that was not read from a folder"):
+        _ = read.building
+
+
 def test_page_of_a_building_has_every_part_and_the_numbers_of_the_assessment(building: Path) -> None:
     page = (building / "report.html").read_text(encoding="utf-8")
     assert re.findall(r"<h2[^>]*>([^<]*)</h2>", page) == [
@@ -304,7 +328,7 @@ def test_checks_are_those_of_the_storeys(building: Path) -> None:
 def test_checks_that_fail_are_said_first() -> None:
     given = tomllib.loads(example_file().read_text(encoding="utf-8"))
     given["building"]["drift_limit"] = 0.005
-    result = assessment_tables(sm.assess(given, list(SUITE)[:3], mu_factors=(1.0, 1.0), resamples=2))
+    result = sm.assess(given, list(SUITE)[:3], mu_factors=(1.0, 1.0), resamples=2)
     page, failed = building_page(result, {}), result.checks.filter(met=False)
     assert failed.height > 0
     use = result.checks.filter(check="capped mean drift ratio")["value"].max() / 0.005

@@ -34,10 +34,11 @@ from typing import Any
 import seismass as sm
 from seismass.assessment import read_pushover, read_storey_table
 from seismass.assessment.building_file import example_file
+from seismass.assessment.result import READ as RESULT
+from seismass.assessment.result import stored_assessment
 from seismass.base.errors import InvalidOption
 from seismass.base.folders import as_written, read_folder
 from seismass.runs.scene_file import example_scene
-from seismass.show.assessment.tables import ANIMATION, DOCUMENT, TABLES, read_assessment_tables
 from seismass.show.study.tables import READ, read_study_tables
 from seismass.studies.campaign.folder import example_description
 from seismass.studies.study import StudyParameters, run_study
@@ -183,9 +184,9 @@ def _verified(path: Path) -> None:
 
 
 def _assessment(folder: Path, *, force: bool = False) -> None:
-    files = read_folder(folder, (DOCUMENT, ANIMATION, *(f"{name}.parquet" for name in TABLES)), force=force)
+    files = read_folder(folder, RESULT, force=force)
     with as_written(folder):
-        read_assessment_tables(files)
+        stored_assessment(files)
 
 
 def _study(folder: Path, *, force: bool = False) -> None:

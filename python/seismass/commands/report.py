@@ -21,8 +21,8 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Write the page; return the exit code. Bad input is raised."""
+    from seismass.assessment.result import DOCUMENT
     from seismass.show.assessment.page import write_assessment_page
-    from seismass.show.assessment.tables import DOCUMENT
     from seismass.show.study.write import write_study_page
 
     write = write_assessment_page if (args.folder / DOCUMENT).exists() else write_study_page

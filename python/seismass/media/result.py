@@ -72,6 +72,30 @@ def result_files(
     return files
 
 
+class StoredTable(property):
+    """The table of a result by the name of the attribute; its docstring is what data/tables says of its rows. Where
+    the result has none, it is one without rows.
+    """
+
+    def __init__(self) -> None:
+        super().__init__(self._table)
+
+    def _table(self, result: Any) -> pl.DataFrame:
+        import polars as pl
+
+        found: dict[str, pl.DataFrame] = result.tables
+        return found[self.name] if self.name in found else pl.DataFrame(schema=table_schema(self.owner, self.name))
+
+    def __set_name__(self, owner: Any, name: str) -> None:
+        self.name, self.owner = name, owner.document
+        words = stored_tables(self.owner)[name][0]
+        self.__doc__ = f"{words[0].upper()}{words[1:]}."
+
+    if TYPE_CHECKING:
+
+        def __get__(self, result: Any, owner: type | None = None) -> pl.DataFrame: ...  # type: ignore[override]
+
+
 class Result:
     """The result of a study. A subclass has `text`, `tables`, `to_dict`, `figure_names` and `plot`."""
 
