@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-import os
+from collections.abc import Collection
 from dataclasses import asdict, dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Final, NamedTuple
 
 import polars as pl
@@ -16,30 +15,21 @@ from seismass.assessment.checks import ANALYSES, ONE_ANALYSIS, checks_table, inp
 from seismass.assessment.models import BARE, Shown
 from seismass.assessment.structure import design_table
 from seismass.base.errors import InvalidOption
-from seismass.base.folders import ReadFolder, read_folder
+from seismass.base.folders import ReadFolder
 from seismass.base.units import UNITS, Units
-from seismass.base.values import FieldValue, as_path, brief, refusal
-from seismass.base.views import view
+from seismass.base.values import FieldValue, brief, refusal
 from seismass.design.scaling import ScalingResult
 from seismass.effective_mass import EffectiveMass
 from seismass.effective_mass.result import stored_fraction
-from seismass.media.result import Result, StoredTable, finite_values, stored_tables
+from seismass.media.result import StoredResult, StoredTable, finite_values
 from seismass.model.codes import CodeFraction
 from seismass.motions.spectra import TargetSpectrum
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    pass
 
 SCHEMA_VERSION: Final = 10
 """Version of the tables and of the JSON of an assessment."""
-DOCUMENT: Final = "assessment.json"
-"""File by which a folder is known as that of an assessment."""
-ANIMATION: Final = "animation.json"
-"""File of what the animation shows."""
-OPTIONAL_TABLES: Final = ("curve", "tipping", "scaling")
-"""Tables that an assessment has only where there are goods, goods that tip, and factors of motions."""
-READ: Final = (DOCUMENT, ANIMATION, *(f"{name}.parquet" for name in stored_tables("assessment")))
-"""Files of which an assessment is read again."""
 
 
 class Solved(NamedTuple):
@@ -55,7 +45,7 @@ class Solved(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Assessment(FieldValue, Result):
+class Assessment(FieldValue, StoredResult):
     """How much of a building's live load acts as mass, and how the building and its goods move.
 
     Its tables are attributes by their names, without rows where there is none: `storeys`, `governing`, `slip`,
@@ -71,7 +61,8 @@ class Assessment(FieldValue, Result):
         Effective fractions of the goods present, by friction: "real" as stated, "real_mu_low" and "real_mu_high" at its
         bounds. Empty without goods.
     frames : dict of str to polars.DataFrame
-        What `tables` gives.
+        What `tables` gives: storeys, governing, analysis, slip, runs, left_out, slips, checks, spectra, design; curve,
+        tipping, scaling if known.
     solved : Solved or None
         What only an assessment has that was not read from a folder.
     animation : dict or None
@@ -79,6 +70,7 @@ class Assessment(FieldValue, Result):
     """
 
     document: ClassVar[str] = "assessment"
+    schema_version: ClassVar[int] = SCHEMA_VERSION
 
     content: dict[str, Any] = field(repr=False)
     answer: Answer
@@ -99,26 +91,19 @@ class Assessment(FieldValue, Result):
     spectra = StoredTable()
 
     @classmethod
-    def read(cls, folder: str | os.PathLike[str], *, force: bool = False) -> Assessment:
-        """Read an assessment from the folder that `write` or `seismass building` wrote.
+    def _without(cls, document: dict[str, Any], files: ReadFolder) -> Collection[str]:
+        there = {"curve": document["effective"], "tipping": document["tipping"], "scaling": document["factors"]}
+        return [name for name, rows in there.items() if not rows]
 
-        It shows and writes the same; `building`, `target`, `design`, `scaling` and `example` it has not.
-
-        Parameters
-        ----------
-        folder : path-like
-            The folder.
-        force : bool, default False
-            Read files that were edited since they were written.
-
-        Raises
-        ------
-        InvalidOption
-            A file is not what was written, or of another version.
-        OSError
-            A file cannot be read.
-        """
-        return stored_assessment(read_folder(as_path(folder, "assessment", InvalidOption), READ, force=force))
+    @classmethod
+    def _stored(
+        cls, document: dict[str, Any], frames: dict[str, pl.DataFrame], animation: dict[str, Any] | None
+    ) -> Assessment:
+        effective = {
+            model: stored_fraction(values, frames["curve"].filter(model=model).drop("model"))
+            for model, values in document["effective"].items()
+        }
+        return cls(document, stored_answer(document), effective, frames, animation=animation)
 
     def __repr__(self) -> str:
         return f"<Assessment of {self.name}: {self.answer.headline}>"
@@ -262,67 +247,17 @@ class Assessment(FieldValue, Result):
         return [row["name"] for row in self.input["storeys"]]
 
     @property
-    @view
-    def text(self) -> str:
-        """What `seismass building` prints, the answer first."""
-        raise NotImplementedError
-
-    @property
-    def tables(self) -> dict[str, pl.DataFrame]:
-        """Tables by name: storeys, governing, analysis, slip, runs, left_out, slips, checks, spectra, design; curve,
-        tipping, scaling if known.
-        """
-        return self.frames
-
-    @property
     def figure_names(self) -> tuple[str, ...]:
-        """drift, effective_fraction, spectrum: those that have something to show."""
+        """drift: what each storey uses of its drift limit in both analyses and with goods that slide, and the slip of
+        its floor; effective_fraction: drift with goods that slide over that of the model against the share;
+        spectrum: spectra of the motions beside that of the site. Those that have something to show.
+        """
         fractions = self.answer.analyses and any(math.isfinite(one.value) for one in self.effective.values())
         return ("drift", *(("effective_fraction",) if fractions else ()), "spectrum")
-
-    @view
-    def plot(self, name: str | None = None) -> Figure:
-        """Return a figure of `figure_names`, by default the first.
-
-        Parameters
-        ----------
-        name : str, optional
-            "drift": what each storey uses of its drift limit in both analyses and with goods that slide, and the slip
-            of its floor; "effective_fraction": drift with goods that slide over that of the model against the share,
-            by friction; "spectrum": spectra of the motions beside that of the site.
-
-        Raises
-        ------
-        InvalidOption
-            There is no such figure.
-        """
-        raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything but the runs as plain values in SI units; null for non-finite values."""
         return self.content
-
-    @view
-    def _repr_html_(self) -> str:
-        raise NotImplementedError
-
-    @view
-    def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
-        """Write text, tables (Parquet and CSV), assessment.json, figures (PNG and SVG) and the page to a folder.
-
-        Returns
-        -------
-        list of Path
-            The files, in the order written.
-
-        Raises
-        ------
-        InvalidOption
-            The folder cannot be one.
-        OSError
-            A file cannot be written; then none is changed.
-        """
-        raise NotImplementedError
 
 
 def assessment_of(
@@ -349,22 +284,6 @@ def assessment_of(
         **({} if scaling is None else {"scaling": scaling.table()}),
     }
     return Assessment(_content(solved, answer, effective, tables, facts), answer, effective, known, solved)
-
-
-def stored_assessment(files: ReadFolder) -> Assessment:
-    """Return the assessment of the files of its folder."""
-    document = files.document(DOCUMENT)
-    version = document.get("schema_version")
-    if version != SCHEMA_VERSION:
-        raise refusal(InvalidOption, "schema_version", DOCUMENT, f"{SCHEMA_VERSION}", brief(version))
-    there = {"curve": document["effective"], "tipping": document["tipping"], "scaling": document["factors"]}
-    tables = {name: files.table(name) for name in stored_tables("assessment") if there.get(name, True)}
-    effective = {
-        model: stored_fraction(values, tables["curve"].filter(model=model).drop("model"))
-        for model, values in document["effective"].items()
-    }
-    animation = files.document(ANIMATION) if ANIMATION in files else None
-    return Assessment(document, stored_answer(document), effective, tables, animation=animation)
 
 
 def _content(
@@ -407,8 +326,7 @@ def _content(
         "factors": None if scaling is None else scaling.factors.tolist(),
         **{name: facts[name] for name in ("advice", "remarks", "assumptions", "metadata")},
     }
-    finite: dict[str, Any] = finite_values(document)
-    return finite
+    return finite_values(document)
 
 
 def _answer_content(answer: Answer, solved: Solved) -> dict[str, Any]:

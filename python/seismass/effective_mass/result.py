@@ -176,10 +176,6 @@ class EffectiveMass(FieldValue, Result):
             *(f"{'' if number else 'by hand':20}{line}" for number, line in enumerate(wrapped)),
         )
 
-    @view
-    def _repr_html_(self) -> str:
-        raise NotImplementedError
-
     def to_dict(self) -> dict[str, Any]:
         """Return everything but the curve as plain values; null for non-finite values."""
         names = ["value", "kind", "roots", "interval", "confidence", "statistic", "real", "model", "unit", "excess"]
@@ -188,8 +184,7 @@ class EffectiveMass(FieldValue, Result):
         document = {"schema_version": SCHEMA_VERSION, **{name: getattr(self, name) for name in names}}
         document |= {"by_hand": asdict(self.by_hand)}
         document |= {"storeys": self.storeys.to_dicts(), "records": self.records.to_dicts(), "metadata": self.metadata}
-        finite: dict[str, Any] = finite_values(document)
-        return finite
+        return finite_values(document)
 
     @property
     def tables(self) -> dict[str, pl.DataFrame]:

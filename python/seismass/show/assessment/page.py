@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 import polars as pl
@@ -12,10 +11,8 @@ from markupsafe import Markup
 
 from seismass.assessment.answer import ANALYSIS_UNITS
 from seismass.assessment.models import NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
-from seismass.assessment.result import READ, Assessment, stored_assessment
+from seismass.assessment.result import Assessment
 from seismass.base.arguments import ProgressLike
-from seismass.base.files import write_file
-from seismass.base.folders import as_written, read_folder
 from seismass.base.statistics import QUANTILES
 from seismass.effective_mass.result import KIND_TEXTS, EffectiveMass
 from seismass.effective_mass.rule import RULE_IN_WORDS
@@ -289,19 +286,9 @@ def _provenance(result: Assessment) -> list[Markup]:
     ]
 
 
-def write_assessment_page(
-    folder: Path, target: Path, *, force: bool = False, progress: ProgressLike = None
-) -> tuple[str, ...]:
-    """Write the page of an assessment from the tables of its folder alone and return the files that were edited since
-    they were written, which are read with `force` alone. `progress` is called with (figures drawn, figures in all).
-    """
-    files = read_folder(folder, READ, force=force)
-    with as_written(folder):
-        result = stored_assessment(files)
-        _, drawings = drawn_figures(result, progress)
-        page = page_with(result, drawings, files.edited)
-    write_file(target, page)
-    return files.edited
+def whole_page(result: Assessment, edited: tuple[str, ...] = (), progress: ProgressLike = None) -> str:
+    """Return the page with its figures; `edited` are files that were edited, `progress` is told of figures drawn."""
+    return page_with(result, drawn_figures(result, progress)[1], edited)
 
 
 def drawn_figures(result: Assessment, progress: ProgressLike = None) -> tuple[dict[str, Figure], dict[str, str]]:

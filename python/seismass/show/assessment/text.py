@@ -16,12 +16,12 @@ import polars as pl
 from seismass.assessment.answer import deciding
 from seismass.assessment.checks import friction_words
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW, friction_factors
-from seismass.assessment.result import ANIMATION, DOCUMENT, Assessment
+from seismass.assessment.result import Assessment
 from seismass.base.errors import InvalidOption
 from seismass.base.folders import check_out, write_folder
 from seismass.base.values import as_path
 from seismass.effective_mass.rule import RULE_UNKNOWN
-from seismass.media.result import PAGE, result_files, stored_tables
+from seismass.media.result import ANIMATION, PAGE, result_files, stored_tables
 from seismass.media.text_table import text_table
 from seismass.model.codes import FROM_MEMORY, MARK, NOT_CHECKED, SECOND_HAND
 from seismass.show.assessment.tables import animated, most_slip, quantity_text, short_words, storey_drifts
@@ -305,7 +305,7 @@ def write_with(
     """
     out = as_path(folder, "assessment", InvalidOption)
     check_out(out, "assessment")
-    documents = {"assessment.txt": result.text + "\n", DOCUMENT: result.to_json() + "\n"}
+    documents = {"assessment.txt": result.text + "\n", f"{result.document}.json": result.to_json() + "\n"}
     drawn: dict[str, Figure] = {}
     if figures:
         from seismass.show.assessment.page import drawn_figures, page_with
