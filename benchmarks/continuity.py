@@ -48,7 +48,7 @@ def answered(tables: dict[str, Any], suite: sm.records.Suite) -> Point:
     building = sm.read_building(tables)
     scaling = scaled_to_site(building, suite)
     motions = [record.scaled(float(factor)) for record, factor in zip(suite, scaling.factors, strict=True)]
-    scenes = [building.scene(mu_factor=factor) for factor in friction_factors(building).values()]
+    scenes = [building.scene(mu_factor=factor) for factor in friction_factors(building.mu_factors).values()]
     options = checked_options("mean", "same", SHARES, 0.9, 1, 0, None, None, drift_cap=building.drift_cap)
     found = [one.answer() for one in solved_frictions(scenes, named_motions(motions, "continuity"), options)]
     share = max(one.value for one in found)

@@ -22,7 +22,6 @@ import numpy as np
 import seismass as sm
 from environment import summary
 from scenes import FloatArray, suite
-from seismass.show.study.tables import study_tables
 from seismass.show.study.write import write_study
 from seismass.studies.study import MODELS, StudyParameters, StudyResult, run_study, study_buildings
 
@@ -89,7 +88,7 @@ def print_phases(motions: sm.records.Suite, runs: list[Run], repeats: int, *, fi
 def _write(result: StudyResult, folder: Path, *, figures: bool) -> None:
     for file in folder.iterdir():
         file.unlink()
-    write_study(study_tables(result), folder, figures=figures)
+    write_study(result, folder, figures=figures)
 
 
 def simulate_all(runs: list[Run], threads: int) -> Any:

@@ -21,7 +21,6 @@ from seismass.assessment.structure import force_ratios
 from seismass.cli import main
 from seismass.media.result import stored_tables
 from seismass.show.assessment.page import building_page
-from seismass.show.assessment.tables import assessment_tables
 
 TWO_STOREYS = Path(__file__).with_name("data") / "two_storeys.json"
 """A building file: two storeys with goods on the first, that slide under the built-in suite."""
@@ -386,7 +385,7 @@ def test_a_doubt_about_the_input_stands_in_the_headline(changes: dict[str, Any],
     document = json.loads(result.to_json())
     assert document["doubts"] == list(result.answer.doubts)
     assert document["headline"].startswith(f"DOUBTFUL INPUT: {result.answer.doubts[0]}; ")
-    page = building_page(assessment_tables(result), {})
+    page = building_page(result, {})
     assert '<div class="answer bad">' in page
     assert "DOUBTFUL INPUT: " in page
 

@@ -15,7 +15,6 @@ import pytest
 import seismass as sm
 from seismass.base.folders import list_sha256
 from seismass.cli import main
-from seismass.show.study.tables import study_tables
 from seismass.show.study.write import write_study
 from seismass.studies.study import StudyParameters, run_study
 
@@ -46,7 +45,7 @@ def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     }
     sm.assess(given, SUITE, mu_factors=(1, 1), resamples=2).write(out / "building")
     chosen = StudyParameters(buildings=((1, 0.3),), response_modification=(2.0,), mass_ratios=(1.0,))
-    write_study(study_tables(run_study(SUITE, sm.TargetSpectrum.asce7(), chosen)), out / "study")
+    write_study(run_study(SUITE, sm.TargetSpectrum.asce7(), chosen), out / "study")
     return {kind: out / kind for kind in KINDS}
 
 

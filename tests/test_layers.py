@@ -19,7 +19,8 @@ from typing import Any
 import pytest
 
 import seismass
-from seismass.base.views import maker_of
+from seismass.base.views import Views, maker_of
+from seismass.media.result import Result, StoredResult
 from seismass.show import VIEWS
 
 ROOT = Path(__file__).parents[1]
@@ -132,29 +133,30 @@ def test_an_import_upward_is_found_wherever_it_stands(planted: str) -> None:
     assert any({"seismass.studies.risk.targeted_share", "seismass.show.risk"} <= set(group) for group in circles(edges))
 
 
-def declared() -> Iterator[tuple[str, Callable[..., Any]]]:
-    """Every view that a class declares, by its name in the table."""
+def declared() -> Iterator[tuple[type, str, Callable[..., Any]]]:
+    """Every view that a class has, its own or that of a base: class, name and declaration."""
     for name in modules():
         if name == "seismass.__main__":
             continue
         module = importlib.import_module(name)
         for _, kind in inspect.getmembers(module, inspect.isclass):
-            if kind.__module__ != name:
+            if kind.__module__ != name or kind in (Result, StoredResult, Views):
                 continue
-            for member in vars(kind).values():
-                function = member.fget if isinstance(member, property) else member
-                view = getattr(function, "declares_view", None)
-                if view is not None:
-                    yield view, function
+            for member in dir(kind):
+                found = inspect.getattr_static(kind, member)
+                function = found.fget if isinstance(found, property) else found
+                if getattr(function, "declares_view", False):
+                    yield kind, member, function
 
 
 def test_every_view_has_a_maker_that_takes_the_same_arguments() -> None:
-    views = dict(declared())
-    assert set(views) == set(VIEWS)
-    for name, declaration in views.items():
+    used = set()
+    for kind, name, declaration in declared():
+        used.add(next(key for base in kind.__mro__ if (key := f"{base.__name__}.{name}") in VIEWS))
         wanted = list(inspect.signature(declaration).parameters.values())[1:]
-        given = list(inspect.signature(maker_of(name)).parameters.values())[1:]
+        given = list(inspect.signature(maker_of(kind, name)).parameters.values())[1:]
         assert [(p.name, p.kind, p.default) for p in wanted] == [(p.name, p.kind, p.default) for p in given], name
+    assert used == set(VIEWS)
 
 
 def test_places_that_the_guide_names_are_there() -> None:

@@ -14,7 +14,6 @@ from seismass.assessment.building_file import example_file
 from seismass.media.page import DIFFERENCES, LIMITS, MOST_STOREYS
 from seismass.show import explore
 from seismass.show.assessment.page_input import Outcome, live_case
-from seismass.show.assessment.tables import assessment_tables
 
 SCRIPT = (Path(explore.__file__).parent / "templates" / "case.js").read_text(encoding="utf-8")
 
@@ -25,7 +24,7 @@ def case_of(**changes: Any) -> Outcome:
     for table, values in changes.items():
         tables[table] = values if table == "storeys" else {**tables[table], **values}
     motions = [record.with_duration(4.0) for record in sm.builtin_suite("forty")[:3]]
-    return live_case(assessment_tables(sm.assess(tables, motions, mu_factors=(1.0, 1.0), resamples=2)))
+    return live_case(sm.assess(tables, motions, mu_factors=(1.0, 1.0), resamples=2))
 
 
 def test_ranges_are_those_of_the_page() -> None:
@@ -61,7 +60,7 @@ def test_the_example_is_opened_with_its_floors_and_its_site() -> None:
 
 def test_under_the_motions_of_the_page_nothing_is_different_and_the_answer_goes_along() -> None:
     result = sm.assess(example_file(), sm.builtin_suite("seven"), mu_factors=(1.0, 1.0), resamples=2)
-    case, _, differences = live_case(assessment_tables(result))
+    case, _, differences = live_case(result)
     assert case is not None
     assert differences == ()
     said = dict(part.split("=") for part in case.address.split("&"))

@@ -16,16 +16,15 @@ import pytest
 
 import seismass as sm
 from seismass.assessment.building_file import example_file
-from seismass.base.folders import read_folder
 from seismass.cli import main
+from seismass.commands.report import write_page
 from seismass.effective_mass.rule import RULE
 from seismass.media.roles import LAMBDA, lettered
 from seismass.show.assessment.page import building_page
-from seismass.show.assessment.tables import assessment_tables
 from seismass.show.study.answer import answer, assumptions, compared_rules, one_line, percent
 from seismass.show.study.figures import slip_demand
-from seismass.show.study.tables import READ, StudyTables, read_study_tables, study_tables
-from seismass.show.study.write import write_study, write_study_page
+from seismass.show.study.tables import completed
+from seismass.show.study.write import write_study
 from seismass.studies.study import StudyParameters, StudyResult, run_study
 from seismass.studies.study.run import study_example
 from seismass.studies.validation import validate
@@ -42,12 +41,12 @@ def result() -> StudyResult:
 
 
 @pytest.fixture(scope="module")
-def tables(result: StudyResult) -> StudyTables:
-    return study_tables(result, validation=validate(SUITE, study=result), example=study_example(SUITE, CHOSEN, result))
+def tables(result: StudyResult) -> StudyResult:
+    return completed(result, validation=validate(SUITE, study=result), example=study_example(SUITE, CHOSEN, result))
 
 
 @pytest.fixture(scope="module")
-def folder(tables: StudyTables, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tables: StudyResult, tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("study")
     write_study(tables, out)
     return out
@@ -153,10 +152,10 @@ def test_rules_are_counted_by_hand() -> None:
 
 def test_advice_is_the_least_rule_that_seldom_falls_short(result: StudyResult) -> None:
     fractions = result.fractions.with_columns(effective=pl.lit(0.0))
-    said = str(answer(replace(result, fractions=fractions))[-1])
+    said = str(answer(replace(result, frames=result.frames | {"fractions": fractions}))[-1])
     assert f"Attach <strong>{RULE}</strong>" in said
     fractions = result.fractions.with_columns(effective=pl.lit(1.0), estimate=pl.lit(0.1))
-    said = str(answer(replace(result, fractions=fractions))[-1])
+    said = str(answer(replace(result, frames=result.frames | {"fractions": fractions}))[-1])
     assert "Attach <strong>all, 1</strong>" in said
     count = result.fractions.height
     assert f"{RULE}: {count} of {count}" in said
@@ -191,9 +190,11 @@ def test_example_is_the_building_of_the_table_under_its_motion(result: StudyResu
     assert row["mean_peak_slip"] >= 0.01
 
 
-def test_tables_of_a_folder_are_those_of_the_study(folder: Path, tables: StudyTables) -> None:
-    read = read_study_tables(read_folder(folder, READ))
-    assert read.metadata == json.loads(json.dumps(tables.metadata))
+def test_tables_of_a_folder_are_those_of_the_study(folder: Path, tables: StudyResult) -> None:
+    read = StudyResult.read(folder)
+    assert read.to_dict() == json.loads(tables.to_json())
+    assert read.text == tables.text
+    assert read.figure_names == tables.figure_names
     assert read.animation == tables.animation
     for name, table in tables.tables.items():
         assert read.tables[name].equals(table), name
@@ -201,12 +202,12 @@ def test_tables_of_a_folder_are_those_of_the_study(folder: Path, tables: StudyTa
 
 def test_page_of_a_study_of_several_frictions_without_validation(tmp_path: Path) -> None:
     chosen = StudyParameters(buildings=((1, 0.3),), response_modification=(1.0,), mass_ratios=(1.0,), mu=(0.2, 0.4))
-    made = study_tables(run_study(SUITE, sm.TargetSpectrum.asce7(), chosen))
+    made = run_study(SUITE, sm.TargetSpectrum.asce7(), chosen)
     write_study(made, tmp_path)
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "Claims of the paper" not in page
     told: list[tuple[int, int]] = []
-    write_study_page(tmp_path, tmp_path / "again.html", progress=lambda done, total: told.append((done, total)))
+    write_page(tmp_path, tmp_path / "again.html", progress=lambda done, total: told.append((done, total)))
     assert told == [(number, told[0][1]) for number in range(told[0][1] + 1)]
     assert (tmp_path / "again.html").read_text(encoding="utf-8") == page
 
@@ -252,6 +253,31 @@ def test_page_of_a_building_is_made_again_from_the_tables_alone(building: Path, 
     page = (tmp_path / "report.html").read_bytes()
     assert page == (building / "report.html").read_bytes()
     assert len(page) < 3_000_000
+
+
+def test_an_assessment_read_from_its_folder_is_the_one_that_was_written(building: Path, tmp_path: Path) -> None:
+    read, solved = sm.Assessment.read(building), sm.assess(example_file())
+    assert read.content == json.loads(solved.to_json())
+    assert read.answer == solved.answer
+    assert {name: one.equals(read.tables[name]) for name, one in solved.tables.items()} == dict.fromkeys(
+        read.tables, True
+    )
+    for name, one in solved.effective.items():
+        assert read.effective[name].to_dict() == one.to_dict()
+        assert read.effective[name].curve.equals(one.curve)
+        assert read.effective[name].records.equals(one.records)
+        assert read.effective[name].text == one.text
+    assert read.text == solved.text == (building / "assessment.txt").read_text(encoding="utf-8").removesuffix("\n")
+    assert read._repr_html_() == solved._repr_html_()
+    files = read.write(tmp_path / "again")
+    kinds, of_the_command = (".html", ".json", ".csv"), ("explorer.html", "files.json")
+    assert {file.name: file.read_bytes() for file in files if file.suffix in kinds and file.name != "files.json"} == {
+        file.name: file.read_bytes()
+        for file in building.iterdir()
+        if file.suffix in kinds and file.name not in of_the_command
+    }
+    with pytest.raises(sm.errors.InvalidOption, match="must be one that was not read from a folder"):
+        _ = read.building
 
 
 def test_page_of_a_building_has_every_part_and_the_numbers_of_the_assessment(building: Path) -> None:
@@ -304,7 +330,7 @@ def test_checks_are_those_of_the_storeys(building: Path) -> None:
 def test_checks_that_fail_are_said_first() -> None:
     given = tomllib.loads(example_file().read_text(encoding="utf-8"))
     given["building"]["drift_limit"] = 0.005
-    result = assessment_tables(sm.assess(given, list(SUITE)[:3], mu_factors=(1.0, 1.0), resamples=2))
+    result = sm.assess(given, list(SUITE)[:3], mu_factors=(1.0, 1.0), resamples=2)
     page, failed = building_page(result, {}), result.checks.filter(met=False)
     assert failed.height > 0
     use = result.checks.filter(check="capped mean drift ratio")["value"].max() / 0.005

@@ -20,6 +20,7 @@ import seismass as sm
 from seismass.assessment.advice import advice_of
 from seismass.assessment.answer import answer_of
 from seismass.assessment.checks import checked_storeys, collapses_of, governing_table, left_out_table
+from seismass.assessment.result import assessment_of
 from seismass.assessment.statement import present_goods
 from seismass.base.statistics import few_collapses
 from seismass.base.units import FOOT, INCH, KIP
@@ -27,7 +28,6 @@ from seismass.media.roles import lettered
 from seismass.show.assessment.figures import assessment_figure
 from seismass.show.assessment.page import building_page
 from seismass.show.assessment.sheet import sheet_html
-from seismass.show.assessment.tables import assessment_tables
 
 TWO_STOREYS: dict[str, Any] = json.loads(
     Path(__file__).with_name("data").joinpath("two_storeys.json").read_text("utf-8")
@@ -126,15 +126,12 @@ def changed(result: sm.Assessment, seed: int) -> sm.Assessment:
     motions = len(result.suite["motions"])
     effective = result.effective.get("real")
     parts = (building, answer, storeys, result.slip, collapses, motions, effective, runs)
-    return replace(
-        result,
-        answer=answer,
-        storeys=storeys,
-        governing=governing,
-        runs=runs,
-        left_out=left_out,
-        collapses=collapses,
-        advice=advice_of(*parts),
+    tables = {name: getattr(result, name) for name in ("slip", "tipping", "slips", "spectra")}
+    tables |= {"storeys": storeys, "governing": governing, "runs": runs, "left_out": left_out}
+    facts = {name: getattr(result, name) for name in ("suite", "remarks", "assumptions", "metadata")}
+    assert result.solved is not None
+    return assessment_of(
+        result.solved, answer, result.effective, tables, collapses=collapses, advice=advice_of(*parts), **facts
     )
 
 
@@ -145,8 +142,7 @@ def plain(html: str) -> str:
 
 def check(result: sm.Assessment) -> set[str]:
     """Compare what is said with the numbers, each computed again here; return what was said, by its kind."""
-    tables = assessment_tables(result)
-    page, sheet = plain(building_page(tables, {})), plain(str(sheet_html(tables)))
+    page, sheet = plain(building_page(result, {})), plain(str(sheet_html(result)))
     text = " ".join(result.text.split())
     kinds = {*_checks(result, sheet, page), *_analyses(result, sheet, page, text), *_storeys(result, text)}
     kinds |= _answer(result, sheet, page, text)
@@ -323,7 +319,7 @@ def test_units_are_those_of_the_file_or_as_asked_for() -> None:
     floor, row = next((row["floor"], row) for row in result.slip.sort("peak_p84").to_dicts()[::-1])
     assert f"{row['peak_p84'] / INCH:.1f} in" in result.text
     assert f"on floor {floor}" in result.text
-    others = replace(result, building=replace(building, units="si"))
+    others = replace(result, content=result.content | {"input": result.input | {"units": "si"}})
     assert f"slip {1e3 * row['peak_p84']:.0f} mm" in " ".join(others.text.split())
 
 
@@ -343,7 +339,7 @@ def test_the_sheet_names_the_rule_that_scaled_the_motions(rule: str) -> None:
     tables = {**TWO_STOREYS, "code": {**TWO_STOREYS.get("code", {}), "scaling": rule}}
     result = sm.assess(tables, sm.builtin_suite("eleven"), resamples=2)
     (line,) = (line for line in result.assumptions if line.startswith("Scaling: "))
-    text = plain(str(sheet_html(assessment_tables(result))))
+    text = plain(str(sheet_html(result)))
     assert plain(lettered(f"2 Motions: {line.removeprefix('Scaling: ')}")) in text
     words = {"ec8": "0.9 of the target", "nzs1170.5": "k_1 of each record and k_2 of the family"}
     assert words.get(rule, "mean not below") in text

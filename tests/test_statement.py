@@ -20,7 +20,6 @@ from seismass.assessment.statement import PresentGoods, collapsing, other_amount
 from seismass.base.statistics import bootstrap_counts, quantile_interval
 from seismass.media.roles import sentence_html
 from seismass.show.assessment.page import building_page
-from seismass.show.assessment.tables import assessment_tables
 
 TWO_STOREYS = Path(__file__).with_name("data") / "two_storeys.json"
 """A building file: two storeys with goods on the first, that slide under the built-in suite."""
@@ -346,7 +345,7 @@ def test_an_amount_that_cannot_be_assessed_says_why() -> None:
 
 def test_the_page_says_the_same() -> None:
     result = sm.assess(tables(), FEW, resamples=2)
-    page = building_page(assessment_tables(result), {})
+    page = building_page(result, {})
     plain = re.sub(r"<[^>]*>", "", page)
     assert str(sentence_html(result.answer.statement)) in page
     opening = result.answer.opening

@@ -19,7 +19,6 @@ from seismass.motions.spectra import mean_spectrum
 from seismass.show.study import write
 from seismass.show.study.answer import findings_text, suite_caption
 from seismass.show.study.figures import study_figures
-from seismass.show.study.tables import study_tables
 from seismass.studies.study import StudyParameters, StudyResult, run_study
 from seismass.studies.study.run import display_names
 from seismass.studies.study.tables import findings
@@ -365,7 +364,7 @@ def test_a_suite_is_asked_for() -> None:
 
 def test_files_are_written_whole_and_agree(small: StudyResult, tmp_path: Path) -> None:
     out = tmp_path / "deep" / "study"
-    files = write.write_study(study_tables(small), out, png=True)
+    files = write.write_study(small, out, png=True)
     assert sorted(files) == sorted(out.iterdir())
     for name, table in (("responses", small.responses), ("summary", small.summary), ("designs", small.designs)):
         assert pl.read_parquet(out / f"{name}.parquet").equals(table)
@@ -381,7 +380,7 @@ def test_files_are_written_whole_and_agree(small: StudyResult, tmp_path: Path) -
         assert (out / f"{name}.svg").read_text().startswith("<?xml")
     assert "synthetic motions" in (out / "drift_R4.svg").read_text()
     before = {file.name: file.read_bytes() for file in files}
-    write.write_study(study_tables(small), out, png=True)
+    write.write_study(small, out, png=True)
     assert {file.name: file.read_bytes() for file in out.iterdir()} == before
 
 
@@ -406,14 +405,14 @@ def test_figures_of_an_earlier_study_do_not_stay(
     with monkeypatch.context() as patch:
         patch.setattr("seismass.media.svg.figure_content", failing)
         with pytest.raises(OSError, match="disk full"):
-            write.write_study(study_tables(small), tmp_path, png=True)
+            write.write_study(small, tmp_path, png=True)
     assert {file.name for file in tmp_path.iterdir()} == earlier | others
 
-    files = write.write_study(study_tables(small), tmp_path, png=True)
+    files = write.write_study(small, tmp_path, png=True)
     figures = {file.name for file in files if file.suffix in (".png", ".svg")}
     assert figures == {file.name for file in files if write.FIGURE_FILE.fullmatch(file.name)}
     assert {file.name for file in tmp_path.iterdir()} == {file.name for file in files} | others
-    tables = write.write_study(study_tables(small), tmp_path, figures=False)
+    tables = write.write_study(small, tmp_path, figures=False)
     assert {file.name for file in tmp_path.iterdir()} == {file.name for file in tables} | others
     assert (tmp_path / "drift_R3.png").read_text() == "earlier"
     assert (tmp_path.parent / "outside_heat.png").read_text() == "earlier"
@@ -501,7 +500,7 @@ def test_nothing_is_left_when_writing_stops(
 
     monkeypatch.setattr("seismass.media.svg.figure_content", failing)
     with pytest.raises(type(error)):
-        write.write_study(study_tables(small), tmp_path / "out", png=True)
+        write.write_study(small, tmp_path / "out", png=True)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -510,7 +509,7 @@ def test_no_file_is_changed_where_one_cannot_be(small: StudyResult, tmp_path: Pa
     (tmp_path / "drift_R2.svg").write_text("earlier")
     (tmp_path / "drift_R4.svg").mkdir()
     with pytest.raises(IsADirectoryError, match=r"drift_R4\.svg"):
-        write.write_study(study_tables(small), tmp_path, png=True)
+        write.write_study(small, tmp_path, png=True)
     assert {file.name for file in tmp_path.iterdir()} == {"summary.csv", "drift_R2.svg", "drift_R4.svg"}
     assert (tmp_path / "summary.csv").read_text() == "earlier"
 

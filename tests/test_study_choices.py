@@ -14,9 +14,10 @@ from seismass.base.statistics import quantile
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.show.study.answer import findings_text
 from seismass.show.study.figures import sensitivity_figure, slip_demand, study_figures
-from seismass.show.study.tables import OPTIONAL_TABLES, study_tables
+from seismass.show.study.tables import completed
 from seismass.show.study.write import sensitivity_markdown, sensitivity_text, write_study
 from seismass.studies.study import MODELS, StudyParameters, StudyResult, run_study, study_sensitivity
+from seismass.studies.study.run import OWN_TABLES
 from seismass.studies.study.sensitivity import MATCHED_TOLERANCE
 from seismass.studies.study.tables import SHARES, TABLES, findings
 from seismass.studies.validation import validate
@@ -249,7 +250,7 @@ def test_any_code_takes_the_place_of_asce() -> None:
 def test_files_carry_what_their_numbers_depend_on(small: StudyResult, tmp_path: Path) -> None:
     sensitivity = study_sensitivity(quickly_matched(), TARGET, ONE)
     validation = validate(study=small, sensitivity=sensitivity)
-    files = write_study(study_tables(small, sensitivity=sensitivity, validation=validation), tmp_path, figures=False)
+    files = write_study(completed(small, sensitivity=sensitivity, validation=validation), tmp_path, figures=False)
     tables = sorted(file for file in files if file.suffix == ".parquet")
     assert [file.stem for file in tables] == sorted(TABLES)
     document = json.loads((tmp_path / "tables.json").read_text())
@@ -276,8 +277,8 @@ def test_files_carry_what_their_numbers_depend_on(small: StudyResult, tmp_path: 
     assert json.loads(pl.read_parquet_metadata(tmp_path / "responses.parquet")["seismass.units"])["peak_drift"] == "m"
     assert document["parameters"]["second_slope"] == 0.05
     # A study without it leaves no table of another one behind.
-    write_study(study_tables(small), tmp_path, figures=False)
-    assert {file.stem for file in tmp_path.glob("*.parquet")} == {*TABLES} - {*OPTIONAL_TABLES}
+    write_study(small, tmp_path, figures=False)
+    assert {file.stem for file in tmp_path.glob("*.parquet")} == {*OWN_TABLES}
 
 
 def test_remarks_on_inputs_are_kept_and_printed_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -15,7 +15,6 @@ from seismass.assessment.checks import largest_excess
 from seismass.assessment.doubts import _load_doubts
 from seismass.assessment.models import motion_of_runs
 from seismass.show.assessment.page import building_page
-from seismass.show.assessment.tables import assessment_tables
 
 G = 9.80665
 
@@ -216,8 +215,7 @@ def test_the_motion_shown_is_that_of_median_drift(
 def test_the_page_has_the_drawing_for_phones_beside_the_wide_one(unequal: sm.Assessment) -> None:
     start = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0'
     wide, narrow = (f'{start} {size} 9" width="{size}pt" height="9pt"><path d="M0 0"/></svg>' for size in (711, 311))
-    tables = assessment_tables(unequal)
-    alone, both = building_page(tables, {"drift": wide}), building_page(tables, {"drift": wide}, {"drift": narrow})
+    alone, both = building_page(unequal, {"drift": wide}), building_page(unequal, {"drift": wide}, {"drift": narrow})
     assert [text in alone for text in ("0 0 711 9", "0 0 311 9")] == [True, False]
     assert [text in both for text in ("0 0 711 9", "0 0 311 9")] == [True, True]
 

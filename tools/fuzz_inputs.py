@@ -34,13 +34,11 @@ from typing import Any
 import seismass as sm
 from seismass.assessment import read_pushover, read_storey_table
 from seismass.assessment.building_file import example_file
+from seismass.assessment.result import Assessment
 from seismass.base.errors import InvalidOption
-from seismass.base.folders import as_written, read_folder
 from seismass.runs.scene_file import example_scene
-from seismass.show.assessment.tables import ANIMATION, DOCUMENT, TABLES, read_assessment_tables
-from seismass.show.study.tables import READ, read_study_tables
 from seismass.studies.campaign.folder import example_description
-from seismass.studies.study import StudyParameters, run_study
+from seismass.studies.study import StudyParameters, StudyResult, run_study
 
 SECONDS_PER_FILE = 5.0
 MEMORY_GROWTH_KB = 512 * 1024
@@ -131,7 +129,7 @@ def kinds(place: Path) -> list[Kind]:
     for path in sorted(studied.iterdir()):
         if path.suffix in (".parquet", ".json"):
             content = path.read_bytes()
-            if path.name in READ:
+            if path.name in StudyResult.files_read():
                 found.append(Kind(f"study's {path.name}", path.name, content, _study, studied, digests=True))
                 found.append(Kind(f"study's {path.name}, by force", path.name, content, _forced_study, studied))
     found.append(Kind("workbook", "book.xlsx", _workbook(_SHEET), read_storey_table))
@@ -183,15 +181,11 @@ def _verified(path: Path) -> None:
 
 
 def _assessment(folder: Path, *, force: bool = False) -> None:
-    files = read_folder(folder, (DOCUMENT, ANIMATION, *(f"{name}.parquet" for name in TABLES)), force=force)
-    with as_written(folder):
-        read_assessment_tables(files)
+    Assessment.read(folder, force=force)
 
 
 def _study(folder: Path, *, force: bool = False) -> None:
-    files = read_folder(folder, READ, force=force)
-    with as_written(folder):
-        read_study_tables(files)
+    StudyResult.read(folder, force=force)
 
 
 def _forced_assessment(folder: Path) -> None:

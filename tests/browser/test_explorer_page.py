@@ -16,7 +16,6 @@ import seismass as sm
 from seismass.cli import main
 from seismass.runs.scene_file import read_scene
 from seismass.show.assessment.page_input import live_case
-from seismass.show.assessment.tables import assessment_tables
 from seismass.show.explore import explorer_html
 from seismass.show.explore import page as compiled
 
@@ -132,7 +131,7 @@ def test_the_link_of_a_calculation_page_opens_the_same_building(html: str, open_
         "storeys": [{"overstrength": 1.5}, {"live_load_kpa": 0.0, "dead_load_kpa": 4.0, "height_m": 3.5}],
     }
     result = sm.assess(tables, sm.builtin_suite("seven"), mu_factors=(1.0, 1.0))
-    case, reasons, differences = live_case(assessment_tables(result))
+    case, reasons, differences = live_case(result)
     assert case is not None
     assert reasons == ()
     assert differences == ()

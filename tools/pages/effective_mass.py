@@ -68,7 +68,7 @@ def of_building(file: Path, suites: tuple[Suite, Suite]) -> list[list[str]]:
     building = sm.read_building(file)
     target = TARGETS.get(file.stem, building.target)
     rows = []
-    for name, factor in friction_factors(building).items():
+    for name, factor in friction_factors(building.mu_factors).items():
         scene, by_runs, ratios = building.scene(target, mu_factor=factor), [], []
         for suite in suites:
             factors = scaled_to_site(building, suite, target).factors

@@ -164,6 +164,23 @@ class Answer:
         )
 
 
+def stored_answer(document: dict[str, Any]) -> Answer:
+    """Return the answer of an assessment of its `to_dict`."""
+    known: dict[str, Any] = {name: document[name] for name in ("statement", "reason", "remedy")}
+    known |= {"doubts": tuple(document["doubts"]), "motions": document["on_motions"]}
+    answer = document["answer"]
+    if answer is None:
+        return Answer(**known)
+    known |= {name: answer[name] for name in ("opening", "why", "design")}
+    known |= {name: tuple(answer[name]) for name in ("governs", "goods", "sensitivity")}
+    for name in ("amounts", "tipping"):
+        cases = ({key: value for key, value in case.items() if key != "verdict"} for case in answer[name])
+        known[name] = tuple(PresentGoods(**case) for case in cases)
+    lists = ("mass", "goods_mass", "multipliers")
+    analyses = (Analysis(**one | {name: tuple(one[name]) for name in lists}) for one in answer["analyses"])
+    return Answer(**known, analyses=tuple(analyses), matters=answer["share_matters"])
+
+
 def doubt_lines(doubts: tuple[str, ...]) -> tuple[str, ...]:
     """Return what stands before an answer whose input is doubtful, the first few of the doubts."""
     shown = [f"DOUBTFUL INPUT: {doubt}" for doubt in doubts[:MOST_DOUBTS]]

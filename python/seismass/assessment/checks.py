@@ -362,7 +362,7 @@ def slip_table(
     """
     words = dict(zip(SLIDING_ALL, ("as stated", "lower bound", "upper bound"), strict=True))
     rows = []
-    for model, factor in friction_factors(building).items():
+    for model, factor in friction_factors(building.mu_factors).items():
         for number, level in sorted(building.sliding(factor)):
             kind = building.loose[number]
             of_kind = slips.filter((pl.col("model") == model) & (pl.col("kind") == number) & (pl.col("level") == level))
@@ -413,13 +413,13 @@ BOUNDS: Final = (SLIDING_LOW, SLIDING_HIGH)
 
 def tipping_kinds(building: OwnBuilding) -> tuple[FloorGoods, ...]:
     """Return the kinds of goods present that tip before they slide at any of the frictions of an assessment."""
-    factors = friction_factors(building).values()
+    factors = friction_factors(building.mu_factors).values()
     return tuple(kind for kind in building.present if any(kind.tips_first(factor) for factor in factors))
 
 
 def other_models(building: OwnBuilding) -> dict[str, OwnBuilding]:
     """Return a building with the other models of goods that tip, by what they are called."""
-    kinds, factors = tipping_kinds(building), friction_factors(building).values()
+    kinds, factors = tipping_kinds(building), friction_factors(building.mu_factors).values()
     models = {kind.model(factor) for kind in kinds for factor in factors if kind.tips_first(factor)}
     others = {model: words for model, words in WORDS.items() if models and models != {model}}
     return {f"{TAKEN}{words}": building.with_tipping(model) for model, words in others.items()}
@@ -429,7 +429,7 @@ def tipping_table(building: OwnBuilding, scene: Scene, motions: Sequence[Any]) -
     """Return one row per kind of goods that tips: size (m), b/h, its model at each friction, the part that stays, and
     under how many motions its floor exceeds b/h ("lifts"), and Ishiyama's limit of velocity too ("limits_exceeded").
     """
-    kinds, factors = tipping_kinds(building), friction_factors(building)
+    kinds, factors = tipping_kinds(building), friction_factors(building.mu_factors)
     demand, velocity = _floor_peaks(scene, motions) if kinds else (np.empty((0, 0)), np.empty((0, 0)))
     rows = []
     for kind in kinds:

@@ -45,9 +45,9 @@ NAMES: Final = {name: MODELS[name].name for name in (*SLIDING_ALL, ADVISED, CODE
 """What texts and figures call the models."""
 
 
-def friction_factors(building: OwnBuilding) -> dict[str, float]:
+def friction_factors(mu_factors: tuple[float, float]) -> dict[str, float]:
     """Return the factor of friction of each model with goods that slide; equal ones once."""
-    low, high = building.mu_factors
+    low, high = mu_factors
     factors = {SLIDING: 1.0, SLIDING_LOW: low, SLIDING_HIGH: high}
     return {name: factor for name, factor in factors.items() if name == SLIDING or factor != 1.0}
 
@@ -83,7 +83,9 @@ def compared_models(building: OwnBuilding, target: TargetSpectrum | None, advise
     bare = with_mass(sliding_scene, np.zeros(building.storeys))
     if not (building.goods_mass > 0.0).any():
         return {BARE: bare}
-    by_factor = {name: building.scene(target, mu_factor=factor) for name, factor in friction_factors(building).items()}
+    by_factor = {
+        name: building.scene(target, mu_factor=factor) for name, factor in friction_factors(building.mu_factors).items()
+    }
     attached = {} if advised is None else {ADVISED: with_mass(sliding_scene, advised * building.goods_mass)}
     return {
         **by_factor,
@@ -107,7 +109,7 @@ def solve_models(
     that slide, motion and kind of loose goods. In two directions drift and shear are the larger of both.
     """
     table = solve_many(list(scenes.values()), list(motions), threads=threads, progress=progress)
-    runs, in_plane, factors = table.to_dicts(), "peak_drift_x" in table.columns, friction_factors(building)
+    runs, in_plane, factors = table.to_dicts(), "peak_drift_x" in table.columns, friction_factors(building.mu_factors)
     rows: list[dict[str, Any]] = []
     slides: list[dict[str, Any]] = []
     for index, run in enumerate(runs):

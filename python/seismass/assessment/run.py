@@ -46,7 +46,7 @@ from seismass.assessment.models import (
     scaled_to_site,
     solve_models,
 )
-from seismass.assessment.result import SCHEMA_VERSION, Assessment
+from seismass.assessment.result import SCHEMA_VERSION, Assessment, Solved, assessment_of
 from seismass.assessment.statement import PresentGoods, governing_drifts, other_amounts, present_goods
 from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
@@ -151,7 +151,7 @@ def assess(
     factors = _factors(suite, scaling)
     scaled = scaled_motions(suite, factors)
     loaded = bool((stated.goods_mass > 0.0).any())
-    frictions = friction_factors(stated) if loaded else {}
+    frictions = friction_factors(stated.mu_factors) if loaded else {}
     models = len(frictions) + FIXED_MODELS if loaded else 1
     fractions = len(frictions) + len(DEFAULT_FRACTIONS) if loaded else 0
     designs = 2 * len(design_shares(stated)) if loaded and stated.design is not None else 0
@@ -227,41 +227,35 @@ def assess(
 
     cases = (tipping, tuple(of_models))
     answer = answer_of(stated, advised, effective, design, *tables, cases, facts, scaling, doubts, remedy)
-    return Assessment(
-        building=stated,
-        target=spectrum,
-        answer=answer,
-        effective=effective,
-        design=None if design is None else design.effective,
-        storeys=storeys,
-        governing=governing,
-        slip=slip,
-        tipping=tipping,
-        slips=slips,
-        runs=runs,
-        left_out=left_out,
+    spectra = spectra_table(
+        scaled if scaling is not None else horizontal,
+        None if spectrum is None else stated.motion_target(spectrum),
+        stated.pairs_as if scaling is not None else "geometric mean",
+        threads=threads,
+    )
+    example = Shown(sliding_scene, scaled[place], place + 1, float(factors[place]))
+    contents = (scenes, stated, None if spectrum is None else spectrum.parameters, motion_contents(components))
+    return assessment_of(
+        Solved(stated, spectrum, None if design is None else design.effective, scaling, example),
+        answer,
+        effective,
+        {
+            "storeys": storeys,
+            "governing": governing,
+            "slip": slip,
+            "tipping": tipping,
+            "slips": slips,
+            "runs": runs,
+            "left_out": left_out,
+            "spectra": spectra,
+        },
         collapses=collapses,
-        spectra=spectra_table(
-            scaled if scaling is not None else horizontal,
-            None if spectrum is None else stated.motion_target(spectrum),
-            stated.pairs_as if scaling is not None else "geometric mean",
-            threads=threads,
-        ),
-        example=Shown(sliding_scene, scaled[place], place + 1, float(factors[place])),
-        scaling=scaling,
         suite=facts,
         advice=advice_of(stated, answer, storeys, slip, collapses, len(suite), effective.get(SLIDING), runs),
         remarks=remarks_of(stated, doubts, scaling, effective, facts),
         assumptions=assumptions_of(stated, spectrum, scaling, facts, period),
         metadata={
-            **metadata_head(
-                SCHEMA_VERSION,
-                scenes,
-                stated,
-                None if spectrum is None else spectrum.parameters,
-                motion_contents(components),
-                bootstrap,
-            ),
+            **metadata_head(SCHEMA_VERSION, *contents, bootstrap),
             **bootstrap,
             "damping": "matrix of the building without goods, in every model",
             "p_delta": stated.gravity_load is not None,

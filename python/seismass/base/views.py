@@ -7,9 +7,10 @@ A class declares a view with its signature, types and docstring::
         '''Return the figure.'''
         raise NotImplementedError
 
-The module that `made_in` names has a table `VIEWS`, from "Class.plot" to "module:function". The function takes the
-value and the same arguments, and its module is imported when the view is first asked for. Nothing hangs on an instance,
-so that pickles, slots and equality are those of the class. Views show; numbers are never made by one.
+The module that `made_in` names has a table `VIEWS`, from "Class.plot" to "module:function"; a class that is not in it
+has the view of its base. The function takes the value and the same arguments, and its module is imported when the view
+is first asked for. Nothing hangs on an instance, so that pickles, slots and equality are those of the class. Views
+show; numbers are never made by one.
 """
 
 from __future__ import annotations
@@ -31,26 +32,30 @@ def made_in(module: str) -> None:
 
 
 @cache
-def maker_of(name: str) -> Callable[..., Any]:
-    """Return the function that makes a view, by the name of its declaration, as "EffectiveMass.plot"."""
+def maker_of(kind: Any, name: str) -> Callable[..., Any]:
+    """Return the function that makes a view of a class, as `plot` of `EffectiveMass`: its own, or that of the first of
+    its bases that has one.
+    """
     views: Mapping[str, str] = importlib.import_module(_tables[0]).VIEWS
-    module, _, function = views[name].partition(":")
+    place = next(views[key] for base in kind.__mro__ if (key := f"{base.__name__}.{name}") in views)
+    module, _, function = place.partition(":")
     maker: Callable[..., Any] = getattr(importlib.import_module(module), function)
     return maker
 
 
 def view(declaration: Callable[P, T]) -> Callable[P, T]:
     """Declare a method that a function of a higher layer makes; the body of the declaration is never run."""
-    name = declaration.__qualname__
+    name = declaration.__name__
 
     @wraps(declaration)
     def shown(*args: P.args, **kwargs: P.kwargs) -> T:
-        value = args[0]
+        value: Any = args[0]
         presented = value._shown if isinstance(value, Views) else value
-        made: T = maker_of(name)(presented, *args[1:], **kwargs)
+        kind: Any = type(value)
+        made: T = maker_of(kind, name)(presented, *args[1:], **kwargs)
         return made
 
-    shown.__dict__["declares_view"] = name
+    shown.__dict__["declares_view"] = True
     return shown
 
 

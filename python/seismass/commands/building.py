@@ -115,10 +115,9 @@ def _live_page(result: Assessment) -> dict[str, str]:
     from seismass.base.errors import MissingPackage
     from seismass.media.page import PAGE
     from seismass.show.assessment.page_input import live_case
-    from seismass.show.assessment.tables import assessment_tables
     from seismass.show.explore import explorer_html
 
-    if live_case(assessment_tables(result)).case is None:
+    if live_case(result).case is None:
         return {}
     try:
         return {PAGE: explorer_html()}

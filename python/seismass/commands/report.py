@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Any
 
+from seismass.base.arguments import ProgressLike
 from seismass.commands.frame import Command, progress, seconds, show
 from seismass.commands.options import add_output_option
 from seismass.media.result import PAGE
@@ -19,15 +21,30 @@ def options(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def write_page(folder: Path, target: Path, *, force: bool = False, progress: ProgressLike = None) -> tuple[str, ...]:
+    """Write the page of a result from the files of its folder alone and return those that were edited since they were
+    written, which are read with `force` alone; `progress` is called with (figures drawn, figures in all).
+    """
+    from seismass.assessment.result import Assessment
+    from seismass.base.files import write_file
+    from seismass.base.folders import as_written, read_folder
+    from seismass.show.assessment.page import whole_page as page_of_assessment
+    from seismass.show.study.write import whole_page as page_of_study
+    from seismass.studies.study import StudyResult
+
+    kind: Any = Assessment if (folder / f"{Assessment.document}.json").exists() else StudyResult
+    page_of: Any = page_of_assessment if kind is Assessment else page_of_study
+    files = read_folder(folder, kind.files_read(), force=force)
+    with as_written(folder):
+        page = page_of(kind.of_files(files), files.edited, progress)
+    write_file(target, page)
+    return files.edited
+
+
 def run(args: argparse.Namespace) -> int:
     """Write the page; return the exit code. Bad input is raised."""
-    from seismass.show.assessment.page import write_assessment_page
-    from seismass.show.assessment.tables import DOCUMENT
-    from seismass.show.study.write import write_study_page
-
-    write = write_assessment_page if (args.folder / DOCUMENT).exists() else write_study_page
     with progress("figures") as tell:
-        edited = write(args.folder, args.out, force=args.force, progress=tell)
+        edited = write_page(args.folder, args.out, force=args.force, progress=tell)
     if edited:
         show(f"edited since they were written: {', '.join(edited)}")
     show(f"{args.out}: {args.out.stat().st_size / 1e6:.2f} MB, {seconds(args)}")

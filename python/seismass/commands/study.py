@@ -32,8 +32,7 @@ if TYPE_CHECKING:
     from seismass.base.stored_results import StoredResults
     from seismass.motions.records import Suite
     from seismass.motions.spectra import TargetSpectrum
-    from seismass.show.study.tables import StudyTables
-    from seismass.studies.study import StudyParameters
+    from seismass.studies.study import StudyParameters, StudyResult
 
 
 def options(parser: argparse.ArgumentParser) -> None:
@@ -104,7 +103,7 @@ def run(args: argparse.Namespace) -> int:
     with result_store(args.out.parent, args.out.name, inputs) as store:
         answer = _Answer(_solved(args, suite, target, parameters, store), args.png)
         files = write_answer(args, answer)
-    metadata = answer.tables.metadata
+    metadata = answer.study.metadata
     if args.json:
         for remark in metadata["remarks"]:
             tell(remark)
@@ -118,9 +117,9 @@ def _solved(
     target: TargetSpectrum,
     parameters: StudyParameters,
     store: StoredResults,
-) -> StudyTables:
+) -> StudyResult:
     """Run the study, and what is asked for besides."""
-    from seismass.show.study.tables import study_tables
+    from seismass.show.study.tables import completed
     from seismass.studies.study import run_study, study_sensitivity
     from seismass.studies.study.run import study_example
     from seismass.studies.validation import paper_scenes, validate
@@ -151,14 +150,14 @@ def _solved(
         finally:
             stopped.set()
     example = study_example(suite, parameters, result)
-    return study_tables(result, sensitivity=sensitivity, validation=validation, example=example)
+    return completed(result, sensitivity=sensitivity, validation=validation, example=example)
 
 
 @dataclass(frozen=True)
 class _Answer:
     """A study with what was made of it besides, as it is printed and written."""
 
-    tables: StudyTables
+    study: StudyResult
     png: bool
 
     @property
@@ -166,19 +165,20 @@ class _Answer:
         from seismass.show.study.answer import findings_text
         from seismass.show.study.write import inputs_text, sensitivity_text
 
-        metadata, sensitivity = self.tables.metadata, self.tables.sensitivity
-        head = f"Underestimation of capped mean drift, (goods slide - code) / code, code: {metadata['code']['name']}"
-        changed = "" if sensitivity is None else f"\n\nOne choice changed at a time\n{sensitivity_text(sensitivity)}"
-        return f"{inputs_text(metadata)}\n\n{head}\n{findings_text(metadata['findings'])}{changed}"
+        study = self.study.to_dict()
+        head = f"Underestimation of capped mean drift, (goods slide - code) / code, code: {study['code']['name']}"
+        table = self.study.sensitivity
+        changed = f"\n\nOne choice changed at a time\n{sensitivity_text(table)}" if table.height else ""
+        return f"{inputs_text(study)}\n\n{head}\n{findings_text(study['findings'])}{changed}"
 
     def to_json(self) -> str:
-        return json.dumps(self.tables.metadata, indent=2)
+        return json.dumps(self.study.to_dict(), indent=2)
 
     def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
         from seismass.show.study.write import write_study
 
         with progress("figures") as tell:
-            return write_study(self.tables, Path(folder), figures=figures, png=self.png, progress=tell)
+            return write_study(self.study, Path(folder), figures=figures, png=self.png, progress=tell)
 
 
 def occupancy_option(text: str) -> tuple[str, float, float]:

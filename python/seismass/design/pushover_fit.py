@@ -13,11 +13,10 @@ from numpy.typing import ArrayLike
 from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FieldValue, FloatArray, as_array, as_list, brief, frozen, is_list, refusal
-from seismass.base.views import view
 from seismass.media.result import Result, finite_values
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    pass
 
 
 SpringShape: TypeAlias = Literal["bilinear", "trilinear", "capped"]
@@ -276,12 +275,6 @@ class PushoverFit(FieldValue, Result):
         return frozen(self.yield_shear / self.stiffness)
 
     @property
-    @view
-    def text(self) -> str:
-        """The springs and the misfit as tables, and what was assumed."""
-        raise NotImplementedError
-
-    @property
     def tables(self) -> dict[str, pl.DataFrame]:
         """The tables by name: springs, one row per storey; misfit, one per curve; curves, one per sample."""
         numbers = range(1, len(self.stiffness) + 1)
@@ -310,22 +303,6 @@ class PushoverFit(FieldValue, Result):
         """pushover_fit: each curve and its springs."""
         return ("pushover_fit",)
 
-    @view
-    def plot(self, name: str | None = None) -> Figure:
-        """Return a figure of each curve with the springs that were fitted to it, and the corners.
-
-        Parameters
-        ----------
-        name : str, optional
-            "pushover_fit".
-
-        Raises
-        ------
-        InvalidOption
-            There is no such figure.
-        """
-        raise NotImplementedError
-
     def to_dict(self) -> dict[str, Any]:
         """Return springs, misfit and assumptions as plain values in SI units."""
         tables = self.tables
@@ -336,8 +313,7 @@ class PushoverFit(FieldValue, Result):
             "misfit": tables["misfit"].to_dicts(),
             "assumptions": list(self.assumptions),
         }
-        finite: dict[str, Any] = finite_values(document)
-        return finite
+        return finite_values(document)
 
 
 def fit_pushover(

@@ -18,7 +18,6 @@ from seismass.base.statistics import QUANTILES, over_records, quantile
 from seismass.base.stored_results import metadata_head
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FieldValue, FloatArray, as_count, as_number, brief, refusal
-from seismass.base.views import view
 from seismass.design import Combination, response_spectrum_analysis, vibration_modes
 from seismass.design.scaling import ScalingResult, scale_asce7_10
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, attached, building_of, check_damping, full_weight
@@ -47,7 +46,7 @@ from seismass.motions.spectra.target import target_remarks
 from seismass.runs.peaks import NamedMotions, Peaks, named_motions, solve
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    pass
 
 Roof: TypeAlias = Literal["bare", "loaded"]
 """Whether the roof carries goods as the other floors do."""
@@ -240,12 +239,6 @@ class EffectiveMassMap(FieldValue, Result):
         return drift
 
     @property
-    @view
-    def text(self) -> str:
-        """Cases and runs, how simple rules and codes do, and the scatter of the fraction by eta."""
-        raise NotImplementedError
-
-    @property
     def tables(self) -> dict[str, pl.DataFrame]:
         """The tables by name: map, rules, rules_by_period, by_eta, scaling."""
         scalings = [
@@ -266,25 +259,11 @@ class EffectiveMassMap(FieldValue, Result):
 
     @property
     def figure_names(self) -> tuple[str, ...]:
-        """collapse: the fraction against eta; rules: how rules do; intensity, where there are several intensities."""
+        """collapse: the fraction of each case against eta, with its scatter, rules and codes; rules: how
+        rules do; intensity, where there are several intensities.
+        """
         several = self.table["intensity"].n_unique() > 1
         return ("collapse", "rules", "intensity") if several else ("collapse", "rules")
-
-    @view
-    def plot(self, name: str | None = None) -> Figure:
-        """Return a figure of `figure_names`, by default the chart: the fraction of each case against eta.
-
-        Parameters
-        ----------
-        name : str, optional
-            "collapse": every case with its scatter, the two rules and codes; "rules"; "intensity".
-
-        Raises
-        ------
-        InvalidOption
-            There is no such figure.
-        """
-        raise NotImplementedError
 
     def rules(self, rules: Mapping[str, Rule] | None = None) -> pl.DataFrame:
         """Return how the models of simple rules compare with the real drift, over all cases in which goods slide.

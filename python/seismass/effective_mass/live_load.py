@@ -22,7 +22,6 @@ from seismass.base.errors import InvalidOption
 from seismass.base.statistics import DRIFT_CAP, few_collapses, over_records, quantile
 from seismass.base.stored_results import metadata_head
 from seismass.base.values import FieldValue, FloatArray, as_count, as_number, brief, refusal
-from seismass.base.views import view
 from seismass.effective_mass.models import (
     SAME_DAMPING,
     ModelDamping,
@@ -40,7 +39,7 @@ from seismass.motions.motion import MotionLike
 from seismass.runs.peaks import NamedMotions, Peaks, named_motions, solve
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    pass
 
 SCHEMA_VERSION: Final = 1
 """Version of the tables and of the JSON of an uncertainty."""
@@ -133,24 +132,12 @@ class LiveLoadUncertainty(FieldValue, Result):
         names = ("share", "interval", "share_84", "unit", "remarks", "metadata")
         document = {"schema_version": SCHEMA_VERSION, **{name: getattr(self, name) for name in names}}
         document |= {"quantiles": self.quantiles.to_dicts(), "tornado": self.tornado.to_dicts()}
-        finite: dict[str, Any] = finite_values(document)
-        return finite
+        return finite_values(document)
 
     @property
     def figure_names(self) -> tuple[str, ...]:
         """live_load: the distribution of the share, with the tornado below it."""
         return ("live_load",)
-
-    @view
-    def plot(self, name: str | None = None) -> Figure:
-        """Return the figure of the distribution of the share, with the tornado below it.
-
-        Raises
-        ------
-        InvalidOption
-            `name` is given and is not "live_load".
-        """
-        raise NotImplementedError
 
 
 def live_load_uncertainty(

@@ -176,10 +176,6 @@ class EffectiveMass(FieldValue, Result):
             *(f"{'' if number else 'by hand':20}{line}" for number, line in enumerate(wrapped)),
         )
 
-    @view
-    def _repr_html_(self) -> str:
-        raise NotImplementedError
-
     def to_dict(self) -> dict[str, Any]:
         """Return everything but the curve as plain values; null for non-finite values."""
         names = ["value", "kind", "roots", "interval", "confidence", "statistic", "real", "model", "unit", "excess"]
@@ -188,8 +184,7 @@ class EffectiveMass(FieldValue, Result):
         document = {"schema_version": SCHEMA_VERSION, **{name: getattr(self, name) for name in names}}
         document |= {"by_hand": asdict(self.by_hand)}
         document |= {"storeys": self.storeys.to_dicts(), "records": self.records.to_dicts(), "metadata": self.metadata}
-        finite: dict[str, Any] = finite_values(document)
-        return finite
+        return finite_values(document)
 
     @property
     def tables(self) -> dict[str, pl.DataFrame]:
@@ -218,6 +213,28 @@ class EffectiveMass(FieldValue, Result):
             There is no such figure.
         """
         raise NotImplementedError
+
+
+def stored_fraction(document: dict[str, Any], curve: pl.DataFrame) -> EffectiveMass:
+    """Return an effective fraction of its `to_dict`, in which what is not finite is null, and of its curve."""
+    numbers = ("value", "real", "model", "excess", "eta", "base_shear_coefficient")
+    known = {name: document[name] for name in ("kind", "confidence", "statistic", "unit", "collapses", "metadata")}
+    known |= {name: _number(document[name]) for name in numbers}
+    rule, ends = document["by_hand"], document["interval"]
+    return EffectiveMass(
+        **known,
+        roots=tuple(document["roots"]),
+        interval=None if ends is None else (_number(ends[0]), _number(ends[1])),
+        by_hand=ByHand(**rule | {"friction": _number(rule["friction"]), "exceptions": tuple(rule["exceptions"])}),
+        curve=curve,
+        storeys=pl.DataFrame(document["storeys"], schema_overrides={"storey": pl.UInt32}, infer_schema_length=None),
+        records=pl.DataFrame(document["records"], schema_overrides=RECORDS, infer_schema_length=None),
+        remarks=tuple(document["remarks"]),
+    )
+
+
+def _number(value: float | None) -> float:
+    return math.nan if value is None else float(value)
 
 
 STOREY_REMARK: Final = 1.05
@@ -312,6 +329,14 @@ def remarks_of(
     return tuple(remarks)
 
 
+RECORDS: Final[dict[str, type[pl.DataType]]] = {
+    "motion": pl.UInt32,
+    "event": pl.String,
+    **dict.fromkeys(("first_root", "last_root", "value_without"), pl.Float64),
+}
+"""Types of the columns of `EffectiveMass.records` that may be without a value, or are narrower than Python's own."""
+
+
 def record_table(
     motions: NamedMotions, shares: FloatArray, sliding: Peaks, model: Peaks, without: FloatArray | None
 ) -> pl.DataFrame:
@@ -338,6 +363,4 @@ def record_table(
                 "value_without": None if without is None else float(without[index]),
             }
         )
-    schema = {"motion": pl.UInt32, "event": pl.String}
-    schema |= dict.fromkeys(("first_root", "last_root", "value_without"), pl.Float64)
-    return pl.DataFrame(rows, schema_overrides=schema)
+    return pl.DataFrame(rows, schema_overrides=RECORDS)

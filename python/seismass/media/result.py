@@ -5,19 +5,19 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import cache
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, Self
 
 import numpy as np
 
 from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
 from seismass.base.files import Content, stored_rows, table_content
-from seismass.base.folders import write_folder
-from seismass.base.values import FloatArray, as_path
+from seismass.base.folders import ReadFolder, as_written, read_folder, write_folder
+from seismass.base.values import FloatArray, as_path, brief, refusal
 from seismass.base.views import view
 from seismass.media.roles import CODE, SLIDE
 
@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 PAGE: Final = "report.html"
 """File of the page of a folder."""
+ANIMATION: Final = "animation.json"
+"""File of what the animation of a page shows."""
 
 
 @cache
@@ -72,8 +74,32 @@ def result_files(
     return files
 
 
+class StoredTable(property):
+    """The table of a result by the name of the attribute; its docstring is what data/tables says of its rows. Where
+    the result has none, it is one without rows.
+    """
+
+    def __init__(self) -> None:
+        super().__init__(self._table)
+
+    def _table(self, result: Any) -> pl.DataFrame:
+        import polars as pl
+
+        found: dict[str, pl.DataFrame] = result.tables
+        return found[self.name] if self.name in found else pl.DataFrame(schema=table_schema(self.owner, self.name))
+
+    def __set_name__(self, owner: Any, name: str) -> None:
+        self.name, self.owner = name, owner.document
+        words = stored_tables(self.owner)[name][0]
+        self.__doc__ = f"{words[0].upper()}{words[1:]}."
+
+    if TYPE_CHECKING:
+
+        def __get__(self, result: Any, owner: type | None = None) -> pl.DataFrame: ...  # type: ignore[override]
+
+
 class Result:
-    """The result of a study. A subclass has `text`, `tables`, `to_dict`, `figure_names` and `plot`."""
+    """The result of a study. A subclass has `tables`, `figure_names` and `to_dict`; its views are those of `VIEWS`."""
 
     __slots__ = ()
 
@@ -81,6 +107,7 @@ class Result:
     """Stem of the file that `to_json` is written to; with spaces, what messages call the result."""
 
     @property
+    @view
     def text(self) -> str:
         """The result as lines to read, the answer first."""
         raise NotImplementedError
@@ -95,8 +122,20 @@ class Result:
         """Names of the figures that `plot` draws of this result; the first is drawn where none is named."""
         raise NotImplementedError
 
+    @view
     def plot(self, name: str | None = None) -> Figure:
-        """Return a figure by its name, one of `figure_names`; by default the first."""
+        """Return a figure of `figure_names`, by default the first.
+
+        Parameters
+        ----------
+        name : str, optional
+            Name of the figure.
+
+        Raises
+        ------
+        InvalidOption
+            There is no such figure.
+        """
         raise NotImplementedError
 
     def figures(self) -> dict[str, Figure]:
@@ -111,8 +150,10 @@ class Result:
         """Return `to_dict` as JSON."""
         return json.dumps(self.to_dict(), indent=2, allow_nan=False)
 
+    @view
     def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
-        """Write tables (Parquet and CSV), the document (JSON) and figures (PNG and SVG) to a folder.
+        """Write tables (Parquet and CSV), the document (JSON) and figures (PNG and SVG) to a folder; of results that
+        have a page also the page, with figures, and the text.
 
         Returns
         -------
@@ -126,15 +167,7 @@ class Result:
         OSError
             A file cannot be written; then nothing is changed.
         """
-        details = self._table_metadata()
-        tables, owner = self.tables, self.document.replace("_", " ")
-        files = result_files(
-            tables=tables,
-            metadata=dict.fromkeys(tables, details) if details else None,
-            documents={f"{self.document}.json": self.to_json() + "\n"},
-            figures=self.figures() if figures else None,
-        )
-        return write_folder(as_path(folder, owner, InvalidOption), files, owner=owner)
+        raise NotImplementedError
 
     def _table_metadata(self) -> dict[str, str]:
         """Key-value metadata of the Parquet files of the tables."""
@@ -143,6 +176,87 @@ class Result:
     @view
     def _repr_html_(self) -> str:
         raise NotImplementedError
+
+
+def write_result(result: Result, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
+    """Write tables, document and figures of a result; see `Result.write`."""
+    details = result._table_metadata()
+    tables, owner = result.tables, result.document.replace("_", " ")
+    files = result_files(
+        tables=tables,
+        metadata=dict.fromkeys(tables, details) if details else None,
+        documents={f"{result.document}.json": result.to_json() + "\n"},
+        figures=result.figures() if figures else None,
+    )
+    return write_folder(as_path(folder, owner, InvalidOption), files, owner=owner)
+
+
+class StoredResult(Result):
+    """A result that its folder holds whole, with the tables of data/tables. A subclass has a field `frames`."""
+
+    __slots__ = ()
+
+    schema_version: ClassVar[int]
+    frames: dict[str, pl.DataFrame]
+
+    @classmethod
+    def read(cls, folder: str | os.PathLike[str], *, force: bool = False) -> Self:
+        """Read a result from the folder that it was written to.
+
+        It shows and writes the same. What only a run has is refused, or None.
+
+        Parameters
+        ----------
+        folder : path-like
+            The folder, of `write` or of a command.
+        force : bool, default False
+            Read files that were edited since they were written.
+
+        Raises
+        ------
+        InvalidOption
+            A file is not what was written, or of another version.
+        OSError
+            A file cannot be read.
+        """
+        path = as_path(folder, cls.document, InvalidOption)
+        files = read_folder(path, cls.files_read(), force=force)
+        with as_written(path):
+            return cls.of_files(files)
+
+    @classmethod
+    def files_read(cls) -> tuple[str, ...]:
+        """Return the names of the files of which a result is read, first that by which its folder is known."""
+        return (f"{cls.document}.json", ANIMATION, *(f"{name}.parquet" for name in stored_tables(cls.document)))
+
+    @classmethod
+    def of_files(cls, files: ReadFolder) -> Self:
+        """Return the result of the files of its folder."""
+        file = f"{cls.document}.json"
+        document = files.document(file)
+        version = document.get("schema_version")
+        if version != cls.schema_version:
+            raise refusal(InvalidOption, "schema_version", file, f"{cls.schema_version}", brief(version))
+        optional = cls._without(document, files)
+        tables = {name: files.table(name) for name in stored_tables(cls.document) if name not in optional}
+        return cls._stored(document, tables, files.document(ANIMATION) if ANIMATION in files else None)
+
+    @classmethod
+    def _without(cls, document: dict[str, Any], files: ReadFolder) -> Collection[str]:
+        """Names of the tables that a result with that document has not."""
+        raise NotImplementedError
+
+    @classmethod
+    def _stored(
+        cls, document: dict[str, Any], frames: dict[str, pl.DataFrame], animation: dict[str, Any] | None
+    ) -> Self:
+        """The result of what was read."""
+        raise NotImplementedError
+
+    @property
+    def tables(self) -> dict[str, pl.DataFrame]:
+        """The tables by name, those of data/tables that the result has."""
+        return self.frames
 
 
 def named_figure(result: Result, name: str | None) -> str:
@@ -154,12 +268,16 @@ def named_figure(result: Result, name: str | None) -> str:
     return name
 
 
-def finite_values(value: Any) -> Any:
+def finite_values(document: dict[str, Any]) -> dict[str, Any]:
     """Return nested values with null in place of infinities and NaN, which JSON does not have."""
+    return {key: _finite(item) for key, item in document.items()}
+
+
+def _finite(value: Any) -> Any:
     if isinstance(value, dict):
-        return {key: finite_values(item) for key, item in value.items()}
+        return finite_values(value)
     if isinstance(value, list | tuple):
-        return [finite_values(item) for item in value]
+        return [_finite(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 

@@ -208,8 +208,7 @@ class PlaneResponse(Numbers, Card):
         result["statistics"] = self.statistics
         from seismass.media.result import finite_values
 
-        finite: dict[str, Any] = finite_values(result)
-        return finite
+        return finite_values(result)
 
     @property
     @view

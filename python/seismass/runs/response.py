@@ -493,8 +493,7 @@ class Response(Numbers):
         result["statistics"] = self.statistics
         from seismass.media.result import finite_values
 
-        finite: dict[str, Any] = finite_values(result)
-        return finite
+        return finite_values(result)
 
     def _forces(self, name: str) -> FloatArray:
         if self.scene.engine != "chain":

@@ -53,6 +53,7 @@ VIEWS: Final = {
     "ResponsePlots.rack_profile": "seismass.show.plots.hysteresis:rack_profile",
     "ResponsePlots.slip": "seismass.show.plots.histories:slip",
     "ResponsePlots.slip_path": "seismass.show.plots.histories:slip_path",
+    "Result.write": "seismass.media.result:write_result",
     "Result._repr_html_": "seismass.show.cards:result_html",
     "RiskTargetedShare.plot": "seismass.show.risk:risk_figure",
     "RiskTargetedShare.text": "seismass.show.risk:risk_text",

@@ -48,7 +48,7 @@ def assessment_html(result: Assessment) -> str:
     facts = [("tables", ", ".join(result.tables)), ("figures", ", ".join(result.figure_names))]
     lines = [answer.why and f"why: {answer.why}", answer.motions and f"motions: {answer.motions}"]
     return card(
-        result.building.name or "Assessment",
+        result.name or "Assessment",
         answer.headline,
         *pair,
         pre("\n".join(storey_bars(result)), most=MOST_BARS),

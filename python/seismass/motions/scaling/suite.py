@@ -194,12 +194,6 @@ class ScalingResult(FieldValue, Result):
         )
 
     @property
-    @view
-    def text(self) -> str:
-        """The method, how the mean fits the target, the scatter, and the factor and misfit of each motion."""
-        raise NotImplementedError
-
-    @property
     def tables(self) -> dict[str, pl.DataFrame]:
         """The tables by name: scaling, one row per motion; spectrum, one row per period."""
         return {"scaling": self.diagnostics(), "spectrum": self.spectrum_table()}
@@ -219,8 +213,7 @@ class ScalingResult(FieldValue, Result):
             "motions": self.diagnostics().to_dicts(),
             "spectrum": self.spectrum_table().to_dict(as_series=False),
         }
-        finite: dict[str, Any] = finite_values(document)
-        return finite
+        return finite_values(document)
 
     @property
     def figure_names(self) -> tuple[str, ...]:

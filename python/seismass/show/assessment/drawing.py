@@ -9,11 +9,11 @@ from typing import Any, Final
 import numpy as np
 from markupsafe import Markup, escape
 
+from seismass.assessment.result import Assessment
 from seismass.base.units import STANDARD_GRAVITY, UNITS
 from seismass.base.values import FloatArray, counted
 from seismass.media.roles import BARE as BARE_ROLE
 from seismass.media.roles import MU, SLIDE, apart
-from seismass.show.assessment.tables import AssessmentTables
 
 WIDTH: Final = 340.0
 LEFT: Final = 12.0
@@ -32,9 +32,9 @@ ROOM: Final = 6
 """Storeys up to which each has its stiffness and strength in the drawing, below the words of the floor above it."""
 
 
-def building_drawing(result: AssessmentTables) -> Markup:
+def building_drawing(result: Assessment) -> Markup:
     """Return the drawing as SVG in the colour of the text; goods are as large as their mass over that of a floor."""
-    data = result.document["input"]
+    data = result.input
     storeys: list[dict[str, Any]] = data["storeys"]
     heights = np.array([1.0 if row["height"] is None else row["height"] for row in storeys])
     lines = [_words(result, row) for row in storeys]
@@ -69,10 +69,10 @@ def _support(data: dict[str, Any]) -> str:
     return "".join(f"; {words}" for words, there in parts.items() if there)
 
 
-def _words(result: AssessmentTables, row: dict[str, Any]) -> list[str]:
+def _words(result: Assessment, row: dict[str, Any]) -> list[str]:
     """Number and name of a storey with its height and the weight of its floor; the goods on the floor."""
     units = result.units
-    differ = len({one["height"] for one in result.document["input"]["storeys"]}) > 1
+    differ = len({one["height"] for one in result.input["storeys"]}) > 1
     height = f", h {units.text('height', row['height'], '.3g')}" if differ and row["height"] is not None else ""
     name = f"{row['storey']} {apart(row['name'])}".rstrip()
     weight = units.text("force", STANDARD_GRAVITY * row["mass"])
@@ -114,11 +114,11 @@ def _pair(one: dict[str, Any]) -> str:
     return f"{one['mu_s']:.3g}" + (f"/{one['mu_k']:.3g}" if one["mu_k"] != one["mu_s"] else "")
 
 
-def floor_words(result: AssessmentTables) -> dict[int, str]:
+def floor_words(result: Assessment) -> dict[int, str]:
     """Return the goods of each loaded floor in words: what is present of the design live load, and what holds them."""
-    rows = {row["storey"]: row for row in result.document["input"]["storeys"]}
+    rows = {row["storey"]: row for row in result.input["storeys"]}
     kinds: dict[int, list[str]] = {}
-    for kind in result.document["input"]["goods"]:
+    for kind in result.input["goods"]:
         area, units = rows[kind["floor"]]["area"], result.units
         present, load = (STANDARD_GRAVITY * kind[name] / (area or 1.0) for name in ("mass", "live_load"))
         quantity = "force" if area is None else "load"
@@ -135,20 +135,20 @@ def floor_words(result: AssessmentTables) -> dict[int, str]:
     return {floor: "; ".join(words) for floor, words in kinds.items()}
 
 
-def _staying(result: AssessmentTables, kind: dict[str, Any]) -> float:
+def _staying(result: Assessment, kind: dict[str, Any]) -> float:
     """Part of goods that tip which moves with their floor, at the friction as stated."""
-    rows = result.document.get("tipping") or []
+    rows = result.content.get("tipping") or []
     return next((one["staying"] for one in rows if (one["floor"], one["goods"]) == (kind["floor"], kind["name"])), 0.0)
 
 
-def _goods_text(result: AssessmentTables) -> str:
+def _goods_text(result: Assessment) -> str:
     words = floor_words(result)
     return "; ".join(f"floor {floor}: goods {what}" for floor, what in words.items()) or "no goods"
 
 
-def _goods(result: AssessmentTables, levels: FloatArray) -> list[Markup]:
+def _goods(result: Assessment, levels: FloatArray) -> list[Markup]:
     """Goods of each floor as boxes on the floor or on racks, grey where they move with it, between their stops."""
-    data = result.document["input"]
+    data = result.input
     mass = {row["storey"]: row["mass"] for row in data["storeys"]}
     parts = []
     for floor in sorted({kind["floor"] for kind in data["goods"]}):

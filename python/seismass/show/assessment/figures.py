@@ -11,9 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from seismass.assessment.models import ATTACHED, CODE, SLIDING, SLIDING_HIGH, SLIDING_LOW
-from seismass.assessment.result import Assessment, shown_figures
+from seismass.assessment.result import Assessment
 from seismass.assessment.structure import slip_of_base
 from seismass.base.units import STANDARD_GRAVITY
+from seismass.effective_mass import EffectiveMass
 from seismass.media.result import named_figure
 from seismass.media.roles import ADVISED as ADVISED_ROLE
 from seismass.media.roles import BARE as BARE_ROLE
@@ -34,15 +35,9 @@ from seismass.media.roles import (
     lettered,
 )
 from seismass.media.style import PERIOD_TICKS, drawing, plain
-from seismass.model.codes import AS_STATED, MARK, NOT_CHECKED, VERIFIED
-from seismass.show.assessment.tables import (
-    AssessmentTables,
-    Fraction,
-    StoreyDrifts,
-    assessment_tables,
-    most_slip,
-    storey_drifts,
-)
+from seismass.media.text_table import ends_text
+from seismass.model.codes import MARK, NOT_CHECKED
+from seismass.show.assessment.tables import StoreyDrifts, most_slip, storey_drifts
 from seismass.show.effective_mass import STORAGE_CODES, marked_legend
 
 FRICTION_NAMES: Final = {SLIDING: "as stated", SLIDING_HIGH: "upper bound", SLIDING_LOW: "lower bound"}
@@ -70,24 +65,23 @@ PHONE_SIZE: Final = Size(3.4, 44, 54, 10, 34, 1, 0.5)
 SHEET_SIZE: Final = Size(4.6, 60, 0, 0, 29, 2, 0.36)
 
 
-def assessment_figures(result: AssessmentTables, size: Size = PAPER_SIZE) -> dict[str, Figure]:
+def assessment_figures(result: Assessment, size: Size = PAPER_SIZE) -> dict[str, Figure]:
     """Return the figures of an assessment that have something to show, by name."""
-    fractions = any(np.isfinite(one.value) for one in result.effective.values())
-    return {name: _drawn(result, name, size) for name in shown_figures(fractions and result.answer is not None)}
+    return {name: _drawn(result, name, size) for name in result.figure_names}
 
 
-def sheet_figure(result: AssessmentTables) -> Figure:
+def sheet_figure(result: Assessment) -> Figure:
     """Return the figure of drifts and slips as the first sheet has it."""
     return _drawn(result, "drift", SHEET_SIZE)
 
 
 def assessment_figure(result: Assessment, name: str | None = None) -> Figure:
     """Return a figure by its name."""
-    return _drawn(assessment_tables(result), named_figure(result, name), PAPER_SIZE)
+    return _drawn(result, named_figure(result, name), PAPER_SIZE)
 
 
 @drawing()
-def _drawn(result: AssessmentTables, name: str, size: Size) -> Figure:
+def _drawn(result: Assessment, name: str, size: Size) -> Figure:
     draw = {
         "drift": drift_figure,
         "effective_fraction": fraction_figure,
@@ -100,7 +94,7 @@ def _drawn(result: AssessmentTables, name: str, size: Size) -> Figure:
     return figure
 
 
-def fraction_figure(result: AssessmentTables, size: Size) -> Figure:
+def fraction_figure(result: Assessment, size: Size) -> Figure:
     """Mean largest drift with sliding goods over that of the model, against the share attached."""
     figure = Figure(figsize=(size.width, 5.9), layout="constrained")
     axes = figure.add_subplot()
@@ -132,31 +126,32 @@ def fraction_figure(result: AssessmentTables, size: Size) -> Figure:
     axes.set_ylabel(textwrap.fill(words, size.label // 2 + 6))
     axes.grid(color=GREY, alpha=0.25, linewidth=0.5)
     figure.legend(loc="outside upper center", ncols=1, frameon=False)
-    shown = STORAGE_CODES if result.code["use"] == "storage" else {}
+    shown = STORAGE_CODES if result.code.use == "storage" else {}
     figure.supxlabel(f"{_caption(result, size)}{marked_legend(shown)}", fontsize=7.5)
     return figure
 
 
-def _value(effective: Fraction) -> str:
-    if effective.interval is None or not np.isfinite(effective.interval).all():
-        return f"{effective.value:.2f}"
-    return f"{effective.value:.2f} [{effective.interval[0]:.2f}, {effective.interval[1]:.2f}]"
+def _value(effective: EffectiveMass) -> str:
+    ends = effective.suite_interval
+    known = ends is not None and np.isfinite(ends).all()
+    return f"{effective.value:.2f}{ends_text(*ends) if ends is not None and known else ''}"
 
 
-def _mark_shares(axes: Axes, result: AssessmentTables, size: Size) -> None:
+def _mark_shares(axes: Axes, result: Assessment, size: Size) -> None:
     """Mark the advised share and the code's, and name those of other codes at the upper edge."""
     code, present = result.code, result.present_share
     if result.advised is not None:
         label = f"advised: {result.advised:.2f} of the goods present"
         axes.axvline(result.advised, **ADVISED_ROLE.look, linewidth=1.2, label=label)
-    if code["share_of_design_live_load"] <= present:
+    if result.code_share <= present:
+        place = result.code_share / present
+        unchecked = "" if code.checked else f" {MARK} {NOT_CHECKED}"
         label = (
-            f"{plain(code['code'])}: {code['share_of_design_live_load'] / present:.2f} of the goods present "
-            f"({code['share_of_design_live_load']:.3g} of the design live load{_unchecked(code)})"
+            f"{plain(code.code)}: {place:.2f} of the goods present "
+            f"({result.code_share:.3g} of the design live load{unchecked})"
         )
-        place = code["share_of_design_live_load"] / present
         axes.axvline(place, **MODELS[CODE].look, linewidth=1.4, label=_wrapped(label, size))
-    if code["use"] != "storage" or size.columns == 1:  # a phone has no room for names
+    if code.use != "storage" or size.columns == 1:  # a phone has no room for names
         return
     marks = {name: share / present for name, share in STORAGE_CODES.items() if share <= present}
     upper = axes.secondary_xaxis("top")
@@ -164,7 +159,7 @@ def _mark_shares(axes: Axes, result: AssessmentTables, size: Size) -> None:
     upper.set_xticks(list(marks.values()), names, rotation=35.0, ha="left", fontsize=7.0)
 
 
-def drift_figure(result: AssessmentTables, size: Size) -> Figure:
+def drift_figure(result: Assessment, size: Size) -> Figure:
     """What each storey uses of its drift limit, and beside it the slip of its floor, ground at the bottom."""
     rows, slips = storey_drifts(result.storeys, result.governing), most_slip(result.slip)
     tall = 0.6 + size.row * min(len(rows), MOST_ROWS * (1 if size.caption == 0 else 2))
@@ -206,9 +201,9 @@ def _at_edge(axes: Axes, height: float, text: str, colour: str = INK) -> None:
     axes.text(1.02, height, text, transform=axes.get_yaxis_transform(), va="center", fontsize=7.5, color=colour)
 
 
-def _drift_panel(axes: Axes, result: AssessmentTables, rows: list[StoreyDrifts], size: Size) -> None:
+def _drift_panel(axes: Axes, result: Assessment, rows: list[StoreyDrifts], size: Size) -> None:
     """Drifts over the limit: goods that slide as a band, analyses as their numbers, the code's model as a tick."""
-    limit, answer = result.drift_limit, result.answer is not None
+    limit, answer = result.drift_limit, bool(result.answer.analyses)
     scale, unit = result.units.drifts(ratio=limit is not None)
     known = [value for row in rows for value in (row.largest, row.code or 0.0, *(row.scatter or ()))]
     right = 1.08 * scale * max(*known, 0.0 if limit is None else 1.0)
@@ -279,7 +274,7 @@ def _label_marks(axes: Axes, rows: list[StoreyDrifts], scale: float, near: float
 
 
 def _slip_panel(
-    axes: Axes, result: AssessmentTables, slips: dict[int, dict[str, Any]], base: dict[str, Any] | None, size: Size
+    axes: Axes, result: Assessment, slips: dict[int, dict[str, Any]], base: dict[str, Any] | None, size: Size
 ) -> None:
     """Slip at 84 % of the motions as a bar, its median as a tick, the clearance as a line, the largest as a number."""
     units = result.units
@@ -306,26 +301,26 @@ def _slip_panel(
     _title(axes, text if slips[floor]["peak_max"] else "No goods slide", int(0.7 * size.title))
 
 
-def spectrum_figure(result: AssessmentTables, size: Size) -> Figure:
+def spectrum_figure(result: Assessment, size: Size) -> Figure:
     """Mean and scatter of the spectra of the scaled motions beside the site spectrum, with the range of scaling."""
     table = result.spectra
     period = table["period"].to_numpy()
     figure = Figure(figsize=(size.width, 4.4), layout="constrained")
     axes = figure.add_subplot()
     low, mean, high = (table[name].to_numpy() / STANDARD_GRAVITY for name in ("p16", "mean", "p84"))
-    motions = len(result.document["suite"]["motions"])
+    motions = len(result.suite["motions"])
     axes.fill_between(period, low, high, color=SPECTRUM.colour, alpha=0.2, linewidth=0.0, label="16 to 84 % of them")
     axes.plot(period, mean, **SPECTRUM.look, linewidth=2.0, label=f"mean of {motions} motions, scaled")
     if table["target"].null_count() < table.height:
         wanted = table["target"].cast(pl.Float64).fill_null(np.nan).to_numpy() / STANDARD_GRAVITY
         axes.plot(period, wanted, **TARGET.look, linewidth=1.8, label=_wrapped("site spectrum", size))
-    data = result.document["input"]
+    data = result.input
     bare, attached = data["period_bare"], data["period_attached"]
     axes.axvline(bare, **BARE_ROLE.look, linewidth=1.1, label=f"first period {bare:.3g} s, {BARE_ROLE.name}")
     role = MODELS[ATTACHED]
     axes.axvline(attached, **role.look, linewidth=1.3, label=f"first period {attached:.3g} s, {role.name}")
-    if result.document["scaling"] is not None:
-        first, last = result.document["scaling"]["periods"]
+    if result.content["scaling"] is not None:
+        first, last = result.content["scaling"]["periods"]
         text = f"range of scaling, {first:.2g} to {last:.2g} s"
         axes.axvspan(first, last, color=GREY, alpha=0.12, linewidth=0.0, label=text)
     axes.set_xscale("log")
@@ -342,20 +337,14 @@ def spectrum_figure(result: AssessmentTables, size: Size) -> Figure:
     return figure
 
 
-def _unchecked(code: dict[str, Any]) -> str:
-    """Mark and words of a code whose fraction was not read in its text."""
-    return "" if code["status"] in (VERIFIED, AS_STATED) else f" {MARK} {NOT_CHECKED}"
-
-
 def _wrapped(text: str, size: Size) -> str:
     return textwrap.fill(text, size.label)
 
 
-def _caption(result: AssessmentTables, size: Size) -> str:
-    document = result.document
-    suite = document["suite"]
+def _caption(result: Assessment, size: Size) -> str:
+    suite, target = result.suite, result.content["target"]
     kind = " (synthetic, none recorded)" if suite["synthetic"] == len(suite["motions"]) else ""
-    lines = [f"{document['name']};  {len(suite['motions'])} motions{kind}"]
-    if document["target"] is not None and result.scaling is not None:
-        lines.append(f"scaled to {document['target']['label']}")
+    lines = [f"{result.name};  {len(suite['motions'])} motions{kind}"]
+    if target is not None and "scaling" in result.tables:
+        lines.append(f"scaled to {target['label']}")
     return plain("\n".join(textwrap.fill(line, size.caption) for line in lines))

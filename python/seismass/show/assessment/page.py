@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 import polars as pl
@@ -12,11 +11,10 @@ from markupsafe import Markup
 
 from seismass.assessment.answer import ANALYSIS_UNITS
 from seismass.assessment.models import NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
+from seismass.assessment.result import Assessment
 from seismass.base.arguments import ProgressLike
-from seismass.base.files import write_file
-from seismass.base.folders import as_written, read_folder
 from seismass.base.statistics import QUANTILES
-from seismass.effective_mass.result import KIND_TEXTS
+from seismass.effective_mass.result import KIND_TEXTS, EffectiveMass
 from seismass.effective_mass.rule import RULE_IN_WORDS
 from seismass.media.page import (
     Section,
@@ -33,14 +31,6 @@ from seismass.media.roles import EFFECTIVE, LAMBDA, OMEGA, OVER_MODEL, lettered,
 from seismass.media.text_table import number_text
 from seismass.show.assessment.page_input import Pictures, in_motion_html, input_html, motions_html, names_of
 from seismass.show.assessment.sheet import MOST_STOREYS, NOT_COVERED, running, sheet_html, storeys_html
-from seismass.show.assessment.tables import (
-    ANIMATION,
-    DOCUMENT,
-    TABLES,
-    AssessmentTables,
-    Fraction,
-    read_assessment_tables,
-)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -58,7 +48,7 @@ LIMITS: Final = (
 
 
 def building_page(
-    result: AssessmentTables,
+    result: Assessment,
     drawings: Mapping[str, str],
     for_phones: Mapping[str, str] | None = None,
     edited: Sequence[str] = (),
@@ -66,11 +56,10 @@ def building_page(
     """Return the page of an assessment as HTML, from SVG texts of its figures by name. It needs no other file; equal
     tables give equal pages. `edited` are files that were edited since they were written, which the page says first.
     """
-    document = result.document
     pictures = Pictures(drawings, for_phones or {})
     names = names_of(result)
 
-    def listed(lines: list[str]) -> Markup:
+    def listed(lines: Sequence[str]) -> Markup:
         return bullets_html(sentence_html(line, names) for line in lines)
 
     sections = [
@@ -78,18 +67,18 @@ def building_page(
         Section("Effective fraction", _fractions(result, pictures)),
         Section("Drifts", _drifts(result, pictures)),
         *([Section("Slip of the goods", _slip(result))] if result.slip.height else []),
-        Section("In an analysis", [listed([*document["advice"], *_further(result)]), *_analysis(result)]),
+        Section("In an analysis", [listed([*result.advice, *_further(result)]), *_analysis(result)]),
         Section("Checks", [_checks(result)]),
         Section("Motions", motions_html(result, pictures)),
         Section("The building in motion", in_motion_html(result)),
-        Section("Remarks", [listed(document["remarks"] or ["None."])]),
-        Section("Assumptions", [listed(document["assumptions"])]),
+        Section("Remarks", [listed(result.remarks or ["None."])]),
+        Section("Assumptions", [listed(result.assumptions)]),
         Section("Limits of this page", [bullets_html(LIMITS)]),
         Section("Provenance", _provenance(result)),
     ]
-    version = f"seismass {document['metadata']['package_version']}"
-    subtitle = "; ".join(part for part in (document["note"], version) if part)
-    title = document["name"] or "Building"
+    version = f"seismass {result.metadata['package_version']}"
+    subtitle = "; ".join(part for part in (result.content["note"], version) if part)
+    title = result.name or "Building"
     description = f"{title}: how much of its live load acts as mass in an earthquake, drifts, stability and slips."
     lead = [*edited_html(edited), sheet_html(result, pictures.sheet)]
     return page_html(title, sections, subtitle=subtitle, description=description, lead=lead, running=running(result))
@@ -107,19 +96,17 @@ def _headers(name: str, table: pl.DataFrame, **units: str) -> dict[str, str]:
     return {column: row["header"] + shown[column] for column, row in known.items()}
 
 
-def _interval(fraction: Fraction) -> str:
-    if fraction.interval is None:
-        return "\N{EN DASH}"
-    return f"{_number(fraction.interval[0])} to {_number(fraction.interval[1])}"
+def _interval(fraction: EffectiveMass) -> str:
+    ends = fraction.suite_interval
+    return "\N{EN DASH}" if ends is None else f"{_number(ends[0])} to {_number(ends[1])}"
 
 
-def _further(result: AssessmentTables) -> list[str]:
+def _further(result: Assessment) -> list[str]:
     """What governs which storeys, and by how much single motions and the drift cap change the answer."""
-    answer = result.answer or {"governs": [], "sensitivity": []}
-    return [f"{text[0].upper()}{text[1:]}." for text in (*answer["governs"], *answer["sensitivity"])]
+    return [f"{text[0].upper()}{text[1:]}." for text in (*result.answer.governs, *result.answer.sensitivity)]
 
 
-def _checks(result: AssessmentTables) -> Markup:
+def _checks(result: Assessment) -> Markup:
     rows = []
     for row in result.checks.iter_rows(named=True):
         in_percent = "drift ratio" in row["check"]
@@ -151,11 +138,11 @@ def _verdict(text: str) -> Markup:
     return Markup('<span class="{}">{}</span>').format(looks.get(text, ""), text)
 
 
-def _fractions(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
+def _fractions(result: Assessment, pictures: Pictures) -> list[Markup]:
     if not result.effective:
         return [text_html("There are no goods on the floors.")]
-    if result.answer is None:
-        return [text_html(f"There is none, because {lettered(result.document['reason'])}.")]
+    if not result.answer.analyses:
+        return [text_html(f"There is none, because {lettered(result.answer.reason or '')}.")]
     low, high = result.mu_factors
     words = {SLIDING: "as stated", SLIDING_HIGH: f"{high:g} times", SLIDING_LOW: f"{low:g} times"}
     rows = [
@@ -194,7 +181,7 @@ def _fractions(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     ]
 
 
-def _drifts(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
+def _drifts(result: Assessment, pictures: Pictures) -> list[Markup]:
     ratio = result.drift_limit is not None
     scale, unit = result.units.drifts(ratio=ratio)
     names = ("mean", *QUANTILES, "max")
@@ -208,7 +195,7 @@ def _drifts(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     note = f"The largest is {scale * row['governing']:.2f} {unit}, storey {row['storey']}, {row['governed_by']}."
     is_tall = len(result.storey_names) > MOST_STOREYS  # the first sheet has not all of them
     return [
-        *(storeys_html(result, len(result.storey_names)) if is_tall and result.answer is not None else []),
+        *(storeys_html(result, len(result.storey_names)) if is_tall and result.answer.analyses else []),
         pictures.figure(
             "drift",
             "What each storey uses of its drift limit, ground at the bottom: analyses by their numbers, goods that "
@@ -229,9 +216,9 @@ def _drifts(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     ]
 
 
-def _analysis(result: AssessmentTables) -> list[Markup]:
+def _analysis(result: Assessment) -> list[Markup]:
     """What to type into another program."""
-    if result.answer is None:
+    if not result.answer.analyses:
         return []
     table, units = result.analysis, result.units
     of_mass, of_weight = ANALYSIS_UNITS[units.name]
@@ -259,10 +246,10 @@ def _analysis(result: AssessmentTables) -> list[Markup]:
     ]
 
 
-def _slip(result: AssessmentTables) -> list[Markup]:
+def _slip(result: Assessment) -> list[Markup]:
     names = [f"peak_{name}" for name in ("mean", "median", "p84", "p84_low", "p84_high", "max")]
     names += ["residual_mean", "residual_p84"]
-    confidence = 100.0 * result.document["metadata"]["confidence"]
+    confidence = 100.0 * result.metadata["confidence"]
     table = result.slip.select("friction", "floor", "name", "goods", "mu_s", "mu_k", "motions_that_slide", *names)
     table = table.drop([name for name in ("name", "goods") if not any(table[name])])
     return [
@@ -279,9 +266,9 @@ def _slip(result: AssessmentTables) -> list[Markup]:
     ]
 
 
-def _provenance(result: AssessmentTables) -> list[Markup]:
-    facts = result.document["metadata"]
-    runs, models = result.runs.filter(storey=1).height, len(result.document["collapses"])
+def _provenance(result: Assessment) -> list[Markup]:
+    facts = result.metadata
+    runs, models = result.runs.filter(storey=1).height, len(result.collapses)
     return [
         facts_html(
             {
@@ -299,35 +286,24 @@ def _provenance(result: AssessmentTables) -> list[Markup]:
     ]
 
 
-def write_assessment_page(
-    folder: Path, target: Path, *, force: bool = False, progress: ProgressLike = None
-) -> tuple[str, ...]:
-    """Write the page of an assessment from the tables of its folder alone and return the files that were edited since
-    they were written, which are read with `force` alone. `progress` is called with (figures drawn, figures in all).
-    """
-    read = (DOCUMENT, ANIMATION, *(f"{name}.parquet" for name in TABLES))
-    files = read_folder(folder, read, force=force)
-    with as_written(folder):
-        tables = read_assessment_tables(files)
-        _, drawings = drawn_figures(tables, progress)
-        page = page_with(tables, drawings, files.edited)
-    write_file(target, page)
-    return files.edited
+def whole_page(result: Assessment, edited: tuple[str, ...] = (), progress: ProgressLike = None) -> str:
+    """Return the page with its figures; `edited` are files that were edited, `progress` is told of figures drawn."""
+    return page_with(result, drawn_figures(result, progress)[1], edited)
 
 
-def drawn_figures(tables: AssessmentTables, progress: ProgressLike = None) -> tuple[dict[str, Figure], dict[str, str]]:
+def drawn_figures(result: Assessment, progress: ProgressLike = None) -> tuple[dict[str, Figure], dict[str, str]]:
     """Figures and their SVG texts, each drawn once for its file and for the page."""
     from seismass.media.svg import figure_svgs
     from seismass.show.assessment.figures import assessment_figures
 
-    figures = assessment_figures(tables)
+    figures = assessment_figures(result)
     return figures, figure_svgs(figures, progress)
 
 
-def page_with(tables: AssessmentTables, drawings: dict[str, str], edited: tuple[str, ...] = ()) -> str:
+def page_with(result: Assessment, drawings: dict[str, str], edited: tuple[str, ...] = ()) -> str:
     """Return the page with the SVG texts of its figures; those for phones are drawn."""
     from seismass.media.svg import figure_svgs
     from seismass.show.assessment.figures import PHONE_SIZE, assessment_figures, sheet_figure
 
-    for_phones = figure_svgs(assessment_figures(tables, PHONE_SIZE) | {"sheet": sheet_figure(tables)})
-    return building_page(tables, drawings, for_phones, edited)
+    for_phones = figure_svgs(assessment_figures(result, PHONE_SIZE) | {"sheet": sheet_figure(result)})
+    return building_page(result, drawings, for_phones, edited)

@@ -10,6 +10,7 @@ import numpy as np
 import polars as pl
 from markupsafe import Markup
 
+from seismass.assessment.result import Assessment
 from seismass.base.errors import MissingPackage
 from seismass.base.units import STANDARD_GRAVITY, UNITS, Units
 from seismass.media.page import (
@@ -27,10 +28,9 @@ from seismass.media.page import (
 from seismass.media.page import PAGE as LIVE_PAGE
 from seismass.media.roles import MU, OMEGA, isolated, lettered, sentence_html
 from seismass.media.svg import short_svg
-from seismass.model.codes import AS_STATED, NOT_CHECKED, VERIFIED
+from seismass.model.codes import NOT_CHECKED
 from seismass.motions.records.builtin import builtin_suite
 from seismass.show.animation.html import element_html
-from seismass.show.assessment.tables import AssessmentTables
 from seismass.show.explore import kernel_file
 from seismass.show.explore.page import site_factors
 
@@ -41,15 +41,14 @@ MOST_MOTIONS: Final = 12
 """Motions that are named here."""
 
 
-def input_html(result: AssessmentTables) -> list[Markup]:
+def input_html(result: Assessment) -> list[Markup]:
     """Return facts of the whole building, the table of its storeys and that of its goods."""
     return [facts_html(facts(result)), _storeys(result), *_goods(result)]
 
 
-def facts(result: AssessmentTables) -> dict[str, str]:
+def facts(result: Assessment) -> dict[str, str]:
     """Return facts of the whole building by their names."""
-    data, code, document = result.document["input"], result.code, result.document
-    units = result.units
+    data, code, target, units = result.input, result.code, result.content["target"], result.units
     known: dict[str, str] = {}
     if data["file"]:
         known["File"] = isolated(data["file"])
@@ -80,16 +79,14 @@ def facts(result: AssessmentTables) -> dict[str, str]:
         ),
         "Limits": _with_source(_limits(data), data, "drift_limit", "theta_limit"),
         "Code": _with_source(
-            f"{code['code']}, {code['uses']}: {code['share_of_design_live_load']:.3g} of the design live load"
-            + "".join(f"; {code[name]}" for name in ("clause", "status", "note") if code[name])
-            + ("" if code["status"] in (VERIFIED, AS_STATED) else f"; {NOT_CHECKED}"),
+            f"{code.code}, {result.content['code']['uses']}: {result.code_share:.3g} of the design live load"
+            + "".join(f"; {part}" for part in (code.clause, code.status, code.note) if part)
+            + ("" if code.checked else f"; {NOT_CHECKED}"),
             data,
             "code",
         ),
-        "Site spectrum": _with_source(
-            "none" if document["target"] is None else document["target"]["label"], data, "site"
-        ),
-        "Motions": _motions(document["suite"]),
+        "Site spectrum": _with_source("none" if target is None else target["label"], data, "site"),
+        "Motions": _motions(result.suite),
     }
     return known
 
@@ -163,8 +160,8 @@ def _values(storeys: list[dict[str, Any]], name: str) -> str:
     return f"{values[0]:g}" if min(values) == max(values) else f"{min(values):g} to {max(values):g}"
 
 
-def _storeys(result: AssessmentTables) -> Markup:
-    data = result.document["input"]
+def _storeys(result: Assessment) -> Markup:
+    data = result.input
     rows, sources, units = data["storeys"], data["sources"], result.units
     table = pl.DataFrame(rows, infer_schema_length=None).with_columns(
         dead_load=STANDARD_GRAVITY * (pl.col("mass") - pl.col("bolted")) / pl.col("area").cast(pl.Float64),
@@ -208,19 +205,19 @@ def _storeys(result: AssessmentTables) -> Markup:
     )
 
 
-def _bolted_load(result: AssessmentTables, storey: int) -> float:
+def _bolted_load(result: Assessment, storey: int) -> float:
     """Design live load of the bolted goods of a floor (kg)."""
-    kinds = result.document["input"]["goods"]
+    kinds = result.input["goods"]
     return sum(float(kind["live_load"]) for kind in kinds if kind["attached"] and kind["floor"] == storey)
 
 
-def _goods(result: AssessmentTables) -> list[Markup]:
+def _goods(result: Assessment) -> list[Markup]:
     """Goods of each kind on each floor."""
-    rows, units = result.document["input"]["goods"], result.units
+    rows, units = result.input["goods"], result.units
     if not rows:
         return []
-    area = {row["storey"]: row["area"] for row in result.document["input"]["storeys"]}
-    sources = result.document["input"]["sources"]
+    area = {row["storey"]: row["area"] for row in result.input["storeys"]}
+    sources = result.input["sources"]
     table = pl.DataFrame(rows, infer_schema_length=None).with_columns(
         pl.Series("area", [np.nan if area[row["floor"]] is None else area[row["floor"]] for row in rows]),
         contact=pl.when("attached").then(pl.lit("bolted")).otherwise("contact"),
@@ -286,9 +283,9 @@ class Outcome(NamedTuple):
     differences: tuple[str, ...]
 
 
-def live_case(result: AssessmentTables) -> Outcome:
+def live_case(result: Assessment) -> Outcome:
     """Return the case of an assessed building."""
-    data = result.document["input"]
+    data = result.input
     storeys, loose = data["storeys"], [kind for kind in data["goods"] if not kind["attached"] and kind["mass"] > 0.0]
     reasons = []
     if len(storeys) > MOST_STOREYS:
@@ -303,7 +300,7 @@ def live_case(result: AssessmentTables) -> Outcome:
         reasons.append("its goods stand on racks")
     if any(kind["stops"] is not None for kind in loose):
         reasons.append("its goods have stops")
-    if result.document.get("tipping"):
+    if result.content.get("tipping"):
         reasons.append("some of its goods tip before they slide")
     if data["damping_from_storey"] > 1:
         reasons.append("its lowest storeys are not damped")
@@ -320,8 +317,8 @@ def live_case(result: AssessmentTables) -> Outcome:
     return Outcome(case, (), tuple(DIFFERENCES[key] for key in case.differs))
 
 
-def _case(result: AssessmentTables, storeys: list[dict[str, Any]], loose: list[dict[str, Any]]) -> LiveCase:
-    data = result.document["input"]
+def _case(result: Assessment, storeys: list[dict[str, Any]], loose: list[dict[str, Any]]) -> LiveCase:
+    data = result.input
     mass = np.array([row["mass"] for row in storeys])
     stiffness = np.array([row["stiffness"] for row in storeys])
     weight = STANDARD_GRAVITY * float(mass.sum())
@@ -337,11 +334,11 @@ def _case(result: AssessmentTables, storeys: list[dict[str, Any]], loose: list[d
     mu_s = np.where(loaded, static / np.where(loaded, ratio, 1.0), least[0])
     mu_k = np.where(loaded, kinetic / np.where(loaded, ratio, 1.0), least[0])
     elastic = any(row["yield_shear"] is None for row in storeys)
-    counted = result.code["share_of_design_live_load"] / result.present_share if result.present_share > 0.0 else 0.0
-    suite, fraction = result.document["suite"], result.effective.get("real")
+    counted = result.code_share / result.present_share if result.present_share > 0.0 else 0.0
+    suite, fraction = result.suite, result.effective.get("real")
     is_built_in = suite["motions"] == [record.name for record in builtin_suite("seven")]
-    site = None if is_built_in else site_factors(result.document["target"], data["period_attached"])
-    factors = (result.document["factors"] or [1.0] * len(suite["motions"])) if is_built_in else site
+    site = None if is_built_in else site_factors(result.content["target"], data["period_attached"])
+    factors = (result.content["factors"] or [1.0] * len(suite["motions"])) if is_built_in else site
     known = {key: [row[key] for row in storeys] for key in ("overstrength", "second_slope", "third_slope")}
     cap = data["drift_cap"]
     differs = {
@@ -358,8 +355,8 @@ def _case(result: AssessmentTables, storeys: list[dict[str, Any]], loose: list[d
     }
     answer = (
         ()
-        if fraction is None or fraction.interval is None
-        else (fraction.value, *fraction.interval, len(suite["motions"]))
+        if fraction is None or fraction.suite_interval is None
+        else (fraction.value, *fraction.suite_interval, len(suite["motions"]))
     )
     return LiveCase(
         period=data["period_bare"],
@@ -404,19 +401,18 @@ class Pictures:
         return figure_html(short_svg(self._drawings[name]), caption, alt, narrow=narrow)
 
 
-def names_of(result: AssessmentTables) -> list[str]:
+def names_of(result: Assessment) -> list[str]:
     """Return the names of the user's that sentences may contain."""
-    document = result.document
-    kinds = [kind["name"] for kind in document["input"]["goods"]]
-    return [document["name"], document["suite"]["name"], *result.storey_names, *kinds, *document["suite"]["motions"]]
+    kinds = [kind["name"] for kind in result.input["goods"]]
+    return [result.name, result.suite["name"], *result.storey_names, *kinds, *result.suite["motions"]]
 
 
-def motions_html(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
+def motions_html(result: Assessment, pictures: Pictures) -> list[Markup]:
     """Return on which motions the answer stands, their spectra, and their factors."""
-    data, target, units = result.document["input"], result.document["target"], result.units
+    data, target, units = result.input, result.content["target"], result.units
     site = "" if target is None else " beside the site spectrum"
     parts = [
-        text_html(sentence_html(f"The answer stands {result.document['on_motions']}.")),
+        text_html(sentence_html(f"The answer stands {result.answer.motions}.")),
         pictures.figure(
             "spectrum",
             f"Spectra of the motions as they load the building{site}; first periods without goods and with all.",
@@ -424,11 +420,11 @@ def motions_html(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
             f"{data['period_attached']:.3g} s.",
         ),
     ]
-    if result.scaling is not None:
-        left_out = pl.DataFrame(result.document["left_out"], schema=dict.fromkeys(LEFT_OUT, pl.Float64))
+    if "scaling" in result.tables:
+        left_out = pl.DataFrame(result.content["left_out"], schema=dict.fromkeys(LEFT_OUT, pl.Float64))
         parts.append(
             table_html(
-                result.scaling.hstack(left_out),
+                result.tables["scaling"].hstack(left_out),
                 "Scaling factors: that of each motion is its own times the common one. PGV and PGD when scaled; "
                 "largest effective fraction and governing drift without the motion.",
                 headers={
@@ -449,7 +445,7 @@ def motions_html(result: AssessmentTables, pictures: Pictures) -> list[Markup]:
     return parts
 
 
-def in_motion_html(result: AssessmentTables) -> list[Markup]:
+def in_motion_html(result: Assessment) -> list[Markup]:
     """Return the building under one motion, and the way to the live page."""
     parts = []
     if result.animation is not None:
@@ -471,7 +467,7 @@ def in_motion_html(result: AssessmentTables) -> list[Markup]:
     return [*parts, *_live(result)]
 
 
-def _live(result: AssessmentTables) -> list[Markup]:
+def _live(result: Assessment) -> list[Markup]:
     case, reasons, differences = live_case(result)
     if case is None:
         return [text_html(f"The live page cannot show this building: {'; '.join(reasons)}.")]

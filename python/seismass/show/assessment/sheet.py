@@ -12,6 +12,7 @@ from seismass.assessment.advice import SCALING, slip_ends
 from seismass.assessment.answer import deciding
 from seismass.assessment.checks import CAPPED_DRIFT, ONE_ANALYSIS, friction_words
 from seismass.assessment.models import NAMES, SLIDING_ALL
+from seismass.assessment.result import Assessment
 from seismass.assessment.structure import slip_of_base
 from seismass.base.statistics import quantile
 from seismass.effective_mass.rule import RULE_UNKNOWN
@@ -20,7 +21,7 @@ from seismass.media.roles import apart, isolated, sentence_html
 from seismass.model.codes import FROM_MEMORY, MARK, SECOND_HAND
 from seismass.show.assessment.drawing import ROOM, building_drawing
 from seismass.show.assessment.page_input import SPRINGS, facts
-from seismass.show.assessment.tables import AssessmentTables, most_slip, quantity_text, short_words
+from seismass.show.assessment.tables import most_slip, quantity_text, short_words
 
 HEAD: Final = {
     "name": "Project",
@@ -53,10 +54,10 @@ CHECKS: Final = {CAPPED_DRIFT: "storey drift", "stability coefficient": "stabili
 """Checks whose largest value stands on the sheet, with their words."""
 
 
-def running(result: AssessmentTables) -> dict[str, str]:
+def running(result: Assessment) -> dict[str, str]:
     """Return what stands in the margins of every sheet, by their place."""
-    project, version = result.document["project"], result.document["metadata"]["package_version"]
-    head = (project["name"] or result.document["name"], project["number"], TITLE)
+    project, version = result.content["project"], result.metadata["package_version"]
+    head = (project["name"] or result.name, project["number"], TITLE)
     return {
         "top-left": ", ".join(part for part in head if part),
         "top-right": f"Revision {project['revision'] or '____'}",
@@ -64,15 +65,15 @@ def running(result: AssessmentTables) -> dict[str, str]:
     }
 
 
-def _file(result: AssessmentTables) -> str:
+def _file(result: Assessment) -> str:
     """The file and its digest; that of the inputs where there is none."""
-    data = result.document["input"]
+    data = result.input
     if not data["file_sha256"]:
-        return f"inputs SHA-256 {result.document['metadata']['inputs_sha256'][:DIGEST]}"
+        return f"inputs SHA-256 {result.metadata['inputs_sha256'][:DIGEST]}"
     return f"{data['file']}, SHA-256 {data['file_sha256'][:DIGEST]}"
 
 
-def sheet_html(result: AssessmentTables, figure: str = "") -> Markup:
+def sheet_html(result: Assessment, figure: str = "") -> Markup:
     """Return the sheet: one side of A4 on paper; `figure` is that of drifts and slips."""
     return Markup(
         '<div class="sheet">{head}<div class="sheet-body"><div><figure class="building">{drawing}<figcaption>{caption}'
@@ -87,15 +88,15 @@ def sheet_html(result: AssessmentTables, figure: str = "") -> Markup:
         kind=box_class(result),
         answer=text_html(*answer_lines(result)),
         figure=figure,
-        storeys=Markup("").join(_collapses(result) if result.answer is None else storeys_html(result, MOST_STOREYS)),
+        storeys=Markup("").join(storeys_html(result, MOST_STOREYS) if result.answer.analyses else _collapses(result)),
         checks=_verdicts(result),
         notes=text_html(*_method(result), Markup('<small class="limits">{}</small>').format(NOT_COVERED)),
         signatures=_entries({f"{words}, date and signature": "" for words in ("Made", "Checked")}, " signatures"),
     )
 
 
-def _head(result: AssessmentTables) -> Markup:
-    stated = {words: result.document["project"][key] for key, words in HEAD.items()}
+def _head(result: Assessment) -> Markup:
+    stated = {words: result.content["project"][key] for key, words in HEAD.items()}
     return _entries({**stated, "Calculation": TITLE, "File": _file(result)})
 
 
@@ -105,21 +106,21 @@ def _entries(rows: dict[str, str], kind: str = "") -> Markup:
     return Markup('<dl class="head{}">{}</dl>').format(kind, cells)
 
 
-def _drawing_caption(result: AssessmentTables) -> str:
-    data = result.document["input"]
+def _drawing_caption(result: Assessment) -> str:
+    data = result.input
     heights = {row["height"] for row in data["storeys"]} - {None}
     high = f"; storeys {result.units.text('height', heights.pop(), '.3g')} high" if len(heights) == 1 else ""
     springs = "; k and V_y of the storey below" * (len(data["storeys"]) <= ROOM)
     if not data["goods"]:
         return f"The building; there are no goods{springs}{high}."
-    stays = any(kind["attached"] for kind in data["goods"]) or result.document["tipping"]
+    stays = any(kind["attached"] for kind in data["goods"]) or result.tipping.height
     grey = "; grey: mass of the floor, bolted or staying" if stays else ""
     return f"W of the floor, goods present of the design live load, friction (static/kinetic){springs}{high}{grey}."
 
 
-def _design(result: AssessmentTables) -> Markup:
+def _design(result: Assessment) -> Markup:
     """W, T, C_s, V and V_y with their clauses."""
-    inputs = result.document["input"]
+    inputs = result.input
     rows, sentences = inputs["code_design"], []
     for direction in dict.fromkeys(row["direction"] for row in rows):
         numbers = [row for row in rows if row["direction"] == direction]
@@ -140,10 +141,10 @@ def _clause(row: dict[str, Any]) -> str:
     return f" ({row['clause']}{mark})" if row["clause"] else ""
 
 
-def _verdicts(result: AssessmentTables) -> Markup:
+def _verdicts(result: Assessment) -> Markup:
     """Largest value of each check with its limit, and its use in per cent of the limit."""
     units, rows, references = result.units, [], _cited(result)
-    motions = len(result.document["suite"]["motions"])
+    motions = len(result.suite["motions"])
     most = result.checks.filter(check="collapsed runs").sort("value", descending=True).row(0, named=True)
     where = _model_words(result, most["model"]) if most["value"] else "all models"
     rows.append(("collapsed runs", f"{most['value']:.0f} of {motions}", "0", "", where, ""))
@@ -177,7 +178,7 @@ def _verdicts(result: AssessmentTables) -> Markup:
     )
 
 
-def worst_of(result: AssessmentTables, check: str) -> tuple[dict[str, Any] | None, str]:
+def worst_of(result: Assessment, check: str) -> tuple[dict[str, Any] | None, str]:
     """Return the model with the largest value of a check, and why some model has none; None without such a check."""
     rows = result.checks.filter(check=check)
     missing, known = rows.filter(pl.col("value").is_null()), rows.drop_nulls("value").sort("value", descending=True)
@@ -186,10 +187,10 @@ def worst_of(result: AssessmentTables, check: str) -> tuple[dict[str, Any] | Non
     return (known.row(0, named=True) if known.height else None), ""
 
 
-def _references(result: AssessmentTables) -> dict[str, str]:
+def _references(result: Assessment) -> dict[str, str]:
     """Clauses by what they are of, in their order on the sheet."""
-    code, rule = result.code, result.document["input"]["drift_limit_rule"]
-    known = {"share": f"share of the code: {', '.join(part for part in (code['code'], code['clause']) if part)}"}
+    code, rule = result.code, result.input["drift_limit_rule"]
+    known = {"share": f"share of the code: {', '.join(part for part in (code.code, code.clause) if part)}"}
     if result.drift_limit is not None:
         limit = "limit as stated" if rule is None else f"{rule['code']}, {rule['clause']}"
         stable = str(result.checks.filter(check="stability coefficient")["source"][0]).partition(" (")[0]
@@ -197,7 +198,7 @@ def _references(result: AssessmentTables) -> dict[str, str]:
     return known
 
 
-def _cited(result: AssessmentTables) -> dict[str, str]:
+def _cited(result: Assessment) -> dict[str, str]:
     """The references as their numbers are cited: "[1]"."""
     return {name: f"[{number}]" for number, name in enumerate(_references(result), start=1)}
 
@@ -213,11 +214,11 @@ def _governs(model: str) -> Markup:
     return Markup('<span class="whole">{}</span>').format(sentence_html(short_words(model) or model))
 
 
-def _model_words(result: AssessmentTables, model: str) -> str:
+def _model_words(result: Assessment, model: str) -> str:
     return (ONE_ANALYSIS | result.called).get(model, NAMES[model])
 
 
-def storeys_html(result: AssessmentTables, most: int) -> list[Markup]:
+def storeys_html(result: Assessment, most: int) -> list[Markup]:
     """Return what governs storeys and what they use of the limit, of a tall building those `most` that drift most."""
     table = result.governing
     ratio = result.drift_limit is not None
@@ -239,7 +240,7 @@ def storeys_html(result: AssessmentTables, most: int) -> list[Markup]:
     return [table_html(pl.DataFrame(rows), f"{caption}, {unit}.", formats={**formats, "governs": _governs})]
 
 
-def _collapses(result: AssessmentTables) -> list[Markup]:
+def _collapses(result: Assessment) -> list[Markup]:
     """Of each model that collapses the motions, the storey with the largest drift in them, and the median drift."""
     scale, unit = result.units.drifts(ratio=result.drift_limit is not None)
     column = "peak_drift" if result.drift_limit is None else "peak_drift_ratio"
@@ -264,17 +265,17 @@ def _collapses(result: AssessmentTables) -> list[Markup]:
     return [table_html(pl.DataFrame(rows), caption)] if rows else []
 
 
-def _method(result: AssessmentTables) -> list[Markup]:
+def _method(result: Assessment) -> list[Markup]:
     """Method in four lines with formulas, the check by hand, and references."""
-    data = result.document["input"]
+    data = result.input
     low, high = result.mu_factors
     cited = _cited(result)
-    of_load = f"{result.code['share_of_design_live_load']:.3g} of the design live load {cited['share']}"
+    of_load = f"{result.code_share:.3g} of the design live load {cited['share']}"
     limits = "none, since heights are not known"
     if result.drift_limit is not None:
         drift, stable = (cited[check] for check in CHECKS)
         limits = f"d/h up to {result.drift_limit:g} {drift}, P d/(V h) up to {data['theta_limit']:g} {stable}"
-    rules = [text for text in result.document["assumptions"] if text.startswith(SCALING)]
+    rules = [text for text in result.assumptions if text.startswith(SCALING)]
     scaled = rules[0].removeprefix(SCALING) if rules else "taken as they are."
     lines = [
         "1 Model: trilinear springs V of storeys; goods are blocks that stick up to mu_s m g and slide against mu_k m "
@@ -292,41 +293,40 @@ def _method(result: AssessmentTables) -> list[Markup]:
     return [*made, Markup("<strong>References.</strong> {}; strengths: clauses beside them.").format(numbered)]
 
 
-def _by_hand(result: AssessmentTables) -> str:
+def _by_hand(result: Assessment) -> str:
     """The rule by hand in numbers beside what the runs give, or why it is not applied."""
-    unknown = [text for text in result.document["remarks"] if text.startswith(RULE_UNKNOWN)]
+    unknown = [text for text in result.remarks if text.startswith(RULE_UNKNOWN)]
     if unknown:
         return f"Not applied: {'; '.join(unknown)}."
     decisive = deciding(result.effective)
     one, factors = result.effective[decisive], dict(zip(SLIDING_ALL, (1.0, *result.mu_factors), strict=True))
-    runs = f" The runs give {one.value:.2f}." if result.answer is not None else " The runs give no answer."
+    runs = f" The runs give {one.value:.2f}." if result.answer.analyses else " The runs give no answer."
     by_hand = one.by_hand.words_in(result.units, factors[decisive])
     return f"At {friction_words(result.mu_factors)[decisive]} lambda = {by_hand}.{runs}"
 
 
-def box_class(result: AssessmentTables) -> str:
+def box_class(result: Assessment) -> str:
     """Return the class of the box: green only with an answer, without doubts, and with no check that fails."""
     failed = result.checks.filter(met=False).height
-    return "answer" if result.answer is not None and not failed and not result.document["doubts"] else "answer bad"
+    return "answer" if result.answer.analyses and not failed and not result.answer.doubts else "answer bad"
 
 
-def answer_lines(result: AssessmentTables) -> list[Markup]:
+def answer_lines(result: Assessment) -> list[Markup]:
     """Return the lines of the box."""
-    document, answer = result.document, result.answer
-    names = result.storey_names
-    lines = [Markup('<strong class="warn">{}</strong>').format(doubt) for doubt in document["doubt_lines"]]
-    lines.append(Markup("<strong>{}</strong>").format(sentence_html(document["statement"], names)))
-    if answer is not None:
-        pair = zip(result.called.values(), answer["pair"], strict=True)
-        lines.append(sentence_html(_sentence(answer["opening"])))
+    answer, names = result.answer, result.storey_names
+    lines = [Markup('<strong class="warn">{}</strong>').format(doubt) for doubt in answer.doubt_lines]
+    lines.append(Markup("<strong>{}</strong>").format(sentence_html(answer.statement, names)))
+    if answer.analyses:
+        pair = zip(result.called.values(), answer.pair, strict=True)
+        lines.append(sentence_html(_sentence(answer.opening)))
         lines += [
             Markup("<strong>{}</strong>").format(sentence_html(_sentence(f"{called}: {words}")))
             for called, words in pair
         ]
-        present, *amounts = answer["goods"]
-        parts = [f"Goods present: {present}.", *map(_sentence, amounts), f"Why: {answer['why']}."]
+        present, *amounts = answer.goods
+        parts = [f"Goods present: {present}.", *map(_sentence, amounts), f"Why: {answer.why}."]
         lines += [sentence_html(line, names) for line in parts]
-    lines += [sentence_html(_sentence(document["on_motions"])), _checks_met(result)]
+    lines += [sentence_html(_sentence(answer.motions)), _checks_met(result)]
     return lines
 
 
@@ -334,7 +334,7 @@ def _sentence(text: str) -> str:
     return f"{text[0].upper()}{text[1:]}."
 
 
-def _checks_met(result: AssessmentTables) -> Markup:
+def _checks_met(result: Assessment) -> Markup:
     """What drift and stability use of their limits, whether runs collapse, and what is not defined."""
     parts, good = [], True
     for check, words in CHECKS.items():
@@ -343,13 +343,13 @@ def _checks_met(result: AssessmentTables) -> Markup:
             continue
         if why:
             parts.append(f"{words} has no value: {why}")
-            good = good and result.document["input"]["walls"]
+            good = good and result.input["walls"]
             continue
         use = worst["value"] / worst["limit"]
         good = good and use <= 1.0
         parts.append(f"{words} uses {100.0 * use:.0f} % of its limit")
     fallen = int(result.checks.filter(check="collapsed runs")["value"].max() or 0)  # type: ignore[arg-type]
-    motions = len(result.document["suite"]["motions"])
+    motions = len(result.suite["motions"])
     parts.append(f"runs collapse under up to {fallen} of {motions} motions" if fallen else "no run collapses")
     above = result.storeys["motions_above_limit"].drop_nulls().to_numpy()
     if above.size and above.max():

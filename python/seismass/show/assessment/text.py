@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import polars as pl
 
-from seismass.assessment.answer import analysis_table, deciding
+from seismass.assessment.answer import deciding
 from seismass.assessment.checks import friction_words
 from seismass.assessment.models import ADVISED, BARE, CODE, NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW, friction_factors
 from seismass.assessment.result import Assessment
@@ -21,20 +21,10 @@ from seismass.base.errors import InvalidOption
 from seismass.base.folders import check_out, write_folder
 from seismass.base.values import as_path
 from seismass.effective_mass.rule import RULE_UNKNOWN
-from seismass.media.result import PAGE, result_files, stored_tables
+from seismass.media.result import ANIMATION, PAGE, result_files, stored_tables
 from seismass.media.text_table import text_table
-from seismass.model.codes import CODE_NAMES, FROM_MEMORY, MARK, NOT_CHECKED, SECOND_HAND
-from seismass.show.assessment.tables import (
-    ANIMATION,
-    DOCUMENT,
-    FIGURES,
-    TABLES,
-    assessment_tables,
-    most_slip,
-    quantity_text,
-    short_words,
-    storey_drifts,
-)
+from seismass.model.codes import FROM_MEMORY, MARK, NOT_CHECKED, SECOND_HAND
+from seismass.show.assessment.tables import animated, most_slip, quantity_text, short_words, storey_drifts
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -45,16 +35,15 @@ BAR: Final = 36
 """Columns of a bar of drifts."""
 LONGEST_NAME: Final = 28
 """Letters of a name in a table."""
+FIGURES: Final = ("drift", "effective_fraction", "slip", "spectrum")
+"""Names of all figures, those of earlier versions too; what is not written again is removed."""
 _STABLE: Final = (ADVISED, BARE, SLIDING, SLIDING_HIGH, SLIDING_LOW, CODE)
 """Models whose drifts and stability coefficients are printed, in this order; that with all goods is in the tables."""
 
 
 def assessment_text(result: Assessment) -> str:
     """Return the page as text."""
-    building = result.building
-    lines = [building.name]
-    if building.note:
-        lines.append(f"  {building.note}")
+    lines = [result.name, *([f"  {note}"] if (note := result.content["note"]) else [])]
     lines += ["", *_answer(result), "", *storey_bars(result), "", *_drifts(result)]
     if result.slip.height and (result.slip.group_by("model", "floor").len()["len"] > 1).any():
         lines += ["", *_slips(result)]
@@ -106,34 +95,33 @@ def _answer(result: Assessment) -> list[str]:
 
 def _code(result: Assessment) -> str:
     """The code's fraction on the base of the shares, with its own in brackets."""
-    code, share = result.building.code, result.building.present_share
-    of_load = result.building.code_share
+    code, share, of_load = result.code, result.present_share, result.code_share
+    called = f"{code.code}{code.mark}, {result.content['code']['uses']}"
     spread = f", range {code.low:g} to {code.high:g}" if code.low < code.high else ""
     source = "".join(f"; {part}" for part in (code.clause, code.status, "" if code.checked else NOT_CHECKED) if part)
     return (
-        f"{code.code}{code.mark}, {result.building.uses}: {of_load / share:.2f} of the goods present ({of_load:.3g} of "
-        f"the design live load{spread}){source}"
+        f"{called}: {of_load / share:.2f} of the goods present ({of_load:.3g} of the design live load{spread}){source}"
     )
 
 
 def _by_hand(result: Assessment) -> str:
     """The rule at the friction that decides, and at the others."""
-    decisive, words = deciding(result.effective), friction_words(result.building.mu_factors)
+    decisive, words = deciding(result.effective), friction_words(result.mu_factors)
     others = (f"{words[name]} {one.by_hand.estimate:.2f}" for name, one in result.effective.items() if name != decisive)
-    rest, factor = ", ".join(others), friction_factors(result.building)[decisive]
+    rest, factor = ", ".join(others), friction_factors(result.mu_factors)[decisive]
     return (
-        f"{words[decisive]}: {result.effective[decisive].by_hand.words_in(result.building.shown, factor)}"
+        f"{words[decisive]}: {result.effective[decisive].by_hand.words_in(result.units, factor)}"
         + f"; with {rest}" * bool(rest)
     )
 
 
 def _label(result: Assessment, model: str) -> str:
     """Heading of a model's column, short."""
-    low, high = result.building.mu_factors
+    low, high = result.mu_factors
     return {
         ADVISED: "analysis 1",
         BARE: {0: "no goods", 1: "the analysis"}.get(len(result.answer.pair), "analysis 2"),
-        CODE: f"code {result.building.code_share:.3g}{result.building.code.mark}",
+        CODE: f"code {result.code_share:.3g}{result.code.mark}",
         SLIDING: "slide, mu",
         SLIDING_HIGH: f"mu x {high:g}",
         SLIDING_LOW: f"mu x {low:g}",
@@ -156,11 +144,11 @@ def _named(*parts: Any) -> str:
 
 def storey_bars(result: Assessment) -> list[str]:
     """What each storey uses of its limit, as the figure draws it, and the slip to allow for on its floor."""
-    rows, slips, units = storey_drifts(result.storeys, result.governing), most_slip(result.slip), result.building.shown
-    limit = result.building.heights is not None
+    rows, slips, units = storey_drifts(result.storeys, result.governing), most_slip(result.slip), result.units
+    limit = result.drift_limit is not None
     scale, unit = units.drifts(ratio=limit)
     right = 1.05 * max([row.largest for row in rows] + [row.scatter[1] for row in rows if row.scatter] + [1.0] * limit)
-    clear = {kind.floor: kind.stops.clearance for kind in result.building.loose if kind.stops is not None}
+    clear = result.clearances
 
     def place(value: float) -> int:
         return min(BAR - 1, int(value / right * BAR))
@@ -186,9 +174,11 @@ def storey_bars(result: Assessment) -> list[str]:
     parts += ["= goods that slide, over the frictions", "c the model of the code"] * (rows[0].sliding is not None)
     parts += ["- 16 to 84 % of the motions", *["| the limit"] * limit]
     shown = [index for index in range(5) if any(row[index] for row in table)]
-    title = f"What each storey uses of its drift limit, {100.0 * result.building.drift_limit:g} % of the height"
+    title = f"Drift of each storey, {unit}"
+    if result.drift_limit is not None:
+        title = f"What each storey uses of its drift limit, {100.0 * result.drift_limit:g} % of the height"
     return [
-        title if limit else f"Drift of each storey, {unit}",
+        title,
         *text_table([[row[index] for index in shown] for row in table], left=5),
         *(f"  {line}" for line in textwrap.wrap("; ".join(parts), WIDTH)),
     ]
@@ -199,10 +189,10 @@ def _of(result: Assessment, storey: int, model: str) -> dict[str, Any]:
 
 
 def _drifts(result: Assessment) -> list[str]:
-    building, models = result.building, _models(result)
-    scale, unit = building.shown.drifts(ratio=building.heights is not None)
-    unit += " of the height" * (building.heights is not None)
-    limit = "" if building.heights is None else f"; limit {100.0 * building.drift_limit:g} %"
+    models, most = _models(result), result.drift_limit
+    scale, unit = result.units.drifts(ratio=most is not None)
+    unit += " of the height" * (most is not None)
+    limit = "" if most is None else f"; limit {100.0 * most:g} %"
     motions = len(result.suite["motions"])
     governed = bool(result.answer.analyses)
     lines = [f"Peak storey drift, {unit}: capped mean of {motions} motions{limit}"]
@@ -215,8 +205,8 @@ def _drifts(result: Assessment) -> list[str]:
             drift = _marked(row["governing"], row["governing_over_limit"], scale)
             cells.append(f"{drift} {short_words(row['governed_by'])}".rstrip())
         rows.append([label, *cells])
-    if building.heights is not None:
-        above = [f"{_above(result, model)} of {motions}" for model in models]
+    if most is not None:
+        above = [f"{_above(result, model, most)} of {motions}" for model in models]
         rows.append(["motions above limit", *above, *([""] if governed else [])])
     lines += text_table(rows)
     marks = "".join("".join(row[1:]) for row in rows[1:])
@@ -230,7 +220,7 @@ def _marked(mean: float, over_limit: float | None, scale: float) -> str:
 
 def _slips(result: Assessment) -> list[str]:
     """Slip of each kind of goods, where a floor has several."""
-    units, motions = result.building.shown, len(result.suite["motions"])
+    units, motions = result.units, len(result.suite["motions"])
     shown, columns = ("peak_median", "peak_p84", "peak_max"), stored_tables("assessment")["slip"][1]
     rows = [["floor and goods", "mu_s/mu_k", "slides in", *(columns[name]["header"] for name in shown)]]
     for row in result.slip.filter(pl.col("model").is_in([SLIDING, SLIDING_LOW])).iter_rows(named=True):
@@ -253,40 +243,38 @@ def _analysis(result: Assessment) -> list[str]:
         "For another program: mass of each floor, and multiplier of the design live load in the mass source",
         "  (--mass-source FILE.e2k or FILE.s2k writes both for ETABS or SAP2000)",
     ]
-    units = result.building.shown
+    units = result.units
     mass, force = units.unit("mass"), units.unit("force")
     head = [f"analysis 1: {mass}", force, "multiplier", f"analysis 2: {mass}", force, "multiplier"]
     forms, single = 2 * (units.of("mass")[2], ".0f", ".2f"), len(result.answer.pair) == 1
     rows = [["floor", *([mass, *head[1:3]] if single else head)]]
-    for floor, name, *values in analysis_table(result.answer, result.building).iter_rows():
+    for floor, name, *values in result.analysis.iter_rows():
         texts = [f"{value:{form}}" for value, form in zip(values, forms, strict=True)]
         rows.append([_named(floor, name), *texts[: len(rows[0]) - 1]])
     return lines + text_table(rows)
 
 
-def _above(result: Assessment, model: str) -> int:
+def _above(result: Assessment, model: str, limit: float) -> int:
     """Motions under which the drift of some storey is above the limit."""
     rows = result.runs.filter(pl.col("model") == model)
-    above_limit = rows.filter(pl.col("collapsed") | (pl.col("peak_drift_ratio") > result.building.drift_limit))
+    above_limit = rows.filter(pl.col("collapsed") | (pl.col("peak_drift_ratio") > limit))
     return above_limit["motion"].n_unique()
 
 
 def _design(result: Assessment) -> list[str]:
     """W, T, C_s, V and V_y of each storey, each with its clause."""
-    table = result.tables["design"]
-    lines = [f"Design of the strengths by {CODE_NAMES[result.building.rules_code]}"]
-    if result.building.design is None:
-        lines = ["Strengths as stated"]
+    stated = result.input["design"] is None
+    title = "Strengths as stated" if stated else f"Design of the strengths by {result.input['code_of_design']}"
     rows = [["", "value", "clause", "what it is"]]
-    for row in table.iter_rows(named=True):
+    for row in result.tables["design"].iter_rows(named=True):
         mark = MARK if row["status"] in (SECOND_HAND, FROM_MEMORY) else ""
         name = " ".join(
             str(part) for part in (row["direction"], row["quantity"], row["storey"]) if part not in ("", None)
         )
         note = textwrap.shorten(row["note"], WIDTH - 60, placeholder=" ...")
-        rows.append([name, quantity_text(row["value"], row["unit"], result.building.shown), row["clause"] + mark, note])
+        rows.append([name, quantity_text(row["value"], row["unit"], result.units), row["clause"] + mark, note])
     marked = any(MARK in row[2] for row in rows)
-    return [*lines, *text_table(rows, left=4), *([f"  {MARK} {NOT_CHECKED}"] if marked else [])]
+    return [title, *text_table(rows, left=4), *([f"  {MARK} {NOT_CHECKED}"] if marked else [])]
 
 
 def _collapses(result: Assessment) -> str:
@@ -317,18 +305,18 @@ def write_with(
     """
     out = as_path(folder, "assessment", InvalidOption)
     check_out(out, "assessment")
-    documents = {"assessment.txt": result.text + "\n", DOCUMENT: result.to_json() + "\n"}
+    documents = {"assessment.txt": result.text + "\n", f"{result.document}.json": result.to_json() + "\n"}
     drawn: dict[str, Figure] = {}
     if figures:
         from seismass.show.assessment.page import drawn_figures, page_with
 
-        tables = assessment_tables(result, animated=True)
-        if tables.animation is not None:
-            documents[ANIMATION] = json.dumps(tables.animation) + "\n"
-        drawn, drawings = drawn_figures(tables)
+        result = animated(result)
+        if result.animation is not None:
+            documents[ANIMATION] = json.dumps(result.animation) + "\n"
+        drawn, drawings = drawn_figures(result)
         documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
-        documents[PAGE] = page_with(tables, drawings)
+        documents[PAGE] = page_with(result, drawings)
     ours = {PAGE, ANIMATION} | {f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")}
-    ours |= {f"{name}.{kind}" for name in TABLES for kind in ("parquet", "csv")}
+    ours |= {f"{name}.{kind}" for name in stored_tables("assessment") for kind in ("parquet", "csv")}
     files = result_files(tables=result.tables, documents=documents | dict(others), figures=drawn, kinds=("png",))
     return write_folder(out, files, earlier=ours.__contains__, owner="assessment")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Final, Protocol
+from typing import Any, Final
 
 import numpy as np
 import polars as pl
@@ -20,37 +20,13 @@ from seismass.media.roles import EFFECTIVE, GREY, LAMBDA, MU, OMEGA, SPECTRUM, T
 from seismass.media.style import PERIOD_TICKS, plain
 from seismass.media.svg import CAPTION_CHARACTERS
 from seismass.media.text_table import change_text, number_text, text_line
-from seismass.studies.study.run import motions_text
+from seismass.studies.study.run import StudyResult, motions_text
 
 LEAST_WIDTH: Final = 7.0
 """Least width of a figure with a legend of two columns (inches)."""
 
 
-class StudyFrames(Protocol):
-    """What figures of a study are drawn from: a `StudyResult`, or the tables of a folder."""
-
-    @property
-    def metadata(self) -> dict[str, Any]:
-        """Metadata, as `StudyResult.metadata`."""
-
-    @property
-    def responses(self) -> pl.DataFrame:
-        """One row per building, model, motion and storey."""
-
-    @property
-    def summary(self) -> pl.DataFrame:
-        """One row per building and storey."""
-
-    @property
-    def fractions(self) -> pl.DataFrame:
-        """One row per building."""
-
-    @property
-    def spectrum(self) -> pl.DataFrame:
-        """One row per period."""
-
-
-def suite_caption(result: StudyFrames, mu: float | None = None, *, inches: float = 9.0) -> str:
+def suite_caption(result: StudyResult, mu: float | None = None, *, inches: float = 9.0) -> str:
     """Return a few lines, for a figure so many inches wide, on the motions, the parameters that decide the result (all
     frictions unless `mu`), and the target spectrum.
     """
@@ -86,7 +62,7 @@ def occupancy_title(occupancy: str, design: float, analysis: float) -> str:
     return f"{plain(occupancy)}, {LAMBDA} = {shares}"
 
 
-def spectrum_figure(result: StudyFrames) -> Figure:
+def spectrum_figure(result: StudyResult) -> Figure:
     """Target, mean scaled and scaled spectra, with the range in which the mean must not be below the target."""
     table = result.spectrum
     figure = Figure(figsize=(6.4, 4.4), layout="constrained")
@@ -173,7 +149,7 @@ def compared_rules(fractions: pl.DataFrame) -> list[Rule]:
     return rules
 
 
-def one_line(result: StudyFrames) -> str:
+def one_line(result: StudyResult) -> str:
     """Return what the study found in one sentence."""
     summary = result.summary.filter(pl.col("underestimation_percent").is_finite())
     yielding = summary.filter(pl.col("R") > 1.0)
@@ -194,7 +170,7 @@ def one_line(result: StudyFrames) -> str:
     )
 
 
-def answer(result: StudyFrames) -> list[Markup]:
+def answer(result: StudyResult) -> list[Markup]:
     """Return the sentences, a paragraph for each thing that a reader wants to know."""
     summary = result.summary.filter(pl.col("underestimation_percent").is_finite())
     yielding = summary.filter(pl.col("R") > 1.0)

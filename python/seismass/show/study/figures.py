@@ -37,15 +37,15 @@ from seismass.media.roles import (
 from seismass.media.style import drawing, lay_out, plain
 from seismass.show.study.answer import (
     LEAST_WIDTH,
-    StudyFrames,
     labels_of,
     occupancy_title,
     spectrum_figure,
     suite_caption,
 )
-from seismass.show.study.tables import StudyTables
+from seismass.show.study.tables import validations
 from seismass.show.validation import platform_figure, section4_figure, sliding_figure
 from seismass.studies.study import Model
+from seismass.studies.study.run import StudyResult
 from seismass.studies.validation.three_storeys import COMPARED_SLOPES
 
 ALPHA_COLOURS: Final = (SLIDE_LOW.colour, SLIDE.colour, SLIDE_HIGH.colour)
@@ -60,7 +60,7 @@ RING: Final[Any] = {**ATTACHED.mark, "marker": "o", "markersize": 9.0, "markerfa
 """The fully attached model."""
 
 
-def underestimation_figure(result: StudyFrames, mu: float, *, narrow: bool = False) -> Figure:
+def underestimation_figure(result: StudyResult, mu: float, *, narrow: bool = False) -> Figure:
     """Underestimation (%) against R by alpha for one mu: the worst storey, and each building's range. A ring is the
     fully attached over the code model there; on the marker, mass causes all of it, sliding none.
     """
@@ -168,7 +168,7 @@ _STRONGEST: Final = 0.7
 """Share of a full colour on which numbers are still legible."""
 
 
-def heat_figure(result: StudyFrames, mu: float) -> Figure:
+def heat_figure(result: StudyResult, mu: float) -> Figure:
     """Return a map per occupancy at friction mu: R and alpha downwards, buildings and their storeys across."""
     summary = result.summary.filter(mu=mu)
     occupancies = summary.select("occupancy", "lambda_design", "lambda_analysis").unique(maintain_order=True).rows()
@@ -264,7 +264,7 @@ LOOKS: Final[dict[Model, dict[str, Any]]] = {
 """How each model is drawn, in the order of drawing."""
 
 
-def drift_figure(result: StudyFrames, factor: float, mu: float) -> Figure:
+def drift_figure(result: StudyResult, factor: float, mu: float) -> Figure:
     """Capped mean drift of each storey for one R and mu: occupancies and alpha in columns, buildings in rows."""
     label = labels_of(result.summary["R"])[factor]
     summary = result.summary.filter(R=factor, mu=mu)
@@ -365,7 +365,7 @@ def slip_demand(responses: pl.DataFrame) -> pl.DataFrame:
     )
 
 
-def slip_figure(result: StudyFrames, mu: float) -> Figure:
+def slip_figure(result: StudyResult, mu: float) -> Figure:
     """Return mean peak slip against R by alpha, with 16 to 84 % of the motions; occupancies down, buildings across."""
     demand = slip_demand(result.responses.filter(mu=mu))
     occupancies = demand["occupancy"].unique(maintain_order=True).to_list()
@@ -443,7 +443,7 @@ MARKERS = ("o", "s", "D", "^", "v", "P", "X")
 
 
 @drawing()
-def study_figures(result: StudyFrames) -> dict[str, Figure]:
+def study_figures(result: StudyResult) -> dict[str, Figure]:
     """Return the figures of a study by name; see `drawings`."""
     figures: dict[str, Figure] = {}
     for name, draw in drawings(result).items():
@@ -453,7 +453,7 @@ def study_figures(result: StudyFrames) -> dict[str, Figure]:
     return figures
 
 
-def drawings(result: StudyFrames) -> dict[str, Callable[[], Figure]]:
+def drawings(result: StudyResult) -> dict[str, Callable[[], Figure]]:
     """Return what draws each figure of a study, by its name: `spectrum`; for each R `underestimation`, `heat`, `slip`
     and `drift_R...`, with `_mu...` behind where there are several; `effective` if computed.
     """
@@ -472,13 +472,13 @@ def drawings(result: StudyFrames) -> dict[str, Callable[[], Figure]]:
     return draw
 
 
-def _has_goods(result: StudyFrames) -> bool:
+def _has_goods(result: StudyResult) -> bool:
     """Whether goods stand on a floor; a building of one storey has a bare roof alone."""
     return result.responses["peak_slip"].null_count() < result.responses.height
 
 
 @drawing()
-def phone_figures(result: StudyFrames) -> dict[str, Figure]:
+def phone_figures(result: StudyResult) -> dict[str, Figure]:
     """Return figures for narrow screens, by the name of that in whose place they stand."""
     frictions = labels_of(result.summary["mu"])
     mu, name = next(iter(frictions.items()))
@@ -487,23 +487,24 @@ def phone_figures(result: StudyFrames) -> dict[str, Figure]:
 
 
 @drawing()
-def page_figures(result: StudyTables) -> dict[str, Figure]:
+def page_figures(result: StudyResult) -> dict[str, Figure]:
     """Return the figures of the page of a study by name: those of the study, its sensitivity and its validations."""
     figures = study_figures(result)
-    if result.sensitivity is not None:
+    if result.sensitivity.height:
         figures["sensitivity"] = sensitivity_figure(result.sensitivity)
-    if result.section4 is not None:
-        components = result.section4.runs["component"].unique(maintain_order=True)
+    made = validations(result)
+    if made is not None:
+        section4, platform = made
+        components = section4.runs["component"].unique(maintain_order=True)
         slope = COMPARED_SLOPES[0]
-        figures |= {f"section4_{name}": section4_figure(result.section4, name, slope) for name in components}
-        figures["section4_sliding"] = sliding_figure(result.section4)
-    if result.platform is not None:
-        components = result.platform.runs["component"].unique(maintain_order=True)
-        figures |= {f"platform_{name}": platform_figure(result.platform, name) for name in components}
+        figures |= {f"section4_{name}": section4_figure(section4, name, slope) for name in components}
+        figures["section4_sliding"] = sliding_figure(section4)
+        components = platform.runs["component"].unique(maintain_order=True)
+        figures |= {f"platform_{name}": platform_figure(platform, name) for name in components}
     return figures
 
 
-def effective_figure(result: StudyFrames) -> Figure:
+def effective_figure(result: StudyResult) -> Figure:
     """Effective fraction of each building against mu/C1, with its interval, the rule and the shares of the code."""
     table = result.fractions.drop_nulls("effective").with_columns(over=pl.col("mu") / pl.col("coefficient"))
     figure = Figure(figsize=(6.4, 4.6), layout="constrained")

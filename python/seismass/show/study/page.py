@@ -34,8 +34,8 @@ from seismass.show.study.answer import (
     span,
 )
 from seismass.show.study.figures import slip_demand
-from seismass.show.study.tables import StudyTables, fractions_table, slip_table, storeys_table
-from seismass.studies.study.run import motions_text
+from seismass.show.study.tables import fractions_table, slip_table, storeys_table, validations
+from seismass.studies.study.run import StudyResult, motions_text
 from seismass.studies.validation.three_storeys import PEAK_G
 
 VERDICT_CLASSES: Final = {"reproduced": "good", "not reproduced": "warn"}
@@ -60,12 +60,13 @@ class Pictures:
         return figure_html(short_svg(self._drawings[name]), caption, alt, narrow=narrow)
 
 
-def validation_section(result: StudyTables, page: Pictures) -> Iterator[Section]:
+def validation_section(result: StudyResult, page: Pictures) -> Iterator[Section]:
     """Section 4 of the paper by several programs, and its shaking table; nothing where they were not made."""
-    if result.section4 is None or result.platform is None:
+    facts, made = result.validation, validations(result)
+    if facts is None or made is None:
         return
-    facts = result.metadata["validation"]
-    differences = result.section4.differences.rename({"second_slope": "r2"})
+    section4, platform = made
+    differences = section4.differences.rename({"second_slope": "r2"})
     parts = [
         text_html(
             f"The three-storey building of the paper's section 4, its record scaled to {PEAK_G:g} g; motion: "
@@ -103,7 +104,7 @@ def validation_section(result: StudyTables, page: Pictures) -> Iterator[Section]
             "Where goods slide most depends on the second slope, the component and the peak of the record.",
         ),
     ]
-    robust = result.platform.robust
+    robust = platform.robust
     table = [
         text_html(
             f"The platform at 1:15 of the paper's Fig. 4; motion: {facts['platform_motion']}, compressed in time. The "
@@ -126,10 +127,10 @@ def validation_section(result: StudyTables, page: Pictures) -> Iterator[Section]
     yield Section("Validation", [], [Section("Three storeys", parts), Section("Shaking table", table)])
 
 
-def sensitivity_section(result: StudyTables, page: Pictures) -> Iterator[Section]:
+def sensitivity_section(result: StudyResult, page: Pictures) -> Iterator[Section]:
     """What each choice changes, where that was asked for."""
     table = result.sensitivity
-    if table is None:
+    if not table.height:
         return
     keys = ["choice", "setting", "occupancy", *(["mu"] if table["mu"].n_unique() > 1 else [])]
     names = {
@@ -163,7 +164,7 @@ def sensitivity_section(result: StudyTables, page: Pictures) -> Iterator[Section
     )
 
 
-def example_section(result: StudyTables) -> Iterator[Section]:
+def example_section(result: StudyResult) -> Iterator[Section]:
     """One building in motion, beside the model of the code."""
     if result.animation is None:
         return
@@ -184,10 +185,10 @@ def example_section(result: StudyTables) -> Iterator[Section]:
     )
 
 
-def claims_section(result: StudyTables) -> Iterator[Section]:
+def claims_section(result: StudyResult) -> Iterator[Section]:
     """Claims of the paper with verdicts, where validations were made."""
     table = result.claims
-    if table is None:
+    if not table.height:
         return
     counts = table["verdict"].value_counts(sort=True).rows()
     words = ", ".join(f"{count} {verdict}" for verdict, count in counts)
@@ -223,7 +224,7 @@ _PAPER_FIGURES: Final = {
 
 
 def study_page(
-    result: StudyTables,
+    result: StudyResult,
     drawings: Mapping[str, str],
     for_phones: Mapping[str, str] | None = None,
     edited: Sequence[str] = (),
@@ -290,13 +291,17 @@ def _remarks(metadata: dict[str, Any]) -> Iterator[Markup]:
         yield Markup('<div class="note"><p>Remarks on the inputs</p>{}</div>').format(bullets_html(metadata["remarks"]))
 
 
-def _motions(result: StudyTables, page: Pictures) -> list[Markup]:
+def _motions(result: StudyResult, page: Pictures) -> list[Markup]:
     metadata = result.metadata
-    factors = result.scaling.with_columns(
-        pl.Series("name", [motion["record"] for motion in metadata["suite"]["motions"]]),
-        pl.Series("pga", [motion["pga_g"] for motion in metadata["suite"]["motions"]], dtype=pl.Float64),
-        pl.Series("remarks", ["; ".join(motion["remarks"]) for motion in metadata["suite"]["motions"]]),
-    ).select("motion", "name", "record", "pga", "individual_factor", "common_factor", "factor", "remarks")
+    factors = (
+        result.tables["scaling"]
+        .with_columns(
+            pl.Series("name", [motion["record"] for motion in metadata["suite"]["motions"]]),
+            pl.Series("pga", [motion["pga_g"] for motion in metadata["suite"]["motions"]], dtype=pl.Float64),
+            pl.Series("remarks", ["; ".join(motion["remarks"]) for motion in metadata["suite"]["motions"]]),
+        )
+        .select("motion", "name", "record", "pga", "individual_factor", "common_factor", "factor", "remarks")
+    )
     if not factors["remarks"].str.len_chars().sum():
         factors = factors.drop("remarks")
     if factors["name"].equals(factors["record"]):
@@ -329,7 +334,7 @@ def _motions(result: StudyTables, page: Pictures) -> list[Markup]:
     ]
 
 
-def _drifts(result: StudyTables, page: Pictures) -> Iterator[Section]:
+def _drifts(result: StudyResult, page: Pictures) -> Iterator[Section]:
     frictions, factors = labels_of(result.summary["mu"]), labels_of(result.summary["R"])
     for factor, label in factors.items():
         figures = []
@@ -348,7 +353,7 @@ def _drifts(result: StudyTables, page: Pictures) -> Iterator[Section]:
         yield Section(f"R = {label}", figures)
 
 
-def _underestimation(result: StudyTables, page: Pictures, others: list[str]) -> list[Markup]:
+def _underestimation(result: StudyResult, page: Pictures, others: list[str]) -> list[Markup]:
     """What is not ahead of the contents: of further frictions, and the maps."""
     parts = [
         page.figure(
@@ -372,7 +377,7 @@ def _underestimation(result: StudyTables, page: Pictures, others: list[str]) -> 
     return parts
 
 
-def _fraction(result: StudyTables, page: Pictures) -> list[Markup]:
+def _fraction(result: StudyResult, page: Pictures) -> list[Markup]:
     fractions = result.fractions
     parts = []
     if "effective" in page.named("effective"):
@@ -403,7 +408,7 @@ def _fraction(result: StudyTables, page: Pictures) -> list[Markup]:
     return parts
 
 
-def _slip(result: StudyTables, page: Pictures) -> list[Markup]:
+def _slip(result: StudyResult, page: Pictures) -> list[Markup]:
     demand = slip_demand(result.responses)
     parts = [
         page.figure(

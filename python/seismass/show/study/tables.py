@@ -1,124 +1,58 @@
-"""What a folder of a study holds: tables and documents that its page is made of, written, and read again."""
+"""A study with its sensitivity, validations and example, and the tables of its page."""
 
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field
+from dataclasses import replace
 from typing import Any, Final
 
 import polars as pl
 from markupsafe import Markup
 
-from seismass.base.errors import InvalidOption
-from seismass.base.folders import ReadFolder
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import brief, refusal
 from seismass.effective_mass.rule import RULE, RULE_IN_WORDS
 from seismass.media.page import table_html
 from seismass.media.roles import ATTACHED, CODE, EFFECTIVE, ETA, MU, SLIDE, lettered
 from seismass.show.animation import animate
 from seismass.show.animation.html import element_content
 from seismass.show.study.answer import percent
-from seismass.studies.study import SCHEMA_VERSION, Sensitivity, StudyResult
+from seismass.studies.study import Sensitivity, StudyResult
 from seismass.studies.study.run import Example
 from seismass.studies.validation import Platform, Section4, Validation
 from seismass.studies.validation.paper_claims import claims_table
 from seismass.studies.validation.three_storeys import platform_of, platform_tables, section4_of, section4_tables
 
-DOCUMENT: Final = "study.json"
-"""File by which a folder is known as that of a study."""
-ANIMATION: Final = "animation.json"
-"""File of what the animation of the example shows."""
-_OWN: Final = ("responses", "summary", "fractions", "designs", "spectrum", "scaling")
 _SECTION4: Final = ("section4_runs", "section4_differences", "section4_histories")
 _PLATFORM: Final = ("platform_runs", "platform_bands")
-OPTIONAL_TABLES: Final = ("sensitivity", "claims", *_SECTION4, *_PLATFORM)
-"""Tables that a study has only where it was asked for them."""
-READ: Final = (DOCUMENT, ANIMATION, *(f"{name}.parquet" for name in (*_OWN, *OPTIONAL_TABLES)))
-"""Files of which the page is made."""
 
 
-@dataclass(frozen=True, eq=False)
-class StudyTables:
-    """What the page of a study is made of: study.json and the tables of docs/study_schema.md, and sensitivity, claims,
-    validations and animation where they were made.
-    """
-
-    metadata: dict[str, Any]
-    responses: pl.DataFrame = field(repr=False)
-    summary: pl.DataFrame = field(repr=False)
-    fractions: pl.DataFrame = field(repr=False)
-    designs: pl.DataFrame = field(repr=False)
-    spectrum: pl.DataFrame = field(repr=False)
-    scaling: pl.DataFrame = field(repr=False)
-    sensitivity: pl.DataFrame | None = field(repr=False)
-    claims: pl.DataFrame | None = field(repr=False)
-    section4: Section4 | None = field(repr=False)
-    platform: Platform | None = field(repr=False)
-    animation: dict[str, Any] | None = field(repr=False)
-
-    @property
-    def tables(self) -> dict[str, pl.DataFrame]:
-        """All tables by name, as they are written."""
-        optional = {"sensitivity": self.sensitivity, "claims": self.claims}
-        return {
-            **{name: getattr(self, name) for name in _OWN},
-            **{name: table for name, table in optional.items() if table is not None},
-            **({} if self.section4 is None else section4_tables(self.section4)),
-            **({} if self.platform is None else platform_tables(self.platform)),
-        }
-
-
-def study_tables(
+def completed(
     result: StudyResult,
     *,
     sensitivity: Sensitivity | None = None,
     validation: Validation | None = None,
     example: Example | None = None,
-) -> StudyTables:
-    """Return what a folder of the study holds, with sensitivity, validation and example where they were made."""
-    metadata = result.to_dict()
-    if validation is not None:
-        metadata["validation"] = {
-            **validation.metadata(),
-            "section4_synthetic": validation.section4.synthetic,
-            "platform_synthetic": validation.platform.synthetic,
-        }
-    tables = {name: getattr(result, name) for name in _OWN if name != "scaling"} | {"scaling": result.scaling.table()}
+) -> StudyResult:
+    """Return a study with what else its folder may hold: sensitivity, validation and example, where they were made."""
+    frames, facts = dict(result.frames), result.validation
     if sensitivity is not None:
-        tables["sensitivity"] = sensitivity.table
+        frames["sensitivity"] = sensitivity.table
     if validation is not None:
-        tables |= {"claims": claims_table(validation.claims)}
-        tables |= section4_tables(validation.section4) | platform_tables(validation.platform)
-    return _made(metadata, tables, None if example is None else _animation(example, metadata["code"]["name"]))
+        synthetic = {name: getattr(validation, name).synthetic for name in ("section4", "platform")}
+        facts = {**validation.metadata(), **{f"{name}_synthetic": value for name, value in synthetic.items()}}
+        frames["claims"] = claims_table(validation.claims)
+        frames |= section4_tables(validation.section4) | platform_tables(validation.platform)
+    animation = None if example is None else _animation(example, result.metadata["code"]["name"])
+    return replace(result, frames=frames, validation=facts, animation=animation)
 
 
-def read_study_tables(files: ReadFolder) -> StudyTables:
-    """Read the files of the folder of a study."""
-    metadata = files.document(DOCUMENT)
-    version = metadata.get("schema_version")
-    if version != SCHEMA_VERSION:
-        raise refusal(InvalidOption, "schema_version", DOCUMENT, f"{SCHEMA_VERSION}", brief(version))
-    tables = {name: files.table(name) for name in _OWN}
-    tables |= {name: files.table(name) for name in OPTIONAL_TABLES if f"{name}.parquet" in files}
-    return _made(metadata, tables, files.document(ANIMATION) if ANIMATION in files else None)
-
-
-def _made(metadata: dict[str, Any], tables: dict[str, pl.DataFrame], animation: dict[str, Any] | None) -> StudyTables:
-    """What tables say, whether they are those of a study or were read: a page of either is the same."""
-    section4 = platform = None
-    if set(_SECTION4 + _PLATFORM) <= set(tables) and (validation := metadata.get("validation")) is not None:
-        section4 = section4_of(tables, synthetic=validation["section4_synthetic"])
-        platform = platform_of(tables, synthetic=validation["platform_synthetic"])
-    return StudyTables(
-        metadata,
-        **{name: tables[name] for name in _OWN},
-        sensitivity=tables.get("sensitivity"),
-        claims=tables.get("claims"),
-        section4=section4,
-        platform=platform,
-        animation=animation,
-    )
+def validations(result: StudyResult) -> tuple[Section4, Platform] | None:
+    """Return section 4 of the paper and its shaking table, where they were made."""
+    facts = result.validation
+    if facts is None or not set(_SECTION4 + _PLATFORM) <= set(result.tables):
+        return None
+    section4 = section4_of(result.tables, synthetic=facts["section4_synthetic"])
+    return section4, platform_of(result.tables, synthetic=facts["platform_synthetic"])
 
 
 def _animation(example: Example, code: str) -> dict[str, Any]:
@@ -147,7 +81,7 @@ def shown_keys(table: pl.DataFrame) -> list[str]:
     return [name for name in _KEYS if name != "mu" or table["mu"].n_unique() > 1]
 
 
-def storeys_table(result: StudyTables) -> Markup:
+def storeys_table(result: StudyResult) -> Markup:
     """Return mean drifts of every storey by the three models, and the underestimation."""
     names = {
         "storey": "storey",

@@ -12,14 +12,12 @@ import polars as pl
 
 from seismass.base.arguments import ProgressLike
 from seismass.base.errors import InvalidOption
-from seismass.base.files import write_file
-from seismass.base.folders import as_written, read_folder, write_folder
+from seismass.base.folders import write_folder
 from seismass.base.values import as_path
-from seismass.media.result import PAGE, named_figure, result_files
+from seismass.media.result import ANIMATION, PAGE, named_figure, result_files
 from seismass.media.text_table import change_text, text_table
 from seismass.show.study.answer import DAMPING_TEXTS, findings_text
-from seismass.show.study.tables import ANIMATION, DOCUMENT, OPTIONAL_TABLES, READ, StudyTables, read_study_tables
-from seismass.studies.study.run import StudyResult, motions_text
+from seismass.studies.study.run import OWN_TABLES, StudyResult, motions_text
 from seismass.studies.study.sensitivity import Sensitivity
 from seismass.studies.study.tables import TABLES
 
@@ -36,7 +34,7 @@ FIGURE_FILE: Final = re.compile(
 
 
 def write_study(
-    result: StudyTables,
+    result: StudyResult,
     out: Path,
     *,
     figures: bool = True,
@@ -47,19 +45,17 @@ def write_study(
     folder; return the files. Those of an earlier study in files.json are removed.
     """
     tables = result.tables
-    documents = {"tables.json": _json(_tables_document(result.metadata, tables)), DOCUMENT: _json(result.metadata)}
+    documents = {"tables.json": _json(_tables_document(result.metadata, tables)), "study.json": _json(result.to_dict())}
     if result.animation is not None:
         documents[ANIMATION] = _json(result.animation, indent=None)
     drawn: dict[str, Figure] = {}
     if figures:
-        from seismass.media.svg import figure_svgs
-        from seismass.show.study.figures import phone_figures
-        from seismass.show.study.page import study_page
-
         drawn, drawings = _drawn(result, progress)
         documents |= {f"{name}.svg": drawing for name, drawing in drawings.items()}
-        documents[PAGE] = study_page(result, drawings, figure_svgs(phone_figures(result)))
-    ours = {PAGE, ANIMATION} | {f"{name}.{kind}" for name in OPTIONAL_TABLES for kind in ("parquet", "csv")}
+        documents[PAGE] = _page(result, drawings)
+    ours = {PAGE, ANIMATION} | {
+        f"{name}.{kind}" for name in TABLES if name not in OWN_TABLES for kind in ("parquet", "csv")
+    }
     files = result_files(
         tables=tables,
         documents=documents,
@@ -72,26 +68,20 @@ def write_study(
     )
 
 
-def write_study_page(
-    folder: Path, target: Path, *, force: bool = False, progress: ProgressLike = None
-) -> tuple[str, ...]:
-    """Write the page of a study from the tables of its folder alone and return the files that were edited since they
-    were written, which are read with `force` alone; `progress` as in `write_study`.
-    """
+def whole_page(result: StudyResult, edited: tuple[str, ...] = (), progress: ProgressLike = None) -> str:
+    """Return the page of a study with its figures; `edited` are files that were edited; `progress` as above."""
+    return _page(result, _drawn(result, progress)[1], edited)
+
+
+def _page(result: StudyResult, drawings: dict[str, str], edited: tuple[str, ...] = ()) -> str:
     from seismass.media.svg import figure_svgs
     from seismass.show.study.figures import phone_figures
     from seismass.show.study.page import study_page
 
-    files = read_folder(folder, READ, force=force)
-    with as_written(folder):
-        result = read_study_tables(files)
-        _, drawings = _drawn(result, progress)
-        page = study_page(result, drawings, figure_svgs(phone_figures(result)), files.edited)
-    write_file(target, page)
-    return files.edited
+    return study_page(result, drawings, figure_svgs(phone_figures(result)), edited)
 
 
-def _drawn(result: StudyTables, progress: ProgressLike) -> tuple[dict[str, Figure], dict[str, str]]:
+def _drawn(result: StudyResult, progress: ProgressLike) -> tuple[dict[str, Figure], dict[str, str]]:
     """Figures and their SVG texts, each drawn once for its file and for the page."""
     from seismass.media.style import fewer_collections
     from seismass.media.svg import figure_svgs
@@ -213,9 +203,7 @@ def study_figure(result: StudyResult, name: str | None = None) -> Figure:
 
 def write_result(result: StudyResult, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
     """Write a study by itself, without sensitivity and validations; see `StudyResult.write`."""
-    from seismass.show.study.tables import study_tables
-
-    return write_study(study_tables(result), as_path(folder, "study", InvalidOption), figures=figures)
+    return write_study(result, as_path(folder, "study", InvalidOption), figures=figures)
 
 
 def text_of_sensitivity(result: Sensitivity) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import numpy as np
@@ -16,7 +15,6 @@ from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.stored_results import NOTHING_STORED, StoredResults, inputs_digest, metadata_head, motion_contents
 from seismass.base.values import FieldValue, as_flag, as_list, as_number, as_one_of, brief, refusal
-from seismass.base.views import view
 from seismass.media.result import Result, finite_values
 from seismass.model.codes import code_fraction
 from seismass.motions.records import Pair, Suite, builtin_suite
@@ -27,7 +25,7 @@ from seismass.studies.evidence.variants import variants
 from seismass.studies.risk.hazard import HazardCurve
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    pass
 
 SCHEMA_VERSION: Final = 1
 """Version of the tables; see docs/evidence.md."""
@@ -81,31 +79,14 @@ class Evidence(FieldValue, Result):
         return self.frames["summary"]
 
     @property
-    @view
-    def text(self) -> str:
-        """The table of the sheet, sentences that its numbers make, rules and assumptions."""
-        raise NotImplementedError
-
-    @property
     def figure_names(self) -> tuple[str, ...]:
-        """evidence; tornado, where inputs were varied."""
+        """evidence: shares of archetypes with rates of fractions; tornado: what moves them, where these were varied."""
         return ("evidence", *(("tornado",) if "vary" in self.tables else ()))
-
-    @view
-    def plot(self, name: str | None = None) -> Figure:
-        """Return a figure of `figure_names`: shares of archetypes with rates of fractions, or what moves shares."""
-        raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
         """Return metadata, summary and rules as plain values."""
         tables = {name: self.tables[name].to_dicts() for name in ("summary", "rules", "full")}
-        document: dict[str, Any] = finite_values({**self.metadata, **tables})
-        return document
-
-    @view
-    def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
-        """Write tables (Parquet and CSV), text, JSON, figures and the sheets, report.html; return the files."""
-        raise NotImplementedError
+        return finite_values({**self.metadata, **tables})
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,6 @@ from seismass.base.errors import InvalidOption
 from seismass.base.statistics import quantile
 from seismass.base.stored_results import metadata_head, motion_contents
 from seismass.base.values import FieldValue, FloatArray, as_array, brief, counted, refusal
-from seismass.base.views import view
 from seismass.media.result import Result, finite_values
 from seismass.model.plausibility import usage_remarks
 from seismass.studies.fragility.compare import (
@@ -31,7 +30,7 @@ from seismass.studies.fragility.limits import IntensityMeasure, LimitState
 from seismass.studies.fragility.run import Setting, check_levels
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    pass
 
 
 SCHEMA_VERSION: Final = 2
@@ -222,12 +221,6 @@ class FragilityAnalysis(FieldValue, Result):
         return np.linspace(0.0, top, _LEVELS + 1)[1:]
 
     @property
-    @view
-    def text(self) -> str:
-        """The answer in lines: fragilities of all models, and what the rule does to the probability of exceedance."""
-        raise NotImplementedError
-
-    @property
     def tables(self) -> dict[str, pl.DataFrame]:
         """The tables by name, the fractiles among them where motions are scaled."""
         names = ("motions", "runs", "capacities", "fragilities", "curves", "comparison", "exceedance")
@@ -256,30 +249,15 @@ class FragilityAnalysis(FieldValue, Result):
 
     @property
     def figure_names(self) -> tuple[str, ...]:
-        """Names: fragility for the curves, and one for demand by intensity of each quantity of the limits."""
+        """Names: fragility for the curves, and for each quantity of the limits one that begins with demand: demand by
+        intensity of each motion with the fractiles over the motions, a panel for each model.
+        """
         return ("fragility", *(f"demand_{column}" for column in self.demands))
 
     @property
     def demands(self) -> dict[str, LimitState]:
         """The last limit of each quantity, by the column of its demand."""
         return {each.column: each for each in self.limits if each.quantity != "collapse"}
-
-    @view
-    def plot(self, name: str | None = None) -> Figure:
-        """Return a figure of `figure_names`, by default the fragility curves.
-
-        Parameters
-        ----------
-        name : str, optional
-            "fragility", or a name that begins with "demand": demand by intensity of each motion with the fractiles over
-            the motions, one panel per model.
-
-        Raises
-        ------
-        InvalidOption
-            There is no such figure.
-        """
-        raise NotImplementedError
 
 
 Fits: TypeAlias = dict[tuple[str, str], Fragility]

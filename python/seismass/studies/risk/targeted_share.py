@@ -143,12 +143,6 @@ class RiskTargetedShare(FieldValue, Result):
     metadata: dict[str, Any] = field(repr=False)
 
     @property
-    @view
-    def text(self) -> str:
-        """The answer in lines: the share, annual rates, the effective fraction beside it, and what it depends on."""
-        raise NotImplementedError
-
-    @property
     def tables(self) -> dict[str, pl.DataFrame]:
         """The tables by name."""
         return {
@@ -176,8 +170,7 @@ class RiskTargetedShare(FieldValue, Result):
             if effective is None
             else {"value": effective.value, "kind": effective.kind, "interval": effective.interval},
         }
-        finite: dict[str, Any] = finite_values(document)
-        return finite
+        return finite_values(document)
 
     @property
     def figure_names(self) -> tuple[str, ...]:

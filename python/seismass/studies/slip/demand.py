@@ -12,7 +12,6 @@ from seismass.base.arguments import Progress, ProgressLike, as_bootstrap
 from seismass.base.errors import InvalidOption, InvalidScene
 from seismass.base.stored_results import metadata_head, motion_contents
 from seismass.base.values import FieldValue, as_flag, brief, refusal
-from seismass.base.views import view
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping, check_damping
 from seismass.media.result import Result, finite_values
 from seismass.model.scene import Scene
@@ -38,7 +37,7 @@ from seismass.studies.slip.tables import (
 )
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    pass
 
 
 TOLERANCE: Final = 1e-3
@@ -152,12 +151,6 @@ class SlipDemand(FieldValue, Result):
     metadata: dict[str, Any] = field(repr=False)
 
     @property
-    @view
-    def text(self) -> str:
-        """The result as lines: slip and its scatter, the ground, clearances, size, estimates, remarks."""
-        raise NotImplementedError
-
-    @property
     def tables(self) -> dict[str, pl.DataFrame]:
         """The tables by name; those without rows are left out."""
         every = {
@@ -183,24 +176,12 @@ class SlipDemand(FieldValue, Result):
             "remarks": self.remarks,
             "metadata": self.metadata,
         }
-        finite: dict[str, Any] = finite_values(document)
-        return finite
+        return finite_values(document)
 
     @property
     def figure_names(self) -> tuple[str, ...]:
         """slip_demand: slip of every block and motion in the building, on the ground, and its limits."""
         return ("slip_demand",)
-
-    @view
-    def plot(self, name: str | None = None) -> Figure:
-        """Return the figure of the slip of every block and motion in the building, on the ground, and its limits.
-
-        Raises
-        ------
-        InvalidOption
-            `name` is given and is not "slip_demand".
-        """
-        raise NotImplementedError
 
 
 OWNER: Final = "slip demand"

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import os
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from itertools import chain, count
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 import numpy as np
@@ -15,11 +14,12 @@ from numpy.typing import NDArray
 from seismass import _kernel
 from seismass.base.arguments import ProgressLike
 from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.folders import ReadFolder
 from seismass.base.stored_results import NOTHING_STORED, StoredResults, inputs_digest, metadata_head, motion_contents
 from seismass.base.values import FieldValue, FloatArray, as_flag, as_one_of, brief, printable, refusal
 from seismass.base.views import view
 from seismass.design.scaling import ScalingResult, scale_asce7_10
-from seismass.media.result import Result
+from seismass.media.result import StoredResult, StoredTable
 from seismass.model.plausibility import motion_remarks
 from seismass.model.scene import Scene
 from seismass.motions.motion import Motion, scaled_motions
@@ -29,6 +29,7 @@ from seismass.motions.spectra.target import target_remarks
 from seismass.runs.batch import solve_many
 from seismass.studies.study.parameters import MODELS, StudyBuilding, StudyParameters, code_fractions, study_buildings
 from seismass.studies.study.tables import (
+    TABLES,
     designs_table,
     effective_fractions,
     findings,
@@ -38,7 +39,7 @@ from seismass.studies.study.tables import (
 )
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    pass
 
 
 SCHEMA_VERSION: Final = 5
@@ -53,92 +54,69 @@ _METHODS: Final = {"ASCE 7-10": "ASCE/SEI 7-10, 16.1.3.1, two-step factors in th
 """Methods of scaling as the metadata name them; others by their own name."""
 
 
+OWN_TABLES: Final = ("responses", "summary", "fractions", "designs", "spectrum", "scaling")
+"""Tables that every study has; sensitivity, claims and validations are there where they were asked for."""
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class StudyResult(FieldValue, Result):
+class StudyResult(FieldValue, StoredResult):
     """Tables of a study; their columns are described in docs/study_schema.md.
+
+    Its tables are attributes by their names: `responses`, `summary`, `fractions`, `designs`, `spectrum`, and, without
+    rows where they were not asked for, `sensitivity` and `claims`.
 
     Attributes
     ----------
-    responses : polars.DataFrame
-        One row per building, model, motion and storey.
-    summary : polars.DataFrame
-        One row per building and storey: drift of each model over the motions with its scatter, the underestimation, how
-        much of it is due to mass and how much to sliding, and how much one motion carries.
-    fractions : polars.DataFrame
-        One row per building: eta, the rule by hand, and the effective fraction itself on request.
-    designs : polars.DataFrame
-        One row per building and storey: masses, V_e, V_y, periods.
-    spectrum : polars.DataFrame
-        Target, mean scaled and scaled spectra.
-    scaling : ScalingResult
-        Factors of the motions.
     metadata : dict
         Versions, digest of the inputs, parameters, motions, counts, remarks.
+    frames : dict of str to polars.DataFrame
+        What `tables` gives: responses, summary, fractions, designs, spectrum, scaling, and others that were made.
+    scaling : ScalingResult or None
+        Factors of the motions; None where the study was read from its folder, whose table `scaling` has them.
+    validation : dict or None
+        Motions of the validations of the paper, where they were made.
+    animation : dict or None
+        What the animation of a page shows, where it was made.
     """
 
     document: ClassVar[str] = "study"
+    schema_version: ClassVar[int] = SCHEMA_VERSION
 
-    responses: pl.DataFrame
-    summary: pl.DataFrame
-    fractions: pl.DataFrame
-    designs: pl.DataFrame
-    spectrum: pl.DataFrame
-    scaling: ScalingResult
     metadata: dict[str, Any] = field(repr=False)
+    frames: dict[str, pl.DataFrame]
+    scaling: ScalingResult | None = None
+    validation: dict[str, Any] | None = None
+    animation: dict[str, Any] | None = None
 
-    @property
-    @view
-    def text(self) -> str:
-        """What the study says: the underestimation of drift by the code's model, with its scatter."""
-        raise NotImplementedError
+    responses = StoredTable()
+    summary = StoredTable()
+    fractions = StoredTable()
+    designs = StoredTable()
+    spectrum = StoredTable()
+    sensitivity = StoredTable()
+    claims = StoredTable()
 
-    @property
-    def tables(self) -> dict[str, pl.DataFrame]:
-        """The tables by name: responses, summary, fractions, designs, spectrum, scaling."""
-        names = ("responses", "summary", "fractions", "designs", "spectrum")
-        return {name: getattr(self, name) for name in names} | {"scaling": self.scaling.table()}
+    @classmethod
+    def _without(cls, document: dict[str, Any], files: ReadFolder) -> Collection[str]:
+        return [name for name in TABLES if name not in OWN_TABLES and f"{name}.parquet" not in files]
+
+    @classmethod
+    def _stored(
+        cls, document: dict[str, Any], frames: dict[str, pl.DataFrame], animation: dict[str, Any] | None
+    ) -> StudyResult:
+        metadata = {key: value for key, value in document.items() if key not in ("findings", "validation")}
+        return cls(metadata, frames, validation=document.get("validation"), animation=animation)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the metadata and the findings as plain values."""
         sentences = findings(self.summary, self.fractions, self.metadata["code"]["name"])
-        return {**self.metadata, "findings": sentences}
+        validation = {} if self.validation is None else {"validation": self.validation}
+        return {**self.metadata, "findings": sentences, **validation}
 
     @property
     @view
     def figure_names(self) -> tuple[str, ...]:
         """spectrum; underestimation, heat, slip and drift_R... for each R and friction; effective, where computed."""
-        raise NotImplementedError
-
-    @view
-    def plot(self, name: str | None = None) -> Figure:
-        """Return a figure of `figure_names`, by default the first.
-
-        Parameters
-        ----------
-        name : str, optional
-            Name of the figure.
-
-        Raises
-        ------
-        InvalidOption
-            There is no such figure.
-        """
-        raise NotImplementedError
-
-    @view
-    def write(self, folder: str | os.PathLike[str], *, figures: bool = True) -> list[Path]:
-        """Write tables (Parquet and CSV), study.json, figures (SVG) and the page to a folder.
-
-        Returns
-        -------
-        list of Path
-            The files, in the order written.
-
-        Raises
-        ------
-        OSError
-            A file cannot be written; then none is changed.
-        """
         raise NotImplementedError
 
 
@@ -210,11 +188,14 @@ def run_study(
     status = table["status"].value_counts()
     counts = dict(zip(status["status"], status["count"], strict=True))
     return StudyResult(
-        responses=responses,
-        summary=summary_table(buildings, responses, names, settings),
-        fractions=fractions_table(buildings, table, run_of, fractions, target),
-        designs=designs_table(buildings, settings),
-        spectrum=spectrum,
+        frames={
+            "responses": responses,
+            "summary": summary_table(buildings, responses, names, settings),
+            "fractions": fractions_table(buildings, table, run_of, fractions, target),
+            "designs": designs_table(buildings, settings),
+            "spectrum": spectrum,
+            "scaling": scaling.table(),
+        },
         scaling=scaling,
         metadata={
             **metadata_head(SCHEMA_VERSION),
@@ -400,7 +381,7 @@ def study_example(suite: Suite, parameters: StudyParameters, result: StudyResult
     runs = result.responses.filter(building=row["building"], storey=1).sort("motion")
     sliding, code = (runs.filter(model=model)["peak_drift"].to_numpy() for model in ("real", "code"))
     motion = int(np.argmin(np.abs(np.log(sliding / code) - np.log(row["ratio"]))))
-    factors = result.scaling.factors
+    factors = result.tables["scaling"]["factor"].to_numpy()
 
     def spectrum(periods: FloatArray) -> FloatArray:
         return mean_spectrum(suite, factors, periods, parameters.damping)

@@ -14,7 +14,6 @@ from seismass.base.arguments import Progress, ProgressLike
 from seismass.base.errors import InvalidOption
 from seismass.base.stored_results import NOTHING_STORED, StoredResults
 from seismass.base.values import as_one_of, short_repr
-from seismass.base.views import view
 from seismass.design import Combination
 from seismass.design.scaling import ScalingResult, scale_modal_pushover
 from seismass.media.result import Result, finite_values
@@ -26,7 +25,7 @@ from seismass.studies.study.run import StudyResult, checked_study, run_study
 from seismass.studies.study.tables import TABLES, Drifts, collapsed_of, drifts_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    pass
 
 AS_IS: Final = "as it is"
 """The first choice: the study with its own parameters."""
@@ -81,36 +80,18 @@ class Sensitivity(Result):
     __repr__ = short_repr
 
     @property
-    @view
-    def text(self) -> str:
-        """The table as lines, one block per occupancy and friction coefficient."""
-        raise NotImplementedError
-
-    @property
     def tables(self) -> dict[str, pl.DataFrame]:
         """The table by its name: sensitivity."""
         return {"sensitivity": self.table}
 
     def to_dict(self) -> dict[str, Any]:
         """Return the rows, and the metadata of the study as it is, as plain values."""
-        document: dict[str, Any] = finite_values({"sensitivity": self.table.to_dicts(), "metadata": self.metadata})
-        return document
+        return finite_values({"sensitivity": self.table.to_dicts(), "metadata": self.metadata})
 
     @property
     def figure_names(self) -> tuple[str, ...]:
         """sensitivity: a dot per choice and occupancy, beside lines of the study as it is."""
         return ("sensitivity",)
-
-    @view
-    def plot(self, name: str | None = None) -> Figure:
-        """Return the figure: a dot per choice and occupancy, beside lines of the study as it is.
-
-        Raises
-        ------
-        InvalidOption
-            `name` is given and is not "sensitivity".
-        """
-        raise NotImplementedError
 
 
 def study_sensitivity(

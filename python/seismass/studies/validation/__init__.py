@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import polars as pl
 
@@ -38,9 +38,6 @@ from seismass.studies.validation.three_storeys import (
     section4_scene,
     section4_tables,
 )
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 __all__ = [
     "STAND_INS",
@@ -100,12 +97,6 @@ class Validation(Result):
         }
 
     @property
-    @view
-    def text(self) -> str:
-        """The motions, the comparison of programs, and each claim of the paper with its verdict."""
-        raise NotImplementedError
-
-    @property
     def tables(self) -> dict[str, pl.DataFrame]:
         """The tables by name, without lists in their cells: claims, and those of section 4 and of the platform."""
         return {
@@ -127,22 +118,6 @@ class Validation(Result):
     @view
     def figure_names(self) -> tuple[str, ...]:
         """Names: those of section 4 by component and slope, its sliding, and those of the platform by component."""
-        raise NotImplementedError
-
-    @view
-    def plot(self, name: str | None = None) -> Figure:
-        """Return a figure of `figure_names`, by default the first.
-
-        Parameters
-        ----------
-        name : str, optional
-            Name of the figure.
-
-        Raises
-        ------
-        InvalidOption
-            There is no such figure.
-        """
         raise NotImplementedError
 
 
