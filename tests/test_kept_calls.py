@@ -9,6 +9,7 @@ tests/kept_answers/calls; `KEEP_ANSWERS=1 pytest tests/test_kept_calls.py` write
 from __future__ import annotations
 
 import inspect
+import runpy
 import typing
 import warnings
 from collections.abc import Callable, Iterator
@@ -18,9 +19,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from PIL import ImageDraw
 
 import seismass as sm
-from answer_texts import compare, short, steady, value_lines
+from answer_texts import array_text, compare, short, steady, value_lines
+from seismass.show.animation.picture import Picture
+from seismass.show.animation.plane_picture import PlanePicture
 from seismass.studies.slip.runs import Base
 
 MODULES = """
@@ -137,6 +141,7 @@ def values(unequal_scene: sm.Scene, unequal_motions: tuple[sm.Record, ...], uneq
     drifts = np.linspace(0.0, 0.1, 40)
     classes = {
         "Animation": lambda: sm.animate(scene, first, start=0.7, end=4.3),
+        "AnimationOfRacks": lambda: sm.animate(racked, first, end=3.7),
         "AnnualRate": lambda: sm.risk.annual_rate([0.05, 0.23, 0.61, 0.97], hazard),
         "Building": lambda: building,
         "Campaign": lambda: sm.campaign.Campaign(grid, [first, second], part_runs=3),
@@ -447,3 +452,33 @@ def test_a_call_answers_as_it_did(
     for each, function in calls(place):
         lines += [] if each in methods else answers(each, function, BY_NAME | values)
     compare(f"calls/{name}", steady("\n".join(lines)) + "\n")
+
+
+@pytest.mark.parametrize("name", ["Animation", "AnimationOfRacks", "PlaneAnimation"])
+def test_a_film_draws_what_it_did(name: str, values: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Places, words and colours of two frames, as they are given to Pillow."""
+    drawn: list[str] = []
+
+    def recorded(kind: str) -> Callable[..., None]:
+        def draw(_: Any, places: Any, *words: Any, font: Any = None, **options: Any) -> None:
+            drawn.append(f"{kind} {array_text(np.array(places))} {words} {options}")
+
+        return draw
+
+    for kind in ("line", "polygon", "rectangle", "ellipse", "text"):
+        monkeypatch.setattr(ImageDraw.ImageDraw, kind, recorded(kind))
+    picture = (PlanePicture if name == "PlaneAnimation" else Picture)(values["made"][name]())
+    for time in (0.0, 1.3, 2.9):
+        picture.frame(time)
+    compare(f"calls/film_{name}", steady("\n".join([str(picture.size), *short(drawn, 60)])) + "\n")
+
+
+def test_a_record_file_is_read_as_it_was(tmp_path: Path) -> None:
+    """Files of every format, made up by its rules: motions and labels, or the refusal."""
+    lines = []
+    for name, content in runpy.run_path(str(Path(__file__).parents[1] / "tools" / "record_files.py"))["files"]():
+        (tmp_path / name).write_bytes(content)
+        for read, options, most in ((sm.read_records, {}, MOST), (sm.read_record, {"unit": "g"}, FIRST)):
+            found = [line.replace(str(tmp_path), "") for line in outcome(read, {"path": tmp_path / name, **options})]
+            lines += [f"== {name} {options or ''}", *short(found, most)]
+    compare("calls/record_files", steady("\n".join(lines)) + "\n")
