@@ -168,6 +168,8 @@ def test_tables_beside_others_and_two_of_one_quantity(tmp_path: Path) -> None:
     assert found.mass is not None
     assert found.mass.tolist() == [110000.0, 100000.5]
     assert any("are not read: Joint Displacements" in remark for remark in found.remarks)
+    assert found.live_mass  # a summary of masses is a program's, and masses under another title are the user's
+    assert not read_storey_table(write(tmp_path, "TABLE:  Story Data\nStory,Mass\n,kg\nL2,9.1e4\nL1,9.7e4\n")).live_mass
     one = write(tmp_path, "Story,Height (m),Mass (t)\nL2,4,5\nL1,4,5\n", "a.csv")
     other = write(tmp_path, "Story,Mass (t)\nL2,7\nL1,5\n", "b.csv")
     with pytest.raises(sm.errors.InvalidBuildingFile, match=r"mass of storey L2 of b.csv must be that of a.csv"):

@@ -103,8 +103,8 @@ def tests_of(module: Path, text: str, tests: dict[str, str]) -> tuple[str, ...]:
     return tuple(sorted(set().union(*(files for files in sets if len(files) <= COMMON)) or drawing))
 
 
-WHOLE_COMMANDS: Final = "test_kept_answers"
-"""The tests of whole commands, which are asked about every fault."""
+KEPT: Final = ("test_kept_calls", "test_kept_answers")
+"""The tests of public calls and of whole commands, which are asked about every fault."""
 
 
 def generated_python(count: int, seed: int) -> list[Fault]:
@@ -119,6 +119,6 @@ def generated_python(count: int, seed: int) -> list[Fault]:
     faults = []
     for number, (path, what, source, text) in enumerate(random_faults.drawn(sites, count, seed), 1):
         what = f"{path.relative_to(PACKAGE)}: {what}"
-        asked = tuple(dict.fromkeys((*tests_of(path, source, tests), WHOLE_COMMANDS)))
+        asked = tuple(dict.fromkeys((*tests_of(path, source, tests), *KEPT)))
         faults.append(Fault(DRAWN[0], number, what, path, text, asked, reasons.get(what, "")))
     return faults

@@ -203,7 +203,10 @@ class FragilityAnalysis(FieldValue, Result):
 
     def traces(self, model: str, column: str) -> list[tuple[FloatArray, FloatArray]]:
         """Return intensities and demands of each motion under a model; none where the model has no such quantity."""
-        for name, known in ((model, self.runs["model"].unique().to_list()), (column, self.runs.columns)):
+        for name, known in (
+            (model, self.runs["model"].unique(maintain_order=True).to_list()),
+            (column, self.runs.columns),
+        ):
             as_word(name, known, "name", "traces")
         rows = self.runs.filter(pl.col("model") == model).drop_nulls(column).sort("motion", "intensity")
         return [
