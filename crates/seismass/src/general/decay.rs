@@ -9,8 +9,8 @@ use std::rc::Rc;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::general::series::Series;
 use crate::general::state::GeneralState;
+use crate::general::terms::Terms;
 use crate::polynomial::orders::INVERSE;
 use crate::tolerances::{DECISION_ROUNDING, GENERAL_PHASE};
 
@@ -40,54 +40,57 @@ pub(super) struct DecayingMode {
 
 impl DecayingMode {
     /// By how much terms of order k miss the condition.
-    fn excess(&self, state: &GeneralState, series: &Series, k: usize) -> f64 {
-        let width = series.width;
-        let row = k * width..(k + 1) * width;
-        let (acceleration, rates) = (&series.acceleration[row.clone()], &series.rate[row]);
-        let mut excess = if k == 0 { -self.load_rate(state, series) / self.rate } else { 0.0 };
+    fn excess(&self, state: &GeneralState, terms: &Terms<1>, k: usize) -> f64 {
+        let width = terms.width;
+        let row = k * terms.row..k * terms.row + width;
+        let (acceleration, rates) = (terms.acceleration[row.clone()].as_flattened(), terms.rate[row].as_flattened());
+        let mut excess = if k == 0 { -self.load_rate(state, terms) / self.rate } else { 0.0 };
         for p in 1..width {
             excess += self.momentum[p] * (acceleration[p] - acceleration[0]) + self.stiffness[p] * rates[p];
         }
         for (contact, i) in state.moving_contacts.iter().zip(width..) {
-            let velocity = &series.blocks[contact.position].velocity;
+            let velocity = &terms.blocks[contact.position].velocity;
             let of_node = acceleration[state.system.blocks[contact.block].floor] - acceleration[0];
-            let relative = (k + 1) as f64 / series.h * velocity[k + 1];
-            excess += self.momentum[i] * (of_node + relative) + self.stiffness[i] * velocity[k];
+            let relative = (k + 1) as f64 / terms.h * velocity[k + 1][0];
+            excess += self.momentum[i] * (of_node + relative) + self.stiffness[i] * velocity[k][0];
         }
         excess
     }
 
     /// Rate f . p' of the loads: the ground's acceleration, and friction under vertical motion.
-    fn load_rate(&self, state: &GeneralState, series: &Series) -> f64 {
+    fn load_rate(&self, state: &GeneralState, terms: &Terms<1>) -> f64 {
         let mut rate = -state.interval.ground_slope * self.momentum.iter().sum::<f64>();
         let of_friction = |position: usize| {
             let mass = state.system.blocks[state.moving[position]].mass;
-            mass * series.blocks[position].friction[1] / series.h
+            mass * terms.blocks[position].friction[1][0] / terms.h
         };
         for (position, &j) in state.moving.iter().enumerate() {
             rate += self.shape[state.system.blocks[j].floor] * of_friction(position);
         }
-        for (contact, i) in state.moving_contacts.iter().zip(series.width..) {
+        for (contact, i) in state.moving_contacts.iter().zip(terms.width..) {
             rate -= self.shape[i] * of_friction(contact.position);
         }
         rate
     }
 
     /// Takes what terms of order k miss out of them.
-    pub(super) fn correct(&self, state: &GeneralState, series: &mut Series, k: usize) {
-        let (system, width) = (state.system, series.width);
-        let excess = self.excess(state, series, k);
-        let (row, of_rate, of_drift) = (k * width, series.h * INVERSE[k + 1], series.h * INVERSE[k + 2]);
+    pub(super) fn correct(&self, state: &GeneralState, terms: &mut Terms<1>, k: usize) {
+        let (system, width) = (state.system, terms.width);
+        let excess = self.excess(state, terms, k);
+        let (of_rate, of_drift) = (terms.h * INVERSE[k + 1], terms.h * INVERSE[k + 2]);
+        let accelerations = terms.acceleration[k * terms.row..][..width].as_flattened_mut();
+        let rates = terms.rate[(k + 1) * terms.row..][..width].as_flattened_mut();
+        let drifts = terms.drift[(k + 2) * terms.row..][..width].as_flattened_mut();
         for p in 1..width {
-            series.acceleration[row + p] -= excess * self.shape[p];
+            accelerations[p] -= excess * self.shape[p];
             let rate = of_rate * excess * (self.shape[p] - self.shape[system.parent[p]]);
-            series.rate[row + width + p] -= rate;
-            series.drift[row + 2 * width + p] -= of_drift * rate;
+            rates[p] -= rate;
+            drifts[p] -= of_drift * rate;
         }
         let mut add = |position: usize, acceleration: f64| {
-            let block = &mut series.blocks[position];
-            block.velocity[k + 1] += of_rate * acceleration;
-            block.slip[k + 2] += of_drift * (of_rate * acceleration);
+            let block = &mut terms.blocks[position];
+            block.velocity[k + 1][0] += of_rate * acceleration;
+            block.slip[k + 2][0] += of_drift * (of_rate * acceleration);
         };
         for (position, &j) in state.moving.iter().enumerate() {
             add(position, excess * self.shape[system.blocks[j].floor]);
@@ -113,7 +116,7 @@ impl DecayingMode {
 
 /// How many modes, the fastest first, have decayed at `tau`, where a step of h may follow. What rounding leaves of them is
 /// taken out of velocities, but of those that are exactly zero.
-pub(super) fn decayed(state: &mut GeneralState, series: &mut Series, tau: f64, h: f64) -> usize {
+pub(super) fn decayed(state: &mut GeneralState, terms: &mut Terms<1>, tau: f64, h: f64) -> usize {
     let regime = Rc::clone(&state.regime);
     let time = state.interval.start + tau;
     if regime.damping * h < LEAST_DECAY || time < state.decays_until {
@@ -123,12 +126,12 @@ pub(super) fn decayed(state: &mut GeneralState, series: &mut Series, tau: f64, h
     if modes.is_empty() {
         return 0;
     }
-    series.begin_sliding(state, tau, h, 0);
-    series.form_order(state, 0);
+    terms.begin_sliding(state, tau, h, 0);
+    terms.form_order([state], 0);
     let sizes = state.acceleration_sizes(tau);
     let mut left = Vec::with_capacity(modes.len());
     for mode in modes {
-        let excess = mode.excess(state, series, 0);
+        let excess = mode.excess(state, terms, 0);
         let most = DECISION_ROUNDING * mode.size(state, &sizes, tau);
         if excess.abs() > most {
             if left.is_empty() {

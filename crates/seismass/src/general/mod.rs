@@ -24,6 +24,7 @@ mod series;
 mod state;
 mod stops;
 mod system;
+mod terms;
 
 pub use plane::{
     Axis, PlaneEnergy, PlaneEvent, PlanePeaks, PlaneResponse, VectorPeaks, simulate_plane, simulate_plane_until,

@@ -160,7 +160,7 @@ impl Run<'_> {
     /// Forms the series from `tau` on, as long as terms allow, within the time that remains.
     fn form_series(&mut self, tau: f64, remaining: f64) -> Result<()> {
         let whole = self.phase_of(remaining)?;
-        let decayed = decayed(&mut self.state, &mut self.series, tau, remaining);
+        let decayed = decayed(&mut self.state, &mut self.series.terms, tau, remaining);
         let modes = self.state.regime.decaying.get().filter(|modes| whole > SERIES_PHASE && !modes.is_empty());
         let bound = |modes: &Vec<DecayingMode>| match modes.get(decayed) {
             Some(alive) => alive.rate.max(alive.left),
@@ -170,11 +170,7 @@ impl Run<'_> {
         let pieces = (phase / GENERAL_PHASE).ceil().max(1.0);
         // What is left beside such modes is known less closely: the series has all orders, and ends by its terms.
         let of_order = if modes.is_some() { GENERAL_PHASE } else { phase / pieces };
-        self.series.form(&self.state, tau, (remaining / pieces, of_order), decayed);
-        if of_order > SERIES_PHASE {
-            self.series.end_by_terms();
-        }
-        self.series.bound_changes();
+        self.series.form(&self.state, tau, (remaining / pieces, of_order), decayed, of_order > SERIES_PHASE);
         Ok(())
     }
 

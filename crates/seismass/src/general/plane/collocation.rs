@@ -9,10 +9,10 @@
 use std::sync::LazyLock;
 
 use crate::general::plane::series::PlaneSeries;
-use crate::general::plane::slide_series::{Beginning, ORDER};
+use crate::general::plane::slide_series::{Beginning, ORDER, SlideSeries};
 use crate::general::plane::state::PlaneState;
+use crate::general::plane::stiff::MIDDLE;
 use crate::general::plane::vector::{Vector2, across, dot, length, minus, plus, times, unit};
-use crate::lanes::Plain;
 
 /// Points of a step. Twelve: at the length at which products of the series lose nothing above their highest degree, the
 /// terms of the directions fall by 25 from one to the next.
@@ -26,18 +26,20 @@ const ITERATIONS: usize = 25;
 const KNOWN: f64 = 8.0 * f64::EPSILON;
 const ROUNDING: f64 = 1000.0 * f64::EPSILON;
 
-/// What the terms in the middle of a direction may be, so that those left out, twice as high, are below rounding; and the
-/// last of them, which rounding reaches.
-const MIDDLE: f64 = 4e-9;
+/// What the last terms of a direction may be, which rounding reaches.
 const LAST: f64 = 1e-13;
-/// After so many iterations the last terms of directions are those of the solution, but for small corrections; where they are
-/// above this, ten thousand times what they must be below, further iterations are for nothing.
-const SETTLED: usize = 3;
-const TOO_ROUGH: f64 = 1e-9;
+/// After so many iterations the terms in the middle are those of the solution, but for small corrections; where they are above
+/// this, ten times what they must be below, further iterations are for nothing.
+const SETTLED: usize = 2;
+const TOO_ROUGH: f64 = 10.0 * MIDDLE;
 
 /// How far relative velocities may be from the directions they begin with, as a part of the largest velocity so far: some
 /// rounding of the fastest block, and less than what has come to rest.
 const BEGINS_AS: f64 = 8.0 * f64::EPSILON;
+
+/// The order from which the size of what relaxes in a direction is read, and its factorial.
+const RELAXING: usize = 20;
+const FACTORIAL: f64 = 2_432_902_008_176_640_000.0;
 
 type AtPoints<T> = [T; POINTS];
 
@@ -94,28 +96,29 @@ impl Points {
 static AT: LazyLock<Points> = LazyLock::new(Points::new);
 
 impl PlaneSeries {
-    /// Forms the series of a step of `h` with directions by collocation. False: they are not smooth enough.
-    pub(super) fn collocate(&mut self, state: &PlaneState, tau: f64, h: f64) -> bool {
+    /// Forms the series of a step of `h` with directions by collocation. Tells whether they are smooth enough, and the largest
+    /// terms in the middle of directions.
+    pub(super) fn collocate(&mut self, state: &PlaneState, tau: f64, h: f64) -> (bool, f64) {
         let mut directions: Vec<AtPoints<Vector2>> =
             self.slides.iter().map(|slide| [slide.direction[0]; POINTS]).collect();
         let beginnings: Vec<Beginning> = self.slides.iter().map(|slide| slide.beginning).collect();
         let mut before = f64::INFINITY;
         for iteration in 0..ITERATIONS {
-            let [_, last] = self.form_through(state, (tau, h), &beginnings, &directions);
-            if iteration >= SETTLED && last > TOO_ROUGH {
-                return false;
+            let [middle, _] = self.form_through(state, (tau, h), &beginnings, &directions);
+            if iteration >= SETTLED && middle > TOO_ROUGH {
+                return (false, middle);
             }
-            let Some(largest) = self.correct(state, tau, h, &mut directions) else { return false };
+            let Some(largest) = self.correct(state, tau, h, &mut directions) else { break };
             if largest <= KNOWN || largest <= ROUNDING && largest > 0.5 * before {
                 let [middle, last] = self.form_through(state, (tau, h), &beginnings, &directions);
-                return middle <= MIDDLE && last <= LAST && self.begin_as(state);
+                return (middle <= MIDDLE && last <= LAST && self.begin_as(state), middle);
             }
             if largest > 4.0 * before {
-                return false;
+                break;
             }
             before = largest;
         }
-        false
+        (false, f64::INFINITY)
     }
 
     /// Forms the series with directions through these; returns the largest terms in the middle of directions, and at the end.
@@ -142,14 +145,12 @@ impl PlaneSeries {
             }
         }
         let contact = [state.axes[0].contact_at(tau), state.axes[0].interval.contact_slope * h];
-        for (series, axis) in self.axes.iter_mut().zip(&state.axes) {
-            series.begin(axis, tau, h, ORDER);
-        }
+        self.terms.begin(state.axes.each_ref(), tau, h, ORDER);
         for k in 0..=ORDER {
             for i in 0..self.slides.len() {
                 self.set_friction(state, i, k, contact);
             }
-            self.form_order(state, k);
+            self.terms.form_order(state.axes.each_ref(), k);
         }
         for i in 0..self.slides.len() {
             let power = self.slides[i].beginning.power();
@@ -157,6 +158,14 @@ impl PlaneSeries {
             self.slides[i].take_length(&terms);
         }
         [middle, last]
+    }
+
+    /// Whether directions have relaxed as far as [`Self::begin_as`] asks, by an explicit series: in the unit of time of the
+    /// stiffest, what relaxes has terms of 1/k! of its size.
+    pub(super) fn is_relaxed(&self, state: &PlaneState) -> bool {
+        let relaxes = |slide: &SlideSeries| slide.length[0] * length(slide.direction[RELAXING]) * FACTORIAL;
+        let mut moving = self.slides.iter().filter(|slide| !slide.beginning.is_implicit());
+        moving.all(|slide| relaxes(slide) <= BEGINS_AS * state.fastest)
     }
 
     /// Whether the directions begin as the relative velocities do, but for what does not show in them.
@@ -184,10 +193,9 @@ impl PlaneSeries {
             let mut matrix = nalgebra::DMatrix::<f64>::zeros(size, size);
             let mut right = nalgebra::DVector::<f64>::zeros(size);
             for (row, &i) in group.iter().enumerate() {
-                let velocities = [0, 1].map(|a: usize| self.axes[a].velocity_of(self.slides[i].position));
                 for (point, &s) in AT.places.iter().enumerate() {
                     let (at, d) = (row * POINTS + point, directions[i][point]);
-                    let r = velocities.each_ref().map(|velocity| velocity.at::<Plain>(s));
+                    let r = self.terms.velocity_at(self.slides[i].position, s);
                     right[at] = dot(across(d), r);
                     matrix[(at, at)] += dot(d, r);
                     for (column, &j) in group.iter().enumerate() {
@@ -219,6 +227,7 @@ mod tests {
 
     use super::*;
     use crate::general::system::System;
+    use crate::lanes::Plain;
     use crate::scene::{
         Block, Damping, GeneralBuilding, GeneralScene, GravityEffect, Motion, PlaneMotion, PlaneScene, Storey,
     };
@@ -261,7 +270,8 @@ mod tests {
                 .collect()
         };
         let (explicit, h) = (velocities(&series), series.h());
-        assert!(series.collocate(&state, 0.0, h), "the step of {h} s is smooth");
+        assert!(series.collocate(&state, 0.0, h).0, "the step of {h} s is smooth");
+        series.close(1.0, ORDER, h);
         for (found, expected) in velocities(&series).into_iter().zip(explicit) {
             assert!((found - expected).abs() < 8.0 * f64::EPSILON, "{found} for {expected}");
         }

@@ -30,9 +30,9 @@ impl PlaneSeries {
         state: &PlaneState,
         (frequency, longest): (f64, f64),
     ) -> Option<(Vec<usize>, LastWay)> {
-        let (slide, blocks, h) = (&self.slides[i], &state.system().blocks, self.h());
+        let (slide, blocks, h) = (&self.slides[i], &state.system().blocks, self.terms.h);
         let (node, inverse) = (blocks[slide.block].floor, state.axes[0].regime.inverse_mass[blocks[slide.block].floor]);
-        let contact = state.axes[0].contact_at(self.tau());
+        let contact = state.axes[0].contact_at(self.terms.tau);
         let velocity = state.velocity(slide.block);
         let friction = |j: usize| state.friction(j).1 * contact;
         let moves_alike =

@@ -5,11 +5,16 @@ use crate::general::plane::state::PlaneState;
 use crate::general::plane::stiff::Stiff;
 use crate::general::plane::vector::{Vector2, dot, length, plus, times};
 use crate::general::series::Series;
+use crate::general::terms::Terms;
 use crate::lanes::Plain;
 use crate::polynomial::orders::terms;
 use crate::polynomial::power::Polynomial;
-use crate::tolerances::{ARRIVED_ON_CIRCLE, AT_STOPS_ROUNDING, SERIES_PHASE, SERIES_ROUNDING};
+use crate::tolerances::{ARRIVED_ON_CIRCLE, AT_STOPS_ROUNDING, SERIES_PHASE};
 use crate::units::STANDARD_GRAVITY;
+
+/// What the last two terms of a direction are at most: they fall by five from one to the next, so that what is left out is half
+/// of rounding.
+const DIRECTION_ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// What the last term of a direction must be below: rounding over a larger one is no number.
 const LARGEST: f64 = 1e280;
@@ -32,6 +37,8 @@ const LEAST_ORDER: usize = 6;
 #[derive(Default)]
 pub(super) struct PlaneSeries {
     pub(super) axes: [Series; 2],
+    /// Of which a step with sliding blocks is formed.
+    pub(super) terms: Terms<2>,
     /// Of the blocks that slide.
     pub(super) slides: Vec<SlideSeries>,
     /// Blocks on the straight line to their stops.
@@ -67,8 +74,7 @@ impl PlaneSeries {
         self.begin(state);
         if self.slides.is_empty() {
             for (series, axis) in self.axes.iter_mut().zip(&state.axes) {
-                series.form(axis, tau, (longest, axis.regime.frequency * longest), 0);
-                series.bound_changes();
+                series.form(axis, tau, (longest, axis.regime.frequency * longest), 0, false);
             }
             return None;
         }
@@ -81,26 +87,28 @@ impl PlaneSeries {
             (self.last_way, self.highest) = (Some(way), LAST_WAY_ORDER);
             self.form_slides(state, tau, time);
             self.highest = ORDER;
-            if self.h() == time {
+            if self.terms.h == time {
                 self.close(1.0, LAST_WAY_ORDER, time);
                 return None;
             }
             self.last_way = None;
             self.form_slides(state, tau, longest);
         }
-        let (h, least) = (self.h(), STRAIGHT * state.fastest);
+        let (h, least) = (self.terms.h, STRAIGHT * state.fastest);
         let is_straight = |slide: &&SlideSeries| slide.is_straight(longest / h, least);
         self.straight = self.slides.iter().filter(is_straight).map(|slide| slide.block).collect();
         if !self.straight.is_empty() {
             self.form_slides(state, tau, longest);
         }
         let (mut end, mut order) = self.end(frequency, longest);
-        if let Some(longer) = self.stiff.longer(&self.slides, self.h(), end, longest) {
+        if self.is_relaxed(state)
+            && let Some(longer) = self.stiff.longer(&self.slides, self.terms.h, end, longest)
+        {
             // Ends well before any stop: a straight way to one is as any other.
             let straight = std::mem::take(&mut self.straight);
-            let formed = self.collocate(state, tau, longer);
-            self.stiff.note(longer, formed);
-            if formed {
+            let outcome = self.collocate(state, tau, longer);
+            self.stiff.note(longer, outcome);
+            if outcome.0 {
                 (end, order) = (self.before_stops(1.0, ORDER), ORDER);
             } else {
                 self.straight = straight;
@@ -112,16 +120,15 @@ impl PlaneSeries {
     }
 
     /// Ends the step at its place `end` and after an order.
-    fn close(&mut self, end: f64, order: usize, longest: f64) {
+    pub(super) fn close(&mut self, end: f64, order: usize, longest: f64) {
         self.order = order;
         // Rounding may leave their product just below.
-        let is_longest = end == longest / self.h();
-        for series in &mut self.axes {
-            series.shorten(end, order);
+        let is_longest = end == longest / self.terms.h;
+        for (d, series) in self.axes.iter_mut().enumerate() {
+            series.take(&self.terms, d, end, order);
             if is_longest {
                 series.h = longest;
             }
-            series.bound_changes();
         }
         self.slides.iter_mut().for_each(|slide| slide.shorten(end));
     }
@@ -184,9 +191,7 @@ impl PlaneSeries {
 
     fn form_terms(&mut self, state: &PlaneState, tau: f64, h: f64) {
         let contact = [state.axes[0].contact_at(tau), state.axes[0].interval.contact_slope * h];
-        for (series, axis) in self.axes.iter_mut().zip(&state.axes) {
-            series.begin(axis, tau, h, self.highest);
-        }
+        self.terms.begin(state.axes.each_ref(), tau, h, self.highest);
         let starts = self.slides.iter().any(|slide| slide.beginning.is_implicit());
         for k in 0..=self.highest {
             for i in 0..self.slides.len() {
@@ -200,7 +205,7 @@ impl PlaneSeries {
                 }
                 self.set_friction(state, i, k, contact);
             }
-            self.form_order(state, k);
+            self.terms.form_order(state.axes.each_ref(), k);
             if !starts {
                 continue;
             }
@@ -208,7 +213,7 @@ impl PlaneSeries {
                 self.classify(state, tau);
             } else {
                 self.solve_across(state, k, contact);
-                self.form_order(state, k);
+                self.terms.form_order(state.axes.each_ref(), k);
             }
             self.take_starts(k);
         }
@@ -221,26 +226,19 @@ impl PlaneSeries {
             return;
         }
         let sizes = state.axes.each_ref().map(|axis| axis.acceleration_sizes(tau));
-        let (axes, highest) = (&self.axes, self.highest);
+        let (terms, highest) = (&self.terms, self.highest);
         self.slides.retain_mut(|slide| {
             let (position, node) = (slide.position, state.system().blocks[slide.block].floor);
             let size = sizes[0][node] + sizes[1][node] + length(state.drive(slide.block));
-            let term = |k: usize| axes.each_ref().map(|series| series.blocks[position].velocity[k]);
+            let term = |k: usize| terms.blocks[position].velocity[k];
             slide.beginning != Beginning::Free(0)
-                || slide.divide_free(highest, AT_STOPS_ROUNDING * size * axes[0].h, term)
+                || slide.divide_free(highest, AT_STOPS_ROUNDING * size * terms.h, term)
         });
-    }
-
-    pub(super) fn form_order(&mut self, state: &PlaneState, k: usize) {
-        for (series, axis) in self.axes.iter_mut().zip(&state.axes) {
-            series.form_order(axis, k);
-        }
     }
 
     /// Term of order k of the relative velocity of a sliding block.
     pub(super) fn term(&self, slide: usize, k: usize) -> Vector2 {
-        let position = self.slides[slide].position;
-        self.axes.each_ref().map(|series| series.blocks[position].velocity[k])
+        self.terms.blocks[self.slides[slide].position].velocity[k]
     }
 
     /// Friction of order k over mass: mu_k (N_0 d_k + N_1 d_(k-1)).
@@ -248,16 +246,13 @@ impl PlaneSeries {
         let slide = &self.slides[i];
         let before = if k > 0 { slide.direction[k - 1] } else { [0.0; 2] };
         let of_order = plus(times(contact[0], slide.direction[k]), times(contact[1], before));
-        let friction = times(state.friction(slide.block).1, of_order);
-        for (series, friction) in self.axes.iter_mut().zip(friction) {
-            series.blocks[slide.position].friction[k] = friction;
-        }
+        self.terms.blocks[slide.position].friction[k] = times(state.friction(slide.block).1, of_order);
     }
 
     /// Whether blocks start with an acceleration: it vanishes where mu_s = mu_k.
     fn classify(&mut self, state: &PlaneState, tau: f64) {
         let sizes = state.axes.each_ref().map(|axis| axis.acceleration_sizes(tau));
-        let (contact, h) = (state.axes[0].contact_at(tau), self.h());
+        let (contact, h) = (state.axes[0].contact_at(tau), self.terms.h);
         for i in 0..self.slides.len() {
             let SlideSeries { position, block, beginning, direction, .. } = self.slides[i];
             if !beginning.is_implicit() {
@@ -270,17 +265,15 @@ impl PlaneSeries {
             let jumps = change > AT_STOPS_ROUNDING * size * h;
             self.slides[i].beginning = if jumps { Beginning::Jump } else { Beginning::Smooth };
             let term = times(if jumps { change } else { 0.0 }, first);
-            for (series, term) in self.axes.iter_mut().zip(term) {
-                let block = &mut series.blocks[position];
-                (block.velocity[1], block.slip[2]) = (term, 0.5 * h * term);
-            }
+            let block = &mut self.terms.blocks[position];
+            (block.velocity[1], block.slip[2]) = (term, times(0.5 * h, term));
         }
     }
 
     /// Parts of order k across the first direction of the blocks that start, coupled by the acceleration of their node.
     fn solve_across(&mut self, state: &PlaneState, k: usize, contact: [f64; 2]) {
         let system = state.system();
-        let per_time = (k + 1) as f64 / self.h();
+        let per_time = (k + 1) as f64 / self.terms.h;
         let starts: Vec<usize> = (0..self.slides.len()).filter(|&i| self.slides[i].beginning.is_implicit()).collect();
         let friction = |i: usize| state.friction(self.slides[i].block).1 * contact[0];
         let law = |i: usize| &system.blocks[self.slides[i].block];
@@ -321,12 +314,13 @@ impl PlaneSeries {
     /// The place where the series is to end, and the order after which: the last terms of all directions are below rounding
     /// there, and no relative velocity comes to zero. In units of time, which may be many until `longest`.
     fn end(&self, frequency: f64, longest: f64) -> (f64, usize) {
-        let (phase, most) = (frequency * self.h(), (longest / self.h()).min(MOST_UNITS));
+        let (phase, most) = (frequency * self.terms.h, (longest / self.terms.h).min(MOST_UNITS));
         let is_asymptotic = self.slides.iter().any(|slide| slide.beginning == Beginning::Smooth);
-        let orders = if is_asymptotic { LEAST_ORDER..=ORDER } else { ORDER..=ORDER };
-        let (mut best, mut best_order) = (0.0, ORDER);
+        let highest = self.highest;
+        let orders = if is_asymptotic { LEAST_ORDER..=highest } else { highest..=highest };
+        let (mut best, mut best_order) = (0.0, highest);
         for order in orders {
-            let mut end = self.slides.iter().fold(most, |end: f64, s| end.min(s.reach(order, SERIES_ROUNDING)));
+            let mut end = self.slides.iter().fold(most, |end: f64, s| s.reach(order, end, DIRECTION_ROUNDING));
             while terms::<Plain>(phase * end) > order {
                 end *= 0.8;
             }

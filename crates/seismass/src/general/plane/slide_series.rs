@@ -123,20 +123,26 @@ impl SlideSeries {
             self.length[k] = dot(self.direction[0], r);
             return;
         }
-        let product = |i: usize, j: usize| dot(self.relative[i], self.relative[j]) - self.length[i] * self.length[j];
-        let mut squares = dot(self.relative[0], r) + (1..k.div_ceil(2)).map(|i| product(i, k - i)).sum::<f64>();
+        let (terms, lengths) = (&self.relative[1..k], &self.length[1..k]);
+        let product = |r: Vector2, other: Vector2, rho: f64, last: f64| dot(r, other) - rho * last;
+        let upper = terms.iter().zip(lengths).rev();
+        let pairs = terms.iter().zip(lengths).zip(upper).take((k - 1) / 2);
+        let inner = pairs.map(|((r, rho), (other, last))| product(*r, *other, *rho, *last)).sum::<f64>();
+        let mut squares = dot(self.relative[0], r) + inner;
         if k.is_multiple_of(2) {
-            squares += 0.5 * product(k / 2, k / 2);
+            let (middle, rho) = (self.relative[k / 2], self.length[k / 2]);
+            squares += 0.5 * product(middle, middle, rho, rho);
         }
         self.length[k] = squares / self.length[0];
         // Two sums, so that a term need not wait for the one before it.
-        let part = |i: usize| times(self.length[i], self.direction[k - i]);
         let (mut one, mut other) = (r, [0.0; 2]);
-        for i in (1..k).step_by(2) {
-            (one, other) = (minus(one, part(i)), minus(other, part(i + 1)));
+        let (lengths, last_length) = self.length[1..=k].as_chunks();
+        let (first_direction, directions) = self.direction[..k].as_rchunks();
+        for ([rho, next_rho], [before, d]) in lengths.iter().zip(directions.iter().rev()) {
+            (one, other) = (minus(one, times(*rho, *d)), minus(other, times(*next_rho, *before)));
         }
-        if k % 2 == 1 {
-            one = minus(one, part(k));
+        if let ([rho], [d]) = (last_length, first_direction) {
+            one = minus(one, times(*rho, *d));
         }
         self.direction[k] = times(1.0 / self.length[0], plus(one, other));
     }
@@ -292,16 +298,27 @@ impl SlideSeries {
         }
     }
 
-    /// The longest part of the series in which both terms of the direction before `last` and at it are below rounding.
-    pub(super) fn reach(&self, order: usize, rounding: f64) -> f64 {
+    /// Whether both terms of the direction before order k and at it are below rounding at the place `end`.
+    fn is_below(&self, k: usize, end: f64, rounding: f64) -> bool {
+        let before = rounding / end.powi(k as i32 - 1);
+        length(self.direction[k - 1]) <= before && length(self.direction[k]) * end <= before
+    }
+
+    /// The longest part of the series up to its place `end` in which both terms of the direction before the last and at it
+    /// are below rounding.
+    pub(super) fn reach(&self, order: usize, end: f64, rounding: f64) -> f64 {
         let last = match self.beginning {
             Beginning::Free(_) => self.last(order),
             _ => order,
-        };
+        }
+        .max(2);
+        if self.is_below(last, end, rounding) {
+            return end;
+        }
         let of = |k: usize| {
             let size = length(self.direction[k]);
             if size == 0.0 { f64::INFINITY } else { libm::pow(rounding / size, 1.0 / k as f64) }
         };
-        of(last).min(of(last.saturating_sub(1).max(1)))
+        of(last).min(of(last - 1)).min(end)
     }
 }
