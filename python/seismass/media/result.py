@@ -34,7 +34,7 @@ ANIMATION: Final = "animation.json"
 
 @cache
 def stored_tables(name: str) -> dict[str, tuple[str, dict[str, dict[str, str]]]]:
-    """Return what a row of each table of a result is, and its columns with unit, header and meaning, as
+    """Return what a row of each table of a result is, and its columns with unit, header, form and meaning, as
     data/tables has them: a column may be of several tables, and a row without one says what a row of the table is.
     """
     rows = [(row["tables"].split(), row["column"], row) for row in stored_rows(f"{name}_columns")]
