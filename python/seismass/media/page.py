@@ -65,12 +65,12 @@ def described_html(
     """
     name, _, parts = tables.partition(": ")
     rows = {column: row for part in parts.split() for column, row in stored_tables(name)[part][1].items()}
-    found, shown = [rows[column] for column in frame.columns if column in rows], units or {}
-    unit_of = {row["column"]: shown[row["unit"]] for row in found if row["unit"] in shown}
+    columns, in_units = [rows[column] for column in frame.columns if column in rows], units or {}
+    unit_of = {row["column"]: in_units[row["unit"]] for row in columns if row["unit"] in in_units}
     words = {column: f" ({unit})" for column, (unit, _) in unit_of.items() if unit}
-    known: dict[str, Format] = {row["column"]: row["form"] for row in found if row["form"]}
+    known: dict[str, Format] = {row["column"]: row["form"] for row in columns if row["form"]}
     known |= {column: form for column, (_, form) in unit_of.items()}
-    heads = {row["column"]: (row["header"] or row["column"]) + words.get(row["column"], "") for row in found}
+    heads = {row["column"]: (row["header"] or row["column"]) + words.get(row["column"], "") for row in columns}
     return table_html(frame, caption, headers=heads | dict(headers or {}), formats=known | dict(formats or {}))
 
 

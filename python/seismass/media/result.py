@@ -85,8 +85,8 @@ class StoredTable(property):
     def _table(self, result: Any) -> pl.DataFrame:
         import polars as pl
 
-        found: dict[str, pl.DataFrame] = result.tables
-        return found[self.name] if self.name in found else pl.DataFrame(schema=table_schema(self.owner, self.name))
+        tables: dict[str, pl.DataFrame] = result.tables
+        return tables[self.name] if self.name in tables else pl.DataFrame(schema=table_schema(self.owner, self.name))
 
     def __set_name__(self, owner: Any, name: str) -> None:
         self.name, self.owner = name, owner.document
