@@ -149,8 +149,8 @@ class Assessment(FieldValue, StoredResult):
     @property
     def input(self) -> dict[str, Any]:
         """The input as it was understood, in SI units."""
-        found: dict[str, Any] = self.content["input"]
-        return found
+        inputs: dict[str, Any] = self.content["input"]
+        return inputs
 
     @property
     def suite(self) -> dict[str, Any]:

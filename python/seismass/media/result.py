@@ -34,7 +34,7 @@ ANIMATION: Final = "animation.json"
 
 @cache
 def stored_tables(name: str) -> dict[str, tuple[str, dict[str, dict[str, str]]]]:
-    """Return what a row of each table of a result is, and its columns with unit, header and meaning, as
+    """Return what a row of each table of a result is, and its columns with unit, header, form and meaning, as
     data/tables has them: a column may be of several tables, and a row without one says what a row of the table is.
     """
     rows = [(row["tables"].split(), row["column"], row) for row in stored_rows(f"{name}_columns")]
@@ -85,8 +85,8 @@ class StoredTable(property):
     def _table(self, result: Any) -> pl.DataFrame:
         import polars as pl
 
-        found: dict[str, pl.DataFrame] = result.tables
-        return found[self.name] if self.name in found else pl.DataFrame(schema=table_schema(self.owner, self.name))
+        tables: dict[str, pl.DataFrame] = result.tables
+        return tables[self.name] if self.name in tables else pl.DataFrame(schema=table_schema(self.owner, self.name))
 
     def __set_name__(self, owner: Any, name: str) -> None:
         self.name, self.owner = name, owner.document

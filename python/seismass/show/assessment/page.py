@@ -19,6 +19,7 @@ from seismass.effective_mass.rule import RULE_IN_WORDS
 from seismass.media.page import (
     Section,
     bullets_html,
+    described_html,
     edited_html,
     facts_html,
     long_html,
@@ -26,7 +27,6 @@ from seismass.media.page import (
     table_html,
     text_html,
 )
-from seismass.media.result import stored_tables
 from seismass.media.roles import EFFECTIVE, LAMBDA, OMEGA, OVER_MODEL, lettered, sentence_html
 from seismass.media.text_table import number_text
 from seismass.show.assessment.page_input import Pictures, in_motion_html, input_html, motions_html, names_of
@@ -88,14 +88,6 @@ def _number(value: float | None, digits: int = 2) -> str:
     return number_text(value, f".{digits}f", missing="\N{EN DASH}", infinite="\N{EN DASH}")
 
 
-def _headers(name: str, table: pl.DataFrame, **units: str) -> dict[str, str]:
-    """Heads of the columns of a table of the result, with the units in which the page shows them."""
-    rows = stored_tables("assessment")[name][1]
-    known = {column: rows[column] for column in table.columns if column in rows}
-    shown = {column: f" ({units[row['unit']]})" if row["unit"] in units else "" for column, row in known.items()}
-    return {column: row["header"] + shown[column] for column, row in known.items()}
-
-
 def _interval(fraction: EffectiveMass) -> str:
     ends = fraction.suite_interval
     return "\N{EN DASH}" if ends is None else f"{_number(ends[0])} to {_number(ends[1])}"
@@ -125,10 +117,11 @@ def _checks(result: Assessment) -> Markup:
             }
         )
     table = pl.DataFrame(rows, schema_overrides={"storey": pl.UInt32, "value": pl.String, "source": pl.String})
-    return table_html(
+    return described_html(
+        "assessment: checks",
         table,
         "Largest value over the storeys beside its limit. Drift and stability are those of the means over the motions.",
-        headers=_headers("checks", table) | {"use": "use of the limit"},
+        headers={"use": "use of the limit"},
         formats={"met": _verdict, "source": long_html},
     )
 
@@ -204,14 +197,11 @@ def _drifts(result: Assessment, pictures: Pictures) -> list[Markup]:
             else "Drift of each storey, and the slip of its floor.",
             note,
         ),
-        table_html(
+        described_html(
+            "assessment: storeys",
             table,
             f"Peak drift of each storey ({'% of the height' if ratio else unit}) by model over the motions.",
-            headers=_headers("storeys", table, drift=unit),
-            formats={
-                **dict.fromkeys(names, lambda value: f"{scale * value:.2f}"),
-                **({"theta": ".3f"} if ratio else {}),
-            },
+            units={"drift": (unit, lambda value: f"{scale * value:.2f}")},
         ),
     ]
 
@@ -253,15 +243,11 @@ def _slip(result: Assessment) -> list[Markup]:
     table = result.slip.select("friction", "floor", "name", "goods", "mu_s", "mu_k", "motions_that_slide", *names)
     table = table.drop([name for name in ("name", "goods") if not any(table[name])])
     return [
-        table_html(
+        described_html(
+            "assessment: slip",
             table,
             f"Peak and residual slip over the motions; the interval is that of {confidence:g} % of the peak at 84 %.",
-            headers=_headers("slip", table, m=result.units.unit("slip")),
-            formats={
-                **dict.fromkeys(names, lambda value: result.units.number("slip", value, ".1f")),
-                "mu_s": ".3g",
-                "mu_k": ".3g",
-            },
+            units={"m": (result.units.unit("slip"), lambda value: result.units.number("slip", value, ".1f"))},
         ),
     ]
 

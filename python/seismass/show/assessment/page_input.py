@@ -18,6 +18,7 @@ from seismass.media.page import (
     MOST_STOREYS,
     LiveCase,
     bullets_html,
+    described_html,
     facts_html,
     figure_html,
     long_html,
@@ -423,23 +424,16 @@ def motions_html(result: Assessment, pictures: Pictures) -> list[Markup]:
     if "scaling" in result.tables:
         left_out = pl.DataFrame(result.content["left_out"], schema=dict.fromkeys(LEFT_OUT, pl.Float64))
         parts.append(
-            table_html(
+            described_html(
+                "assessment: left_out scaling",
                 result.tables["scaling"].hstack(left_out),
                 "Scaling factors: that of each motion is its own times the common one. PGV and PGD when scaled; "
                 "largest effective fraction and governing drift without the motion.",
-                headers={
-                    "motion": "number",
-                    "record": "motion",
-                    "individual_factor": "own factor",
-                    "common_factor": "common factor",
-                    "pgv": f"PGV ({units.unit('velocity')})",
-                    "pgd": f"PGD ({units.unit('displacement')})",
+                units={
+                    "m/s": (units.unit("velocity"), partial(units.number, "velocity")),
+                    "m": (units.unit("displacement"), partial(units.number, "displacement")),
                 },
-                formats={
-                    **dict.fromkeys(("individual_factor", "common_factor", "factor", *LEFT_OUT[2:]), ".4f"),
-                    "pgv": partial(units.number, "velocity"),
-                    "pgd": partial(units.number, "displacement"),
-                },
+                headers={"motion": "number", "record": "motion"},
             )
         )
     return parts

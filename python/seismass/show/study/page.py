@@ -11,6 +11,7 @@ from markupsafe import Markup, escape
 from seismass.media.page import (
     Section,
     bullets_html,
+    described_html,
     edited_html,
     facts_html,
     figure_html,
@@ -87,16 +88,11 @@ def validation_section(result: StudyResult, page: Pictures) -> Iterator[Section]
             )
         )
     parts += [
-        table_html(
+        described_html(
+            "study: section4_differences",
             differences,
             "Largest difference of histories from those of the exact kernel, and that over the largest drift or slip.",
-            headers={
-                "drift_mm": "drift (mm)",
-                "drift_percent": "drift (%)",
-                "slip_mm": "slip (mm)",
-                "slip_percent": "slip (%)",
-            },
-            formats=dict.fromkeys(("drift_mm", "drift_percent", "slip_mm", "slip_percent"), ".2g"),
+            units={unit: (unit, ".2g") for unit in ("mm", "%")},
         ),
         page.figure(
             "section4_sliding",
@@ -133,14 +129,7 @@ def sensitivity_section(result: StudyResult, page: Pictures) -> Iterator[Section
     if not table.height:
         return
     keys = ["choice", "setting", "occupancy", *(["mu"] if table["mu"].n_unique() > 1 else [])]
-    names = {
-        "largest_percent": "largest",
-        "least_R_percent": "mean at the smallest R",
-        "most_R_percent": "mean at the largest R",
-        "mass_percent": "of that: left-out mass",
-        "sliding_percent": "of that: sliding",
-        "collapses": "collapsed runs",
-    }
+    names = ("largest", "least_R", "most_R", "mass", "sliding")
     as_is = table.filter(choice=table["choice"][0])["largest_percent"].drop_nulls()
     low, high = (table["largest_percent"].drop_nulls().to_numpy() for _ in range(2))
     change = f"from {percent(low.min())} to {percent(high.max())}" if as_is.len() else "without a number"
@@ -153,12 +142,12 @@ def sensitivity_section(result: StudyResult, page: Pictures) -> Iterator[Section
                 "Largest underestimation of a first storey under each choice.",
                 f"The largest underestimation of a first storey goes {change} over the choices.",
             ),
-            table_html(
-                table.select(*keys, *names),
+            described_html(
+                "study: sensitivity",
+                table.select(*keys, *(f"{name}_percent" for name in names), "collapses"),
                 f"Underestimation of first storeys under each choice. Means are over those with the largest {ALPHA}; "
                 "that at the largest R is made of the mass that the code leaves out and of sliding.",
-                headers=names,
-                formats={name: percent for name in names if name.endswith("percent")},
+                units={"%": ("", percent)},
             ),
         ],
     )
@@ -199,13 +188,12 @@ def claims_section(result: StudyResult) -> Iterator[Section]:
                 "Claims of the paper's abstract, sections 4 and 5 and conclusions, with the numbers of this study: "
                 f"{words}. Verdicts follow from rules on the tables."
             ),
-            table_html(
+            described_html(
+                "study: claims",
                 table.select("number", "claim", "verdict", "numbers", "depends_on", "source"),
                 "Each claim: whether it holds here, our numbers, and what the verdict depends on.",
-                headers={"number": "no.", "numbers": "our numbers", "depends_on": "depends on"},
                 formats={
                     "verdict": _verdict,
-                    "number": "d",
                     **dict.fromkeys(("claim", "numbers", "depends_on"), lambda text: long_html(lettered(text))),
                 },
             ),
@@ -314,22 +302,12 @@ def _motions(result: StudyResult, page: Pictures) -> list[Markup]:
             f"The mean spectrum of the scaled motions is not below the target in the range of scaling; they touch at "
             f"{least:.2g} s.",
         ),
-        table_html(
+        described_html(
+            "study: scaling",
             factors,
             "Scaling factors: the factor of each motion is its own times the common one.",
-            headers={
-                "name": "motion",
-                "motion": "number",
-                "pga": "PGA unscaled (g)",
-                "individual_factor": "own factor",
-                "common_factor": "common factor",
-            },
-            formats={
-                "motion": "d",
-                **({"remarks": long_html} if "remarks" in factors.columns else {}),
-                "pga": ".3f",
-                **dict.fromkeys(("individual_factor", "common_factor", "factor"), ".4f"),
-            },
+            headers={"name": "motion", "pga": "PGA unscaled (g)"},
+            formats={"pga": ".3f", **({"remarks": long_html} if "remarks" in factors.columns else {})},
         ),
     ]
 

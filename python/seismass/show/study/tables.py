@@ -11,8 +11,8 @@ from markupsafe import Markup
 
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.effective_mass.rule import RULE, RULE_IN_WORDS
-from seismass.media.page import table_html
-from seismass.media.roles import ATTACHED, CODE, EFFECTIVE, ETA, MU, SLIDE, lettered
+from seismass.media.page import described_html, table_html
+from seismass.media.roles import CODE, ETA, MU, SLIDE, lettered
 from seismass.show.animation import animate
 from seismass.show.animation.html import element_content
 from seismass.show.study.answer import percent
@@ -83,54 +83,29 @@ def shown_keys(table: pl.DataFrame) -> list[str]:
 
 def storeys_table(result: StudyResult) -> Markup:
     """Return mean drifts of every storey by the three models, and the underestimation."""
-    names = {
-        "storey": "storey",
-        "mean_peak_drift_real": f"{SLIDE.name} (mm)",
-        "mean_peak_drift_code": f"{CODE.name} (mm)",
-        "mean_peak_drift_attached": f"{ATTACHED.name} (mm)",
-        "underestimation_percent": "under-estimation",
-        "p16_underestimation_percent": "16 %",
-        "median_underestimation_percent": "median",
-        "p84_underestimation_percent": "84 %",
-        "ratio_mass": f"{ATTACHED.name} / {CODE.name}",
-        "ratio_sliding": f"{SLIDE.name} / {ATTACHED.name}",
-    }
-    table = result.summary.select(*shown_keys(result.summary), *names)
-    millimetres = [name for name in names if name.startswith("mean_peak")]
-    percents = [name for name in names if name.endswith("percent")]
-    return table_html(
-        table,
+    models = ("real", "code", "attached")
+    percents = ("underestimation", "p16_underestimation", "median_underestimation", "p84_underestimation")
+    names = ["storey", *(f"mean_peak_drift_{model}" for model in models), *(f"{name}_percent" for name in percents)]
+    return described_html(
+        "study: summary",
+        result.summary.select(*shown_keys(result.summary), *names, "ratio_mass", "ratio_sliding"),
         f"Capped mean drift of every storey, and ({SLIDE.name} \N{EN DASH} {CODE.name}) / {CODE.name}: of the means, "
         "and motion by motion.",
-        headers=names,
-        formats={
-            **dict.fromkeys(millimetres, lambda drift: f"{1e3 * drift:.1f}"),
-            **dict.fromkeys(percents, percent),
-            **dict.fromkeys(("ratio_mass", "ratio_sliding"), ".2f"),
-        },
+        units={"m": ("mm", lambda drift: f"{1e3 * drift:.1f}"), "%": ("", percent)},
     )
 
 
 def fractions_table(fractions: pl.DataFrame) -> Markup:
     """Return base shear, eta, the rule by hand and the effective fraction of every building."""
-    names = {
-        "base_shear_coefficient": "V/W",
-        "eta": ETA,
-        "coefficient": "C1",
-        "estimate": lettered(RULE),
-        "effective": EFFECTIVE,
-        "low": "5 %",
-        "high": "95 %",
-        "kind": "kind",
-    }
+    names = ("base_shear_coefficient", "eta", "coefficient", "estimate", "effective", "low", "high", "kind")
     known = [name for name in names if fractions[name].null_count() < fractions.height]
-    return table_html(
+    return described_html(
+        "study: fractions",
         fractions.select(*shown_keys(fractions), *known),
         f"Every building: mean peak base shear V of the runs with all attached over the weight W of all, {ETA} = {MU} "
         f"W/V, and the rule by hand, {lettered(RULE_IN_WORDS)}"
         + (", and the effective fraction with its interval." if "effective" in known else "."),
-        headers={name: names[name] for name in known},
-        formats={name: ".3f" if name.startswith("base") else ".2f" for name in known if name != "kind"},
+        headers={"estimate": lettered(RULE)} if "estimate" in known else {},
     )
 
 
