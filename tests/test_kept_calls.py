@@ -44,7 +44,7 @@ evidence match_suite effective_mass_map builtin_suite builtin_record builtin_pai
 read_record read_records read_suite read_pair read_scene read_building read_campaign find_pairs find_catalogue
 read_counts write_many write_opensees write assess validate figure_svg inline_svg example_file default_hazard
 example_description animate risk_targeted_share to_json solve_grid multiple_stripes replace from_csv each run
-as_motions digits digits_of_batch
+as_motions digits digits_of_batch incremental_dynamic_analysis
 """
 """What whole commands are asked for, or files, and texts of results whose numbers are looked at."""
 MOST, FIRST = 40, 5
