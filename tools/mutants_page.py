@@ -19,10 +19,10 @@ for 1, `and` for `or`, the largest for the smallest, two arguments exchanged; in
 out, an index off by one, and conditions. Each operator is drawn as often as the others.
 
 The *chosen tests* are those that name the place, those named like its module, and for faults drawn in Python those of
-whole commands (`tests/test_kept_answers.py`). What they do not see is asked of
-the *quick tier*, the tests of `make test`, and then of the *full tier*, those of `make test-all`. An empty cell is a
-tier that was not asked. Faults of Rust have no chosen tests: the quick tier is Rust's tests with fewer random scenes,
-and for the extension module Python's. A program that does not end counts as caught.
+public calls and whole commands (`tests/test_kept_calls.py`, `tests/test_kept_answers.py`). What they do not see is
+asked of the *quick tier*, the tests of `make test`, and then of the *full tier*, those of `make test-all`. An empty
+cell is a tier that was not asked. Faults of Rust have no chosen tests: the quick tier is Rust's tests with fewer
+random scenes, and for the extension module Python's. A program that does not end counts as caught.
 
 Of faults drawn in Python the chosen tests alone are asked unless `--full` stands on the command line, so that their
 share is a lower bound of what all tests see. What survives is a number, a refusal or a sentence without a test, which
