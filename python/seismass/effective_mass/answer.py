@@ -304,7 +304,8 @@ def effective_mass_of_design(
     >>> 0.0 <= sm.effective_mass_of_design(design, goods, suite).value <= 1.0
     True
     """
-    first: Any = design(0.0) if callable(design) else None
+    called: Any = design
+    first: Any = called(0.0) if callable(called) else None
     in_plane = isinstance(first, tuple) and len(first) == 2
     named = named_motions(motions, OWNER, Scene(first[0], other_direction=first[1]) if in_plane else None)
     parameters = (statistic, damping, fractions, confidence, resamples, seed, threads, progress)

@@ -116,8 +116,8 @@ def advice(result: Evidence) -> str:
         f"In an analysis: the load present on average times {' and '.join(words)}, or the round numbers of the table. "
         f"The rate of the drift limit is then within {RIGHT[0]:g} to {RIGHT[1]:g} times that of goods that slide in "
         f"{right(BY_CLASS)} of the archetypes by these factors, {right(ROUND)} by round numbers and {right(code)} with "
-        f"{CODE_NAMES[code]}, on {' and '.join(result.metadata['suites'])}. Where one weight also sets the strength, column (e) is that fraction; "
-        "floors that are always full need what stands for them below."
+        f"{CODE_NAMES[code]}, on {' and '.join(result.metadata['suites'])}. Where one weight also sets the strength, "
+        "column (e) is that fraction; floors that are always full need what stands for them below."
     )
 
 
