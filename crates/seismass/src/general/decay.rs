@@ -9,6 +9,7 @@ use std::rc::Rc;
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::general::regime::DecayingMode;
 use crate::general::state::GeneralState;
 use crate::general::terms::Terms;
 use crate::polynomial::orders::INVERSE;
@@ -23,20 +24,6 @@ const LEAST_RATIO: f64 = 16.0;
 
 /// Rates converge with the square of their error.
 const ITERATIONS: usize = 12;
-
-/// A mode. Lists are by node, then by block at a stop.
-pub(super) struct DecayingMode {
-    /// Rate of decay (1/s).
-    pub(super) rate: f64,
-    /// Displacements relative to the ground, so that the modal mass is 1.
-    shape: Vec<f64>,
-    /// Masses times displacements.
-    momentum: Vec<f64>,
-    /// Weights K f/r of drift rates and relative velocities.
-    stiffness: Vec<f64>,
-    /// Bound of the frequencies that are left where this mode and those before it have decayed (rad/s).
-    pub(super) left: f64,
-}
 
 impl DecayingMode {
     /// By how much terms of order k miss the condition.

@@ -5,7 +5,6 @@ use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
 
-use crate::general::decay::DecayingMode;
 use crate::general::system::System;
 
 /// Regimes that are kept; beyond, the cache starts afresh.
@@ -14,6 +13,20 @@ const MOST_REGIMES: usize = 4096;
 /// What of the machines affects the system: tangents, and which blocks are stuck or at a stop.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Default)]
 pub(super) struct Key(pub(super) Vec<u64>);
+
+/// A mode that decays fast (`decay`). Lists are by node, then by block at a stop.
+pub(super) struct DecayingMode {
+    /// Rate of decay (1/s).
+    pub(super) rate: f64,
+    /// Displacements relative to the ground, so that the modal mass is 1.
+    pub(super) shape: Vec<f64>,
+    /// Masses times displacements.
+    pub(super) momentum: Vec<f64>,
+    /// Weights K f/r of drift rates and relative velocities.
+    pub(super) stiffness: Vec<f64>,
+    /// Bound of the frequencies that are left where this mode and those before it have decayed (rad/s).
+    pub(super) left: f64,
+}
 
 /// A regime. Lists are by node.
 #[derive(Default)]

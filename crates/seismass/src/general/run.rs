@@ -3,12 +3,13 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::error::{Error, Result};
-use crate::general::decay::{DecayingMode, decayed};
+use crate::general::decay::decayed;
 use crate::general::energy::Balance;
 use crate::general::guards::{Guard, Search};
 use crate::general::histories::Recorder;
 use crate::general::outcome::{Happening, Outcome};
 use crate::general::peaks::Observer;
+use crate::general::regime::DecayingMode;
 use crate::general::response::{GeneralBase, GeneralEvent, GeneralResponse, GeneralStatus};
 use crate::general::series::{Quantity, Series};
 use crate::general::state::GeneralState;
