@@ -438,4 +438,5 @@ def test_the_rule_of_the_page_is_that_of_the_package(strength: list[float], shap
     coefficient, estimate, words = json.loads(done.stdout)
     assert coefficient == pytest.approx(expected.coefficient, rel=1e-12)
     assert estimate == pytest.approx(expected.estimate, rel=1e-12)
-    assert words.startswith(f"{expected.formula} = {expected.estimate:.3f}; C1")
+    formula = expected.formula.replace(" - ", " \N{MINUS SIGN} ")
+    assert words.startswith(f"{formula} = {expected.estimate:.3f}; C1")

@@ -114,10 +114,8 @@ def test_page_says_what_the_tables_say(folder: Path, result: StudyResult) -> Non
         .sort("underestimation_percent")
         .row(-1, named=True)
     )
-    assert (
-        f"The largest underestimation of any storey is {' '.join(percent(worst['underestimation_percent']).split())}"
-        in text
-    )
+    largest = percent(worst["underestimation_percent"], sign="-").replace("\N{NO-BREAK SPACE}", " ")
+    assert f"The largest underestimation of any storey is {largest}" in text
     assert result.metadata["inputs_sha256"] in text
     for sentence in assumptions(result.metadata):
         assert lettered(sentence) in text
@@ -130,8 +128,9 @@ def test_answer_counts_first_storeys(result: StudyResult) -> None:
     first = result.summary.filter(pl.col("R") > 1.0, storey=1, occupancy="commercial")
     missed = first["underestimation_percent"].to_numpy()
     said = str(answer(result)[1])
-    assert f"in {int((missed > 0.0).sum())} of {len(missed)}: by {percent(float(missed.mean()))} on average" in said
-    assert f"{percent(float(missed.min()))} to {percent(float(missed.max()))} in single buildings" in said
+    mean, least, most = (percent(float(each), sign="-") for each in (missed.mean(), missed.min(), missed.max()))
+    assert f"in {int((missed > 0.0).sum())} of {len(missed)}: by {mean} on average" in said
+    assert f"{least} to {most} in single buildings" in said
 
 
 def frame(**columns: list[float]) -> pl.DataFrame:

@@ -69,8 +69,10 @@ def steady(text: str) -> str:
 
 
 def table_lines(table: pl.DataFrame) -> Iterator[str]:
-    """Yield a table by its columns: all of a short one, else sum, least and largest."""
-    for name in table.columns:
+    """Yield a table by its columns: all of a short one, else sum, least and largest. Angles of goods that come to rest
+    are of velocities of rounding.
+    """
+    for name in table.drop("angle", strict=False).columns:
         column = table[name]
         if table.height <= 12:
             yield f"{name}: {', '.join(map(_shown, column.to_list()))}"
@@ -198,7 +200,8 @@ def value_lines(value: object, path: str = "", depth: int = 3) -> Iterator[str]:
 
 def _parts(value: object, path: str, depth: int) -> Iterator[str]:
     """Yield the public attributes of an object, and its card; views that draw are functions, and called as such."""
-    for name in [*(name for name in dir(value) if not name.startswith("_")), "_repr_html_"]:
+    public = (name for name in dir(value) if not name.startswith("_") and name != "statistics")  # steps of the solver
+    for name in [*public, "_repr_html_"]:
         try:
             part = getattr(value, name)
             part = part() if name == "_repr_html_" else part

@@ -121,8 +121,8 @@ def solved_designs(
     how: dict[str, Any] = {"drift": options.drift, "drift_cap": options.drift_cap, "threads": options.threads}
 
     def designed(share: float) -> Scene:
-        given: Any = design(share)
-        building, other = given if isinstance(given, tuple) and len(given) == 2 else (given, False)
+        pair: Any = design(share)
+        building, other = pair if isinstance(pair, tuple) and len(pair) == 2 else (pair, False)
         if not isinstance(building, Building):
             raise refusal(InvalidScene, "design", OWNER, "a Building, or two in x and y", brief(building))
         what: dict[str, Any] = {"base": base, "fixed_goods": fixed_goods, "collapse_drift": collapse_drift}
@@ -304,8 +304,8 @@ def effective_mass_of_design(
     >>> 0.0 <= sm.effective_mass_of_design(design, goods, suite).value <= 1.0
     True
     """
-    called: Any = design
-    first: Any = called(0.0) if callable(called) else None
+    rule: Any = design
+    first: Any = rule(0.0) if callable(rule) else None
     in_plane = isinstance(first, tuple) and len(first) == 2
     named = named_motions(motions, OWNER, Scene(first[0], other_direction=first[1]) if in_plane else None)
     parameters = (statistic, damping, fractions, confidence, resamples, seed, threads, progress)
