@@ -21,13 +21,19 @@ from matplotlib.artist import Artist
 from matplotlib.figure import Figure
 
 from seismass.base.errors import SeismassError
+from seismass.runs.simulate import instruction_set
 
 KEPT = Path(__file__).parents[1] / "tests" / "kept_answers"
 DIGITS = 5
 VERSIONS = " ".join(
-    f"{name} {version(name).rpartition('.')[0]}" for name in ("matplotlib", "numpy", "polars", "rich", "scipy")
+    [
+        *(f"{name} {version(name).rpartition('.')[0]}" for name in ("matplotlib", "numpy", "polars", "rich", "scipy")),
+        instruction_set(),
+    ]
 )
-"""What else the words and figures depend on: with other versions the answers are not compared, which is said."""
+"""What else the words and figures depend on, the last digits of racks among them: elsewhere the answers are not compared,
+which is said.
+"""
 MINUS = "\N{MINUS SIGN}"
 NUMBER = re.compile(rf"(?<![\w.])[-{MINUS}]?\d+\.\d+(?:e[-+]?\d+)?(?![\w.])", re.IGNORECASE)
 CHANGING = re.compile(
