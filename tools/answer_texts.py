@@ -31,8 +31,8 @@ VERSIONS = " ".join(
         instruction_set(),
     ]
 )
-"""What else the words and figures depend on, the last digits of racks among them: elsewhere the answers are not compared,
-which is said.
+"""What else words and figures depend on, as racks do on last digits: elsewhere answers are not compared, which is
+said.
 """
 MINUS = "\N{MINUS SIGN}"
 NUMBER = re.compile(rf"(?<![\w.])[-{MINUS}]?\d+\.\d+(?:e[-+]?\d+)?(?![\w.])", re.IGNORECASE)
