@@ -16,8 +16,8 @@ export PIP_NO_INPUT := 1
 export MPLBACKEND := Agg
 export MPLCONFIGDIR := $(abspath $(VENV))/matplotlib
 
-.PHONY: study explorer test test-all lint lint-quick test-rust test-rust-quick test-python test-python-quick test-wheel docs \
-	build web-kernel mutants bench bench-kernel count-instructions stress stress-general stress-plane fuzz audit audit-packages wheels \
+.PHONY: study explorer test test-all kernels lint lint-quick test-rust test-rust-quick test-python test-python-quick test-wheel \
+	docs build web-kernel mutants bench bench-kernel count-instructions stress stress-general stress-plane fuzz audit audit-packages wheels \
 	test-aarch64 clean
 
 study: build
@@ -34,7 +34,12 @@ test: lint-quick test-rust-quick test-python-quick
 	@echo "the live page, more random scenes and the tests of tests/slow.txt; continuous integration runs it."
 
 # Everything, as continuous integration runs it.
-test-all: lint docs test-wheel test-rust test-python
+test-all: kernels lint docs test-wheel test-rust test-python
+
+# Both kernels beside each other: each compiles for minutes on one core.
+kernels:
+	@$(MAKE) --no-print-directory web-kernel & web=$$!; \
+		$(MAKE) --no-print-directory build; status=$$?; wait $$web && exit $$status
 
 # Options other than --quick choose contestants or scenes of work_precision.py, which runs alone and writes nothing.
 bench: build $(BENCH_VENV)/made
