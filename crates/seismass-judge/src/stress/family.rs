@@ -24,7 +24,7 @@ pub enum Family {
     Usual,
     /// Numbers from ranges far wider than buildings have: [`hard_scene`].
     Hard,
-    /// Of the hard ones those with many vibrations in a step, and heavy goods: [`stiff_scene`].
+    /// Of the hard ones those with many vibrations in a step, and heavy goods: `stiff_scene`.
     Stiff,
     /// 13 to 64 storeys: [`tall_scene`].
     Tall,
