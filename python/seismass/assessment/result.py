@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Collection
 from dataclasses import asdict, dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar, Final, NamedTuple
+from typing import Any, ClassVar, Final, NamedTuple
 
 import polars as pl
 
@@ -24,9 +25,6 @@ from seismass.effective_mass.result import stored_fraction
 from seismass.media.result import StoredResult, StoredTable, finite_values
 from seismass.model.codes import CodeFraction
 from seismass.motions.spectra import TargetSpectrum
-
-if TYPE_CHECKING:
-    pass
 
 SCHEMA_VERSION: Final = 10
 """Version of the tables and of the JSON of an assessment."""
@@ -257,7 +255,8 @@ class Assessment(FieldValue, StoredResult):
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything but the runs as plain values in SI units; null for non-finite values."""
-        return self.content
+        document: dict[str, Any] = copy.deepcopy(self.content)
+        return document
 
 
 def assessment_of(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, TypeAlias, get_args
+from typing import Any, ClassVar, Final, Literal, TypeAlias, get_args
 
 import numpy as np
 import polars as pl
@@ -14,10 +14,6 @@ from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
 from seismass.base.values import FieldValue, FloatArray, as_array, as_list, brief, frozen, is_list, refusal
 from seismass.media.result import Result, finite_values
-
-if TYPE_CHECKING:
-    pass
-
 
 SpringShape: TypeAlias = Literal["bilinear", "trilinear", "capped"]
 """Two lines, three, or three whose last one falls."""

@@ -304,12 +304,12 @@ def effective_mass_of_design(
     >>> 0.0 <= sm.effective_mass_of_design(design, goods, suite).value <= 1.0
     True
     """
-    rule: Any = design
-    first: Any = rule(0.0) if callable(rule) else None
-    in_plane = isinstance(first, tuple) and len(first) == 2
-    named = named_motions(motions, OWNER, Scene(first[0], other_direction=first[1]) if in_plane else None)
     parameters = (statistic, damping, fractions, confidence, resamples, seed, threads, progress)
     options = checked_options(*parameters, LARGER, drift_cap, target)
+    rule: Any = design
+    first: Any = rule(0.0) if callable(rule) else None
+    in_plane = isinstance(first, tuple) and len(first) == 2 and all(isinstance(each, Building) for each in first)
+    named = named_motions(motions, OWNER, Scene(first[0], other_direction=first[1]) if in_plane else None)
     return solved_designs(design, blocks, named, options, racks, base=base).answer()
 
 

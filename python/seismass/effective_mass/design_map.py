@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, TypeAlias, get_args
+from typing import Any, ClassVar, Final, Literal, TypeAlias, get_args
 
 import numpy as np
 import polars as pl
@@ -44,9 +44,6 @@ from seismass.motions.records import Suite
 from seismass.motions.spectra import TargetSpectrum, mean_spectrum
 from seismass.motions.spectra.target import target_remarks
 from seismass.runs.peaks import NamedMotions, Peaks, named_motions, solve
-
-if TYPE_CHECKING:
-    pass
 
 Roof: TypeAlias = Literal["bare", "loaded"]
 """Whether the roof carries goods as the other floors do."""

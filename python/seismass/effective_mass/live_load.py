@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from numbers import Real
-from typing import TYPE_CHECKING, Any, ClassVar, Final
+from typing import Any, ClassVar, Final
 
 import numpy as np
 import polars as pl
@@ -37,9 +37,6 @@ from seismass.model.plausibility import usage_remarks
 from seismass.model.scene import Scene
 from seismass.motions.motion import MotionLike
 from seismass.runs.peaks import NamedMotions, Peaks, named_motions, solve
-
-if TYPE_CHECKING:
-    pass
 
 SCHEMA_VERSION: Final = 1
 """Version of the tables and of the JSON of an uncertainty."""

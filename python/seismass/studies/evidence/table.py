@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Final
+from typing import Any, ClassVar, Final
 
 import numpy as np
 import polars as pl
@@ -23,9 +23,6 @@ from seismass.studies.evidence.definitions import MCE, QUANTITIES, Answer, Quest
 from seismass.studies.evidence.runs import Motions, first_components, present_share, runs_of, solved_archetype
 from seismass.studies.evidence.variants import variants
 from seismass.studies.risk.hazard import HazardCurve
-
-if TYPE_CHECKING:
-    pass
 
 SCHEMA_VERSION: Final = 1
 """Version of the tables; see docs/evidence.md."""

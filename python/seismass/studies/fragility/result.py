@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, TypeAlias
+from typing import Any, ClassVar, Final, Literal, TypeAlias
 
 import numpy as np
 import polars as pl
@@ -28,10 +28,6 @@ from seismass.studies.fragility.fragility import BootstrapOptions, Fragility
 from seismass.studies.fragility.hunt import demand_at, intensity_at
 from seismass.studies.fragility.limits import IntensityMeasure, LimitState
 from seismass.studies.fragility.run import Setting, check_levels
-
-if TYPE_CHECKING:
-    pass
-
 
 SCHEMA_VERSION: Final = 2
 """Version of the tables and of the JSON of an analysis."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar, Final
+from typing import Any, ClassVar, Final
 
 import polars as pl
 
@@ -35,10 +35,6 @@ from seismass.studies.slip.tables import (
     run_table,
     squat_table,
 )
-
-if TYPE_CHECKING:
-    pass
-
 
 TOLERANCE: Final = 1e-3
 """Relative width to which the intensity is located at which a block reaches its clearance."""

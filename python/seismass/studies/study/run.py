@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass, field
 from itertools import chain, count
-from typing import TYPE_CHECKING, Any, ClassVar, Final
+from typing import Any, ClassVar, Final
 
 import numpy as np
 import polars as pl
@@ -37,10 +37,6 @@ from seismass.studies.study.tables import (
     responses_table,
     summary_table,
 )
-
-if TYPE_CHECKING:
-    pass
-
 
 SCHEMA_VERSION: Final = 5
 """Version of the tables and of the metadata that a study gives back; see docs/study_schema.md."""

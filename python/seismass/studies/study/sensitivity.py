@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, ClassVar, Final, get_args
+from typing import Any, ClassVar, Final, get_args
 
 import numpy as np
 import polars as pl
@@ -23,9 +23,6 @@ from seismass.motions.spectra import TargetSpectrum
 from seismass.studies.study.parameters import MODELS, DampingBase, StudyParameters
 from seismass.studies.study.run import StudyResult, checked_study, run_study
 from seismass.studies.study.tables import TABLES, Drifts, collapsed_of, drifts_of
-
-if TYPE_CHECKING:
-    pass
 
 AS_IS: Final = "as it is"
 """The first choice: the study with its own parameters."""
