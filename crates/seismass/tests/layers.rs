@@ -150,10 +150,15 @@ fn imports_of_the_kernel_go_downwards() {
     assert_no_circle_and_no_long_file(&sources);
 }
 
+/// Those of the workspace: beside the package of this one there are none.
 #[test]
 fn imports_of_the_other_crates_form_no_circle() {
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    if !workspace.join("seismass/src").is_dir() {
+        return;
+    }
     for (name, files) in [("seismass-judge", 20), ("seismass-python", 9), ("seismass-web", 8)] {
-        let sources = sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name).join("src"));
+        let sources = sources(&workspace.join(name).join("src"));
         assert!(sources.len() > files, "{name}: {} files", sources.len());
         assert_no_circle_and_no_long_file(&sources);
     }

@@ -7,7 +7,10 @@ use std::path::{Path, PathBuf};
 /// The scene files of a folder of references ("" or "general"), in order of name: those of the repository always, all others
 /// where `SEISMASS_SHARED` names shared data. Where it is not set, that is said where the test harness does not hide it.
 pub fn reference_files(folder: &str) -> Vec<PathBuf> {
-    let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("../seismass/tests/data/reference").join(folder)];
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let of_kernel = [own.join("tests/data/reference"), own.join("../seismass/tests/data/reference")];
+    let mut folders: Vec<_> = of_kernel.into_iter().filter(|place| place.is_dir()).take(1).collect();
+    folders.iter_mut().for_each(|place| place.push(folder));
     match std::env::var_os("SEISMASS_SHARED") {
         Some(shared) => folders.push(Path::new(&shared).join("reference").join(folder)),
         None => {
