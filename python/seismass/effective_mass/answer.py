@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from itertools import groupby
 from typing import Any, Final, TypeAlias
 
@@ -307,10 +307,12 @@ def effective_mass_of_design(
     parameters = (statistic, damping, fractions, confidence, resamples, seed, threads, progress)
     options = checked_options(*parameters, LARGER, drift_cap, target)
     rule: Any = design
+    if callable(rule):
+        rule = cache(rule)
     first: Any = rule(0.0) if callable(rule) else None
     in_plane = isinstance(first, tuple) and len(first) == 2 and all(isinstance(each, Building) for each in first)
     named = named_motions(motions, OWNER, Scene(first[0], other_direction=first[1]) if in_plane else None)
-    return solved_designs(design, blocks, named, options, racks, base=base).answer()
+    return solved_designs(rule, blocks, named, options, racks, base=base).answer()
 
 
 TABLE_OWNER: Final = "effective mass table"
