@@ -121,6 +121,58 @@ fn a_block_creeps_into_a_heavily_damped_stop() {
     assert!(response.statistics.series_steps < samples + 40, "{} steps", response.statistics.series_steps);
 }
 
+/// A motion, and the same with each interval divided: steps of other lengths in which other modes count as decayed.
+fn divided(motion: &Motion, parts: usize) -> Motion {
+    let samples = motion.acceleration();
+    let of_pair = |pair: &[f64]| -> Vec<f64> {
+        (0..parts).map(|i| pair[0] + (pair[1] - pair[0]) * i as f64 / parts as f64).collect()
+    };
+    let inner = samples.windows(2).flat_map(of_pair).chain(samples.last().copied());
+    Motion::new(inner.collect::<Vec<f64>>(), motion.dt() / parts as f64, None).unwrap()
+}
+
+/// Dampers of a building and of two stops over six decades, from rest and from blocks that move: peaks are those of a motion
+/// with sixteen times as many samples, and where all is strongly damped steps are few.
+#[test]
+fn decayed_modes_of_many_dampers_change_no_peak() {
+    let motion =
+        Motion::new((0..200).map(|i| 2.0 * (0.11 * f64::from(i) + 0.7).sin()).collect::<Vec<f64>>(), 0.01, None);
+    let motion = motion.unwrap();
+    let powers: Vec<f64> = (-1..=2).map(|power| 10.0_f64.powi(2 * power)).collect();
+    let stiffness = DMatrix::from_row_slice(2, 2, &[5e5, -2e5, -2e5, 2e5]);
+    for &of_building in &powers {
+        for (of_first, of_second) in powers.iter().flat_map(|first| powers.iter().map(move |second| (first, second))) {
+            let damping = Damping::Matrix(&stiffness * (1e-3 * of_building));
+            let storeys = vec![Storey::elastic(3e5), Storey::elastic(2e5)];
+            let building =
+                GeneralBuilding::new(vec![900.0, 700.0], storeys, None, &damping, GravityEffect::None).unwrap();
+            let goods = |floor: usize, damping: f64| Goods {
+                block: Block { velocity: Some(0.3), ..Block::new(floor, 80.0, 0.02) },
+                stops: Some(Stops { clearance: [0.004, 0.003], stiffness: 9e3, damping: 2.0 * damping * 848.5 }),
+            };
+            let goods = vec![goods(1, *of_first), goods(2, *of_second), Block::new(2, 110.0, 0.1).into()];
+            let scene = GeneralScene::new(Some(Arc::new(building)), goods, Vec::new()).unwrap();
+            let (one, other) = (solve(&scene, &motion), solve(&scene, &divided(&motion, 16)));
+            let peaks = |response: &GeneralResponse| -> Vec<f64> {
+                let peaks = &response.peaks;
+                let all = peaks.drift.iter().chain(&peaks.slip).chain(&peaks.contact_force);
+                all.map(|peak| peak.value).collect()
+            };
+            let what = format!("dampers {of_building:e}, {of_first:e}, {of_second:e}");
+            for (a, b) in peaks(&one).into_iter().zip(peaks(&other)) {
+                close(a, b, 1e-9, &what);
+            }
+            assert_eq!(one.statistics.events.total(), other.statistics.events.total(), "{what}");
+        }
+    }
+    let damping = Damping::Matrix(&stiffness * 1e3);
+    let storeys = vec![Storey::elastic(3e5), Storey::elastic(2e5)];
+    let building = GeneralBuilding::new(vec![900.0, 700.0], storeys, None, &damping, GravityEffect::None).unwrap();
+    let scene = GeneralScene::new(Some(Arc::new(building)), Vec::new(), Vec::new()).unwrap();
+    let steps = solve(&scene, &motion).statistics.series_steps;
+    assert!(steps < 20 * 200, "{steps} steps of a building that starts from rest");
+}
+
 /// A block held by friction against its stop keeps k e: it is at rest where the spring force is below mu m g.
 #[test]
 fn a_block_sticks_at_its_stop() {

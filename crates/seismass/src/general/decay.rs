@@ -121,7 +121,8 @@ pub(super) fn decayed(state: &mut GeneralState, terms: &mut Terms<1>, tau: f64, 
         let excess = mode.excess(state, terms, 0);
         let most = DECISION_ROUNDING * mode.size(state, &sizes, tau);
         if excess.abs() > most {
-            if left.is_empty() {
+            // At rest nothing has a size yet: it is looked at again after the next step.
+            if left.is_empty() && most > 0.0 {
                 state.decays_until = time + libm::log(excess.abs() / most) / mode.rate;
             }
             break;
@@ -139,9 +140,11 @@ pub(super) fn decayed(state: &mut GeneralState, terms: &mut Terms<1>, tau: f64, 
         for p in 1..=system.nodes {
             add(&mut state.v[p], change * (mode.shape[p] - mode.shape[system.parent[p]]));
         }
+        for &j in &state.moving {
+            add(&mut state.motions[j].velocity, -change * mode.shape[system.blocks[j].floor]);
+        }
         for (contact, i) in state.moving_contacts.iter().zip(system.nodes + 1..) {
-            let of_node = mode.shape[system.blocks[contact.block].floor];
-            add(&mut state.motions[contact.block].velocity, change * (mode.shape[i] - of_node));
+            add(&mut state.motions[contact.block].velocity, change * mode.shape[i]);
         }
     }
     left.len()
@@ -209,12 +212,13 @@ fn modes(state: &GeneralState) -> Vec<DecayingMode> {
 /// Rate and shape, in coordinates scaled by the roots of the masses, of the n-th fastest real mode: the n-th eigenvalue r of
 /// c - k/r. None where it is slower than `least`, or no faster than the slow motion of its shape.
 fn mode(c: &DMatrix<f64>, k: &DMatrix<f64>, n: usize, least: f64) -> Option<(f64, DVector<f64>)> {
-    let (mut rate, mut y) = (f64::INFINITY, DVector::zeros(0));
+    let (mut rate, mut y, mut faster) = (f64::INFINITY, DVector::zeros(0), DMatrix::zeros(0, 0));
     for _ in 0..ITERATIONS {
         let eigen = (c - k / rate).symmetric_eigen();
         let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
         order.sort_by(|&i, &j| eigen.eigenvalues[j].total_cmp(&eigen.eigenvalues[i]));
         y = eigen.eigenvectors.column(order[n]).into_owned();
+        faster = eigen.eigenvectors.select_columns(&order[..n]);
         let (half, stiffness) = (0.5 * (c * &y).dot(&y), (k * &y).dot(&y));
         let last = rate;
         rate = half + (half * half - stiffness).sqrt();
@@ -225,9 +229,11 @@ fn mode(c: &DMatrix<f64>, k: &DMatrix<f64>, n: usize, least: f64) -> Option<(f64
             break;
         }
     }
-    // Small components as exact as the entries of their rows.
+    // Small components as exact as the entries of their rows, but for those of faster modes, which would grow.
     for _ in 0..2 {
-        y = ((c * &y - k * &y / rate) / rate).normalize();
+        y = (c * &y - k * &y / rate) / rate;
+        y -= &faster * faster.tr_mul(&y);
+        y.normalize_mut();
     }
     Some((rate, y))
 }

@@ -167,10 +167,10 @@ impl Run<'_> {
             Some(alive) => alive.rate.max(alive.left),
             None => modes[decayed - 1].left,
         };
-        let phase = modes.map_or(whole, |modes| bound(modes) * remaining);
+        let phase = modes.map_or(whole, |modes| whole.min(bound(modes) * remaining));
         let pieces = (phase / GENERAL_PHASE).ceil().max(1.0);
         // What is left beside such modes is known less closely: the series has all orders, and ends by its terms.
-        let of_order = if modes.is_some() { GENERAL_PHASE } else { phase / pieces };
+        let of_order = if phase < whole { GENERAL_PHASE } else { phase / pieces };
         self.series.form(&self.state, tau, (remaining / pieces, of_order), decayed, of_order > SERIES_PHASE);
         Ok(())
     }
