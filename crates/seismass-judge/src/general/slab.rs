@@ -6,7 +6,7 @@ use super::arrangement::Machines;
 use super::base::contact_after;
 use super::decide::Cause;
 use super::guards::{First, Guard, ROUNDING};
-use super::model::Model;
+use super::model::{GoodsData, Model};
 use super::series::Series;
 use super::state::State;
 use crate::model::Terms;
@@ -27,14 +27,21 @@ impl<R: Real> State<R> {
         self.base.map_or(R::zero(), |base| base.velocity)
     }
 
+    /// Number, state and constant data of the goods that stand on the slab.
+    fn goods_on_slab<'a>(
+        &'a self,
+        model: &'a Model<R>,
+    ) -> impl Iterator<Item = (usize, &'a BlockState<R>, &'a GoodsData<R>)> {
+        let all = self.blocks.iter().zip(&model.goods).enumerate();
+        all.filter(|(_, (_, goods))| goods.node.is_none()).map(|(j, (block, goods))| (j, block, goods))
+    }
+
     /// Force of all but the ground's inertia on the slab with the goods that stick to it, and their mass.
     pub(super) fn on_slab(&self, model: &Model<R>, drive: &Drive<R>, tau: R, terms: Terms) -> (R, R) {
         let (Some(data), Some(base)) = (&model.base, &self.base) else { return (R::zero(), R::of(1.0)) };
         let mut force = model.pull_below(&self.spring_forces(terms), &self.drift, &self.rate, terms);
         let (mut mass, contact) = (data.mass, drive.contact_at(tau));
-        for (j, (block, goods)) in
-            self.blocks.iter().zip(&model.goods).enumerate().filter(|(_, (_, g))| g.node.is_none())
-        {
+        for (j, block, goods) in self.goods_on_slab(model) {
             match block.contact {
                 Contact::Stuck => {
                     mass = mass + goods.mass;
@@ -64,9 +71,7 @@ impl<R: Real> Series<R> {
         let terms = |list: &[Polynomial<R>]| list.iter().map(|p| term(p, order)).collect::<Vec<R>>();
         let mut force = model.pull_below(&springs, &terms(&self.drift), &terms(&self.rate), Terms::Signed);
         let mut mass = data.mass;
-        for (j, (block, goods)) in
-            state.blocks.iter().zip(&model.goods).enumerate().filter(|(_, (_, g))| g.node.is_none())
-        {
+        for (j, block, goods) in state.goods_on_slab(model) {
             if block.contact == Contact::Stuck {
                 mass = mass + goods.mass;
             } else {
@@ -100,9 +105,7 @@ impl<R: Real> Series<R> {
         let springs = self.spring_sizes(state);
         let mut force = model.pull_below(&springs, &sizes(&self.drift), &sizes(&self.rate), Terms::Sizes);
         let (mut mass, contact) = (data.mass, self.contact.size());
-        for (j, (block, goods)) in
-            state.blocks.iter().zip(&model.goods).enumerate().filter(|(_, (_, g))| g.node.is_none())
-        {
+        for (j, block, goods) in state.goods_on_slab(model) {
             if block.contact == Contact::Stuck {
                 mass = mass + goods.mass;
             } else {
