@@ -16,9 +16,9 @@ export PIP_NO_INPUT := 1
 export MPLBACKEND := Agg
 export MPLCONFIGDIR := $(abspath $(VENV))/matplotlib
 
-.PHONY: study explorer test test-all kernels lint lint-quick test-rust test-rust-quick test-python test-python-quick test-wheel \
-	docs build web-kernel mutants bench bench-kernel count-instructions stress stress-general stress-plane fuzz audit audit-packages wheels \
-	test-aarch64 clean
+.PHONY: study explorer test test-all other-kernels unit-tests checks rust-tests lint lint-quick test-rust test-rust-quick \
+	test-python test-python-quick test-wheel docs build web-kernel mutants bench bench-kernel count-instructions stress \
+	stress-general stress-plane fuzz audit audit-packages wheels test-aarch64 clean
 
 study: build
 	$(VENV)/bin/seismass study --effective --sensitivity --out out/study
@@ -29,17 +29,36 @@ explorer: build $(WEB_KERNEL)
 	$(VENV)/bin/seismass explore --out out/explorer.html
 
 # What to run at every change, in minutes.
-test: lint-quick test-rust-quick test-python-quick
+test:
+	@$(MAKE) --no-print-directory --jobs 2 build unit-tests
+	@$(MAKE) --no-print-directory lint-quick
+	@$(MAKE) --no-print-directory test-rust-quick
+	@$(MAKE) --no-print-directory test-python-quick
 	@echo "The quick checks have passed. make test-all adds clippy, doctests, the documentation, the wheel, pages in a browser,"
 	@echo "the live page, more random scenes and the tests of tests/slow.txt; continuous integration runs it."
 
-# Everything, as continuous integration runs it.
-test-all: kernels lint docs test-wheel test-rust test-python
+# Everything, as continuous integration runs it. What compiles for minutes on one core has something else beside it.
+test-all:
+	@$(MAKE) --no-print-directory --jobs 2 build other-kernels
+	@$(MAKE) --no-print-directory --jobs 2 checks rust-tests
+	@$(MAKE) --no-print-directory test-rust
+	@$(MAKE) --no-print-directory test-python
 
-# Both kernels beside each other: each compiles for minutes on one core.
-kernels:
-	@$(MAKE) --no-print-directory web-kernel & web=$$!; \
-		$(MAKE) --no-print-directory build; status=$$?; wait $$web && exit $$status
+other-kernels:
+	@$(MAKE) --no-print-directory web-kernel
+	@$(MAKE) --no-print-directory unit-tests
+
+unit-tests:
+	$(UNIT_TESTS) --no-run
+
+checks:
+	@$(MAKE) --no-print-directory lint
+	@$(MAKE) --no-print-directory docs
+	@$(MAKE) --no-print-directory test-wheel
+
+rust-tests: build
+	$(SHARED_RUST) --no-run --test '*' --examples
+	$(SHARED_RUST) --no-run --exclude seismass --lib --bins
 
 # Options other than --quick choose contestants or scenes of work_precision.py, which runs alone and writes nothing.
 bench: build $(BENCH_VENV)/made
@@ -131,18 +150,19 @@ lint: lint-quick
 # have the same features. Benchmarks hold no tests. The kernel's unit tests compile it once more, in a profile that compiles
 # quickly, and with its feature serde, whose tests are among them.
 SHARED_RUST := cargo test --locked --workspace --exclude seismass-bench --release
+UNIT_TESTS := cargo test --locked -p seismass --lib --features serde
 
 test-rust: build
 	$(SHARED_RUST) --test '*' --examples
 	$(SHARED_RUST) --exclude seismass --lib --bins
-	cargo test --locked -p seismass --lib --features serde
+	$(UNIT_TESTS)
 	$(SHARED_RUST) --doc
 
 # Fewer random scenes, with the same checks of each.
 test-rust-quick: build
 	SEISMASS_STRESS_SCENES=300 SEISMASS_JUDGE_SCENES=20 $(SHARED_RUST) --test '*'
 	$(SHARED_RUST) --exclude seismass --lib --bins
-	cargo test --locked -p seismass --lib --features serde
+	$(UNIT_TESTS)
 
 # Two processes, a file's tests in one of them: they share its fixtures.
 PYTEST := $(PYTHON) -m pytest --numprocesses 2 --dist loadfile

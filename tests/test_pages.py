@@ -10,6 +10,7 @@ from typing import Any, Final
 import polars as pl
 import pytest
 
+from pages.default_suite import HEADS_OF_BUILDINGS
 from pages.effective_mass import far_field_components
 from pages.parts import NoRecordings, Page, made, names
 from pages.risk import limits
@@ -136,13 +137,24 @@ def default_suite_says(found: dict[str, Any]) -> None:
         assert default[0] == pytest.approx(recorded[0], rel=0.3)
         assert abs(default[1] - recorded[1]) < 0.1
         assert default[2] < (1.9 if period == 1.5 else 1.35) * recorded[2]
-    assert abs(found["drift"]) < 0.1
-    assert abs(found["friction as stated"]) < 0.1
-    (default, recorded), motions = found["collapses"], (40, 36)
-    assert default / motions[0] <= recorded / motions[1]
+    # Of the fourteen buildings three are asked; the bounds of all are asked of the page.
+    page = (ROOT / "docs" / "default_suite.md").read_text(encoding="utf-8")
+    lines = page.splitlines()
+    rows = lines[lines.index(f"| {HEADS_OF_BUILDINGS} |") + 2 :][:14]
+    assert len(found["buildings"]) == 3
+    assert {f"| {' | '.join(one.cells)} |" for one in found["buildings"]} <= set(rows)
+    words = " ".join(lines)
+    for drift_or_slip in (r"the mean of the logarithms is (\S+) for drifts", r"at friction as stated it is (\S+),"):
+        (mean,) = re.findall(drift_or_slip, words)
+        assert abs(float(mean)) < 0.1
+    (of_all,) = re.findall(r"slide (\d+) of (\d+) runs collapse, and (\d+) of (\d+) under", words)
+    default, runs, recorded, recorded_runs = map(int, of_all)
+    assert default / runs <= recorded / recorded_runs
+    collapses = [tuple(map(int, row.split("|")[-2].split(","))) for row in rows]
+    assert [sum(both) for both in zip(*collapses, strict=True)] == [default, recorded]
     # The public library has four against one.
-    assert sum(one.collapses[0] > one.collapses[1] for one in found["buildings"]) <= 1
-    assert all(one.collapses[0] - one.collapses[1] <= 3 for one in found["buildings"])
+    assert sum(one > other for one, other in collapses) <= 1
+    assert all(one - other <= 3 for one, other in collapses)
 
 
 SAYS: Final[dict[str, Callable[[Any], None]]] = {
