@@ -6,11 +6,12 @@ import json
 from pathlib import Path
 
 import numpy as np
+import polars as pl
 import pytest
 
 import seismass as sm
 from seismass.cli import main
-from seismass.runs.peak_digits import FEW, digits_remarks
+from seismass.runs.peak_digits import FEW, chaos_remarks, digits_remarks
 
 RECORD = sm.builtin_record("synthetic-1")
 BUILDING = sm.Building.uniform(1, 0.5, mass=1e4)
@@ -96,3 +97,25 @@ def test_commands_say_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> 
     assert main(["animate", str(file), "--out", str(tmp_path / "a.html")]) == 0
     assert "this run is chaotic" in capsys.readouterr().err
     assert "this run is chaotic" in (tmp_path / "a.html").read_text(encoding="utf-8")
+
+
+def test_chaotic_scenes_of_a_batch_are_remarked_on() -> None:
+    motions = [sm.builtin_record(f"synthetic-{number}") for number in (1, 2, 3, 4, 5)]
+    (remark,) = chaos_remarks([CHAOTIC, between_stops(1e5)], motions)
+    table = sm.runs.digits_of_batch([CHAOTIC, between_stops(1e5)], motions[::2], every=1)
+    assert 0 < (few := table.filter(pl.col("digits") < FEW).height) < 6
+    assert remark.startswith(f"runs with goods that slide are chaotic: of 6 that were solved twice, {few} keep fewer")
+
+
+def test_an_assessment_says_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    building = {
+        "site": {"sds_g": 1.0, "sd1_g": 0.6},
+        "building": {"period_s": 0.5, "height_m": 4, "mass_kg": 1e4, "area_m2": 30, "design": True, "R": 3},
+        "goods": {"live_load_kpa": 12, "mu": 0.1, "mu_factors": [0.7, 1.3]},
+        "storeys": [{}],
+    }
+    motions = [sm.builtin_record(f"synthetic-{number}") for number in (1, 2, 3, 4)]
+    said = "runs with goods that slide are chaotic: of 6 that were solved twice, 6 keep fewer"
+    assert not any("chaotic" in remark for remark in sm.assess(building, motions, resamples=10).remarks)
+    monkeypatch.setattr("seismass.runs.peak_digits.FEW", 16)  # more than a double has
+    assert any(remark.startswith(said) for remark in sm.assess(building, motions, resamples=10).remarks)

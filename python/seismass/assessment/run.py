@@ -61,6 +61,7 @@ from seismass.model.friction import bound_factors
 from seismass.motions.motion import motion_names, scaled_motions
 from seismass.motions.records import Pair, Pairs, Record, Suite, builtin_pairs, builtin_suite
 from seismass.motions.spectra import TargetSpectrum
+from seismass.runs.peak_digits import chaos_remarks
 from seismass.runs.peaks import named_motions
 
 FIXED_MODELS: Final = 4
@@ -233,6 +234,7 @@ def assess(
         stated.pairs_as if scaling is not None else "geometric mean",
         threads=threads,
     )
+    chaotic = chaos_remarks([scenes[name] for name in frictions], scaled) if loaded else ()
     example = Shown(sliding_scene, scaled[place], place + 1, float(factors[place]))
     contents = (scenes, stated, None if spectrum is None else spectrum.parameters, motion_contents(components))
     return assessment_of(
@@ -252,7 +254,7 @@ def assess(
         collapses=collapses,
         suite=facts,
         advice=advice_of(stated, answer, storeys, slip, collapses, len(suite), effective.get(SLIDING), runs),
-        remarks=remarks_of(stated, doubts, scaling, effective, facts),
+        remarks=(*remarks_of(stated, doubts, scaling, effective, facts), *chaotic),
         assumptions=assumptions_of(stated, spectrum, scaling, facts, period),
         metadata={
             **metadata_head(SCHEMA_VERSION, *contents, bootstrap),

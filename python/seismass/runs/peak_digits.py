@@ -12,6 +12,7 @@ from seismass.base.errors import InvalidOption
 from seismass.base.values import as_count, as_list, as_one_of
 from seismass.model.scene import Scene
 from seismass.motions.motion import Motion, MotionLike
+from seismass.runs.peaks import named_motions
 from seismass.runs.plane import MotionPair, PlaneResponse
 from seismass.runs.response import Response
 from seismass.runs.simulate import simulate
@@ -22,6 +23,8 @@ MOST: Final = 15
 """Digits of a double."""
 FEW: Final = 6
 """Fewer digits are remarked on."""
+TRIED: Final = 3
+"""Motions of a suite under which a scene is solved twice."""
 
 
 def digits(response: Response | PlaneResponse, *, seed: int = 0) -> int:
@@ -116,6 +119,20 @@ def digits_remarks(response: Response | PlaneResponse) -> tuple[str, ...]:
     return (
         f"this run is chaotic: {number or 'no'} digits of its peaks stand when the ground motion changes in its last "
         "digit; take such peaks over many motions",
+    )
+
+
+def chaos_remarks(scenes: Sequence[Scene], motions: Sequence[Any]) -> tuple[str, ...]:
+    """Return the remark on scenes of which few digits stand under some of three motions spread over a suite."""
+    of_runs = named_motions(motions, OWNER, scenes[0]).of_runs[:: -(-len(motions) // TRIED)]
+    found = digits_of_batch(scenes, of_runs, every=1)
+    chaotic = found.filter(pl.col("digits") < FEW)
+    if chaotic.is_empty():
+        return ()
+    return (
+        f"runs with goods that slide are chaotic: of {found.height} that were solved twice, {chaotic.height} keep fewer "
+        f"than {FEW} digits of their peaks when the ground motion changes in its last digit; such peaks are examples, and "
+        "quantiles of few motions move with them",
     )
 
 
