@@ -130,9 +130,9 @@ def chaos_remarks(scenes: Sequence[Scene], motions: Sequence[Any]) -> tuple[str,
     if chaotic.is_empty():
         return ()
     return (
-        f"runs with goods that slide are chaotic: of {found.height} that were solved twice, {chaotic.height} keep fewer "
-        f"than {FEW} digits of their peaks when the ground motion changes in its last digit; such peaks are examples, and "
-        "quantiles of few motions move with them",
+        f"runs with goods that slide are chaotic: of {found.height} that were solved twice, {chaotic.height} keep "
+        f"fewer than {FEW} digits of their peaks when the ground motion changes in its last digit; such peaks are "
+        "examples, and quantiles of few motions move with them",
     )
 
 
