@@ -125,12 +125,12 @@ def digits_remarks(response: Response | PlaneResponse) -> tuple[str, ...]:
 def chaos_remarks(scenes: Sequence[Scene], motions: Sequence[Any]) -> tuple[str, ...]:
     """Return the remark on scenes of which few digits stand under some of three motions spread over a suite."""
     of_runs = named_motions(motions, OWNER, scenes[0]).of_runs[:: -(-len(motions) // TRIED)]
-    found = digits_of_batch(scenes, of_runs, every=1)
-    chaotic = found.filter(pl.col("digits") < FEW)
+    runs = digits_of_batch(scenes, of_runs, every=1)
+    chaotic = runs.filter(pl.col("digits") < FEW)
     if chaotic.is_empty():
         return ()
     return (
-        f"runs with goods that slide are chaotic: of {found.height} that were solved twice, {chaotic.height} keep "
+        f"runs with goods that slide are chaotic: of {runs.height} that were solved twice, {chaotic.height} keep "
         f"fewer than {FEW} digits of their peaks when the ground motion changes in its last digit; such peaks are "
         "examples, and quantiles of few motions move with them",
     )
