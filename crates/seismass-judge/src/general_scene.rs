@@ -11,6 +11,9 @@ use seismass::{
 use crate::law_scene::{of_law, wear};
 use crate::random_scene::{Draw, samples_of, spring};
 
+/// Seeds from here on draw slabs whose goods lose most of their friction as they slide.
+pub const SLABS: u64 = 1 << 40;
+
 /// Part of its trace by which a matrix that bears the building alone must exceed a singular one.
 const SINGULAR: f64 = 1e-9;
 
@@ -28,6 +31,9 @@ const SINGULAR: f64 = 1e-9;
 /// # Errors
 /// None for any seed, as the stress suite asserts; validation is the scene's own.
 pub fn general_scene(seed: u64) -> Result<(GeneralScene, Motion)> {
+    if seed >= SLABS {
+        return slabs(seed);
+    }
     let mut draw = Draw(seed ^ 0x7261_636b);
     let draw = &mut draw;
     let storeys: usize = draw.one_of(&[0, 1, 1, 2, 2, 3, 3, 4, 6]);
@@ -52,6 +58,33 @@ pub fn general_scene(seed: u64) -> Result<(GeneralScene, Motion)> {
     let acceleration = samples_of(draw, samples, dt, pga);
     let vertical = draw.one_in(4).then(|| {
         let peak = STANDARD_GRAVITY * draw.one_of(&[0.3, 0.8, 1.3, 2.0]);
+        samples_of(draw, samples, dt, peak).into()
+    });
+    Ok((scene, Motion::new(acceleration, dt, vertical)?))
+}
+
+/// A sliding base, alone or below a storey, and goods on it of up to thirty times its mass with mu_k of nine tenths of mu_s down
+/// to none, half of them between stops: some that slide at the acceleration of the ground would stick on the released slab.
+fn slabs(seed: u64) -> Result<(GeneralScene, Motion)> {
+    let draw = &mut Draw(seed ^ 0x0073_6c61_6273);
+    let (samples, dt) = (80 + (draw.bits() % 80) as usize, draw.one_of(&[0.005, 0.01]));
+    let pga = STANDARD_GRAVITY * draw.scale(0.1, 1.5);
+    let goods = (0..draw.one_of(&[1, 1, 2, 3])).map(|_| {
+        let (mass, mu_s) = (1000.0 * draw.scale(0.1, 30.0), pga / STANDARD_GRAVITY * draw.scale(0.1, 1.5));
+        let block = Block { mu_k: mu_s * draw.one_of(&[0.0, 0.2, 0.5, 0.9]), ..Block::new(0, mass, mu_s) };
+        Goods { block, stops: draw.one_in(2).then(|| stops(draw, mass)) }
+    });
+    let goods: Vec<Goods> = goods.collect();
+    let has_storey = draw.one_in(2);
+    let building = has_storey.then(|| building(draw, vec![1000.0], &goods, &[], pga)).transpose()?;
+    let mu_s = pga / STANDARD_GRAVITY * draw.scale(0.1, 1.5);
+    let mu_k = mu_s * draw.one_of(&[1.0, 1.0, 0.8]);
+    let radius = if draw.one_in(2) { f64::INFINITY } else { draw.scale(0.2, 5.0) };
+    let base = SlidingBase { mass: 1000.0 * draw.scale(0.03, 3.0), mu_s, mu_k, radius };
+    let scene = GeneralScene::on_base(building.map(Arc::new), goods, Vec::new(), Some(base))?;
+    let acceleration = samples_of(draw, samples, dt, pga);
+    let vertical = draw.one_in(4).then(|| {
+        let peak = STANDARD_GRAVITY * draw.one_of(&[0.8, 1.3]);
         samples_of(draw, samples, dt, peak).into()
     });
     Ok((scene, Motion::new(acceleration, dt, vertical)?))

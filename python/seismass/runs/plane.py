@@ -140,8 +140,8 @@ class PlaneResponse(Numbers, Card):
 
         Columns: `time` (s), `kind`, `number` and `element` as in `Response.events`; `direction`, "x" or "y" for springs
         and stops, null for what is of the circle; `sign` of those, otherwise null; `angle` (rad, from x towards y) of
-        what is of the circle: slip and reverse, of the relative velocity that follows; stick, of the one before; wear,
-        lift and land, of the one then; null where there is none.
+        what is of the circle: slip and reverse, of the relative velocity that follows; wear, lift and land, of the one
+        then; null where there is none, as at a stick.
         """
         run = self._run
         if run.event_time is None:

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
+use seismass_judge::general_scene::SLABS;
 use seismass_judge::plane_scene::TWINS;
 use seismass_judge::stress::general::{Directions, GeneralTally, distribution, page};
 use seismass_judge::stress::program;
@@ -13,6 +14,7 @@ Random scenes with racks, walls and stops against the general engine; exit code 
 
   --plane        scenes in two horizontal directions, and no shear buildings
   --twins        the same with equal goods that start within 1e-8 s of each other, tally target/stress/twins.tsv
+  --slabs        sliding bases whose goods lose most of their friction as they slide, tally target/stress/slabs.tsv
   --scenes N     random scenes in all, seeds from 0 (default 100000)
   --judged N     of them, compared with the plain implementation, about (default 2000)
   --chains N     random shear buildings that both engines solve (default 1000)
@@ -58,6 +60,10 @@ fn arguments() -> Result<Arguments, String> {
             found.first += if option == "--twins" { TWINS } else { 0 };
             continue;
         }
+        if option == "--slabs" {
+            found.first += SLABS;
+            continue;
+        }
         let value = given.next().ok_or_else(|| format!("value of {option} must be given\n\n{HELP}"))?;
         let whole = || value.parse().map_err(|_| format!("value of {option} must be a whole number; got {value}"));
         match option.as_str() {
@@ -80,6 +86,7 @@ fn arguments() -> Result<Arguments, String> {
 
 fn stress(arguments: &Arguments) -> Result<bool, Box<dyn std::error::Error>> {
     let usual = match arguments.directions {
+        Directions::One if arguments.first >= SLABS => "target/stress/slabs.tsv",
         Directions::One => "target/stress/general.tsv",
         Directions::Two if arguments.first >= TWINS => "target/stress/twins.tsv",
         Directions::Two => "target/stress/plane.tsv",

@@ -60,13 +60,7 @@ impl<R: Real> Machines<'_, R> {
 
     /// The same of the goods alone.
     pub(super) fn settle_goods(&mut self, node: Option<usize>, tau: R, cause: Cause) {
-        let mut still = self.on_node(node);
-        let follows = cause.follows();
-        still.retain(|&j| {
-            let block = &self.state.blocks[j];
-            let goes_on = follows && !block.moved && matches!(block.contact, Contact::Sliding(_));
-            block.velocity == R::zero() && !goes_on && cause != Cause::Wear(j)
-        });
+        let still = self.deciding(node, cause);
         let before: Vec<BlockState<R>> = still.iter().map(|&j| self.state.blocks[j]).collect();
         still.iter().for_each(|&j| self.state.blocks[j].contact = Contact::Stuck);
         let mut gone = Vec::new();
@@ -82,6 +76,22 @@ impl<R: Real> Machines<'_, R> {
         } else {
             self.decide(node, tau, &still);
         }
+        self.note_changes(tau, cause, &still, &before);
+    }
+
+    /// The blocks that take part in a decision.
+    pub(super) fn deciding(&self, node: Option<usize>, cause: Cause) -> Vec<usize> {
+        let mut still = self.on_node(node);
+        still.retain(|&j| {
+            let block = &self.state.blocks[j];
+            let goes_on = cause.follows() && !block.moved && matches!(block.contact, Contact::Sliding(_));
+            block.velocity == R::zero() && !goes_on && cause != Cause::Wear(j)
+        });
+        still
+    }
+
+    /// Logs what blocks do that have decided, and did something else before.
+    pub(super) fn note_changes(&mut self, tau: R, cause: Cause, still: &[usize], before: &[BlockState<R>]) {
         // A force that jumps may turn what has just broken away.
         let jumps = cause == Cause::Jump;
         for (&j, before) in still.iter().zip(before) {

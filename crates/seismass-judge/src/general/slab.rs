@@ -4,7 +4,7 @@ use seismass::{Event, EventKind, GeneralEvent};
 
 use super::arrangement::Machines;
 use super::base::contact_after;
-use super::decide::Cause;
+use super::decide::{AT_STOPS, Cause};
 use super::guards::{First, Guard, ROUNDING};
 use super::model::{GoodsData, Model};
 use super::series::Series;
@@ -144,11 +144,20 @@ impl<R: Real> Machines<'_, R> {
         let limit = base.mu_s * data.carried;
         let rounding = R::of(ROUNDING) * R::epsilon() * (limit * self.model.gravity + inertia_size + size);
         if fired.is_some() || holding.abs() > limit * self.drive.contact_at(tau) + rounding {
-            base.contact = Contact::Sliding(fired.unwrap_or(Sign::of(holding)).opposite());
+            let away = fired.unwrap_or(Sign::of(holding)).opposite();
+            base.contact = Contact::Sliding(away);
             self.state.base = Some(base);
-            self.state.blocks = blocks;
+            let held = std::mem::replace(&mut self.state.blocks, blocks.clone());
             self.log.truncate(logged);
             self.settle_goods(None, tau, cause);
+            let [own, size] = [Terms::Signed, Terms::Sizes]
+                .map(|terms| self.state.acceleration(self.model, None, &self.drive, tau, terms));
+            let (ground, rounding) = (self.drive.ground_at(tau), R::of(AT_STOPS) * R::epsilon());
+            if away.times(own - ground) < -(rounding * (size + ground.abs())) {
+                self.state.blocks = blocks;
+                self.log.truncate(logged);
+                self.leave_ground(tau, cause, away, &held);
+            }
         }
         let event = match (before.contact, base.contact) {
             (Contact::Sliding(old), Contact::Sliding(new)) if old == new => {
@@ -166,6 +175,44 @@ impl<R: Real> Machines<'_, R> {
             let entry = self.of_base(tau, kind, sign.as_i8(), 0.0);
             self.log.insert(logged, entry);
         }
+    }
+
+    /// The acceleration of a released slab goes from that of the ground in the direction `away` until the forces on the slab
+    /// suffice for it; goods start from what they `held` at that of the ground. One that sticks passes its limit mu_s N, one
+    /// that is driven the other way is held first where mu_k N suffices: with what drives a block known, each place at which it
+    /// changes is known too. From place to place the states are given and the acceleration follows from the forces; it is
+    /// that of the first interval that it lies in.
+    fn leave_ground(&mut self, tau: R, cause: Cause, away: Sign, held: &[BlockState<R>]) {
+        let still = self.deciding(None, cause);
+        let before: Vec<BlockState<R>> = still.iter().map(|&j| self.state.blocks[j]).collect();
+        let contact = self.drive.contact_at(tau);
+        let mut places: Vec<(R, usize, Contact)> = Vec::new();
+        for &j in &still {
+            self.state.blocks[j].contact = held[j].contact;
+            let BlockState { mu_s, mu_k, .. } = held[j];
+            // Acceleration of the slab, counted in the direction `away`, at which nothing drives the block.
+            let undriven = away.times(-self.state.push(self.model, j) / self.model.goods[j].mass);
+            let passed = (undriven + mu_s * contact, j, Contact::Sliding(away.opposite()));
+            match held[j].contact {
+                Contact::Sliding(sign) if sign == away => {
+                    places.extend([(undriven - mu_k * contact, j, Contact::Stuck), passed]);
+                }
+                Contact::Stuck => places.push(passed),
+                _ => {}
+            }
+        }
+        // The order of one block's places stays where they are equal.
+        places.sort_by(|(one, ..), (other, ..)| one.partial_cmp(other).unwrap_or(std::cmp::Ordering::Equal));
+        let rounding = R::of(AT_STOPS) * R::epsilon();
+        for (place, j, next) in places {
+            let [own, size] = [Terms::Signed, Terms::Sizes]
+                .map(|terms| self.state.acceleration(self.model, None, &self.drive, tau, terms));
+            if away.times(own) <= place + rounding * size {
+                break;
+            }
+            self.state.blocks[j].contact = next;
+        }
+        self.note_changes(tau, cause, &still, &before);
     }
 
     fn of_base(&self, tau: R, kind: EventKind, sign: i8, velocity: f64) -> GeneralEvent {

@@ -13,13 +13,18 @@
 //! a load, and the goods decide as on a floor. The slab then moves as it was released: were A not on that side of a_g, the
 //! forces of the goods, none of which falls with A, would hold the base at a_g. With mu_s > mu_k the same order is kept:
 //! first the goods at A = a_g, then the base beside them.
+//!
+//! With mu_s > mu_k of goods the force of one falls where it is released. What slides at A = a_g and would stick beside the
+//! released base may then draw A to the other side. There the goods go on from what they do at a_g while A moves away from it
+//! as the base was released: each sticks up to mu_s N and slides until it is driven by less than mu_k N. The force that is
+//! left falls with A but where goods are released, and there it rises. So A is found before it comes back to a_g.
 
 use crate::general::state::GeneralState;
 use crate::machines::block::{BlockMotion, BlockState};
 use crate::machines::settle::SettleCause;
 use crate::machines::sign::Sign;
 use crate::response::{Event, EventKind};
-use crate::tolerances::DECISION_ROUNDING;
+use crate::tolerances::{AT_STOPS_ROUNDING, DECISION_ROUNDING};
 use crate::units::STANDARD_GRAVITY;
 
 impl GeneralState<'_> {
@@ -80,6 +85,8 @@ impl GeneralState<'_> {
     ) -> bool {
         let (Some(base), Some(before)) = (&self.system.base, self.base) else { return true };
         let saved: Vec<(usize, BlockMotion)> = self.system.on_node[0].iter().map(|&j| (j, self.motions[j])).collect();
+        let restore = |state: &mut Self| saved.iter().for_each(|&(j, motion)| state.motions[j] = motion);
+        let blocks = self.deciding(0, cause);
         let logged = log.len();
         let mut motion = before;
         motion.end_stretch();
@@ -92,14 +99,20 @@ impl GeneralState<'_> {
         let least = motion.mu_s * base.carried * STANDARD_GRAVITY;
         let exceeds = force.abs() > limit + DECISION_ROUNDING * (size + limit.max(least));
         if exceeds || fired.is_some() || !is_found {
-            let holding = fired.unwrap_or(Sign::of(force));
-            motion.state = BlockState::Sliding(holding.opposite());
+            let away = fired.unwrap_or(Sign::of(force)).opposite();
+            let held = blocks.iter().map(|&j| self.motions[j].sliding()).collect();
+            motion.state = BlockState::Sliding(away);
             self.base = Some(motion);
-            for (j, motion) in saved {
-                self.motions[j] = motion;
-            }
+            restore(self);
             log.truncate(logged);
             is_found = self.decide_goods(0, tau, cause, log);
+            // Mass times what A falls short of the acceleration of the ground.
+            let (short, size) = self.holding_force(tau);
+            if away.factor() * short > AT_STOPS_ROUNDING * size {
+                restore(self);
+                log.truncate(logged);
+                self.go_on(tau, &blocks, held, away, log);
+            }
         }
         let (was, now) = (before.sliding().map(Sign::as_i8), motion.sliding().map(Sign::as_i8));
         let (kind, sign) = match (was, now) {

@@ -103,6 +103,26 @@ impl Decision {
         self.enumerate()
     }
 
+    /// What the candidates come to from these choices where the acceleration moves away in this direction: each sticks up to
+    /// mu_s N, and slides until it is driven by less than mu_k N. No change turns the acceleration back, so there are two of
+    /// each candidate at most.
+    fn go_on(&self, mut choices: Vec<Choice>, direction: Sign) -> Vec<Choice> {
+        let away = direction.factor();
+        loop {
+            let a = self.acceleration(&choices);
+            let passed = self.candidates.iter().zip(&choices).enumerate().filter_map(|(i, (candidate, choice))| {
+                let limit = match choice {
+                    None => away * candidate.drive + candidate.sticks_to,
+                    Some(sign) if *sign != direction => away * candidate.drive - candidate.slides_from,
+                    Some(_) => return None,
+                };
+                (away * a > limit + self.tolerance(candidate, a)).then_some((i, limit))
+            });
+            let Some((first, _)) = passed.min_by(|one, other| one.1.total_cmp(&other.1)) else { return choices };
+            choices[first] = if choices[first].is_none() { Some(direction) } else { None };
+        }
+    }
+
     fn enumerate(&self) -> Option<Vec<Choice>> {
         let count = self.candidates.len();
         if count > MOST_ENUMERATED {
@@ -141,14 +161,19 @@ impl GeneralState<'_> {
         self.decide_goods(node, tau, cause, log)
     }
 
-    /// Lets the goods of a node decide.
-    pub(super) fn decide_goods(&mut self, node: usize, tau: f64, cause: SettleCause, log: &mut Vec<Event>) -> bool {
+    /// The goods of a node that take part in its decision.
+    pub(super) fn deciding(&self, node: usize, cause: SettleCause) -> Vec<usize> {
         let follows = cause != SettleCause::Other;
-        let decides = |state: &Self, j: usize| {
-            let motion = &state.motions[j];
+        let decides = |j: &usize| {
+            let motion = &self.motions[*j];
             motion.velocity == 0.0 && motion.state != BlockState::Airborne && (motion.is_stuck() || !follows)
         };
-        let blocks: Vec<usize> = self.system.on_node[node].iter().copied().filter(|&j| decides(self, j)).collect();
+        self.system.on_node[node].iter().copied().filter(decides).collect()
+    }
+
+    /// Lets the goods of a node decide.
+    pub(super) fn decide_goods(&mut self, node: usize, tau: f64, cause: SettleCause, log: &mut Vec<Event>) -> bool {
+        let blocks = self.deciding(node, cause);
         let mut transitions = Vec::new();
         let is_found = if blocks.iter().any(|&j| self.stop_force(j) != 0.0) {
             self.decide_at_stops(node, tau, cause, &blocks, &mut transitions)
@@ -158,10 +183,31 @@ impl GeneralState<'_> {
             settle(demand, &self.system.blocks, &mut self.motions, on_node, contact, cause, &mut transitions);
             true
         };
+        self.log_transitions(tau, &transitions, log);
+        is_found
+    }
+
+    /// Lets goods on the slab go on from what they `held` at the acceleration of the ground, as the slab moves away from it
+    /// in this direction.
+    pub(super) fn go_on(
+        &mut self,
+        tau: f64,
+        blocks: &[usize],
+        held: Vec<Option<Sign>>,
+        direction: Sign,
+        log: &mut Vec<Event>,
+    ) {
+        let driven = held.into_iter().map(|sign| sign.map(Sign::opposite)).collect();
+        let choices = self.decision(0, tau, SettleCause::Other, blocks).go_on(driven, direction);
+        let mut transitions = Vec::new();
+        self.set(blocks, choices, &mut transitions);
+        self.log_transitions(tau, &transitions, log);
+    }
+
+    fn log_transitions(&self, tau: f64, transitions: &[Transition], log: &mut Vec<Event>) {
         let time = self.interval.start + tau;
         let event = |t: &Transition| Event { time, kind: t.kind, number: t.block + 1, sign: t.sign, element: 0 };
         log.extend(transitions.iter().map(event));
-        is_found
     }
 
     fn decide_at_stops(
@@ -174,6 +220,12 @@ impl GeneralState<'_> {
     ) -> bool {
         let decision = self.decision(node, tau, cause, blocks);
         let Some(choices) = decision.choose() else { return false };
+        self.set(blocks, choices, log);
+        true
+    }
+
+    /// Sets what blocks do that have decided.
+    fn set(&mut self, blocks: &[usize], choices: Vec<Choice>, log: &mut Vec<Transition>) {
         for (&j, choice) in blocks.iter().zip(choices) {
             let before = self.motions[j].sliding().map(Sign::as_i8);
             self.motions[j].end_stretch();
@@ -188,7 +240,6 @@ impl GeneralState<'_> {
             };
             log.push(Transition { block: j, kind, sign });
         }
-        true
     }
 
     fn decision(&self, node: usize, tau: f64, cause: SettleCause, blocks: &[usize]) -> Decision {
@@ -249,6 +300,20 @@ mod tests {
         assert_eq!(choices, [None, Some(Sign::Negative)]);
         assert!((decision.acceleration(&choices) + 1.5 / 1.1).abs() < 1e-14);
         assert_eq!(decision.enumerate().unwrap(), choices);
+    }
+
+    /// A block of 10 with mu_s N = 8 and mu_k N = 2 slides where A = 10, and would stick on a slab of 1 under a force of 40,
+    /// with A = 3.6. From A = 10 on it slides: A = 20. Away in the other direction it sticks, and slides again.
+    #[test]
+    fn what_slides_at_the_acceleration_of_the_ground_goes_on() {
+        let block = Candidate { sticks_to: 8.0, ..candidate(10.0, 0.0, 2.0) };
+        let of = |force: f64| Decision { force, mass: 1.0, ground: None, candidates: vec![block], least_size: 0.0 };
+        let slides = vec![Some(Sign::Positive)];
+        assert_eq!(of(40.0).choose().unwrap(), [None]);
+        assert_eq!(of(40.0).go_on(slides.clone(), Sign::Positive), slides);
+        assert_eq!(of(40.0).acceleration(&slides), 20.0);
+        assert_eq!(of(11.0).go_on(slides.clone(), Sign::Negative), [None]);
+        assert_eq!(of(-110.0).go_on(slides, Sign::Negative), [Some(Sign::Negative)]);
     }
 
     /// With mu_s = mu_k the state is unique: releases and the enumeration of all states agree.

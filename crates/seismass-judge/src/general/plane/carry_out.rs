@@ -44,7 +44,6 @@ impl<R: Real> Plane<R> {
             recorder.at_stop(node, acceleration, self.start + tau);
         }
         for j in arriving {
-            self.arrived[j] = self.velocity(j);
             for direction in &mut self.directions {
                 direction.state.blocks[j].velocity = R::zero();
                 direction.state.blocks[j].moved = true;

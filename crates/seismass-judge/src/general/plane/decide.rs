@@ -108,8 +108,7 @@ impl<R: Real> Plane<R> {
             match candidate.slides {
                 true if arrived => self.note(tau, EventKind::Reverse, j, self.heads[j], 0),
                 true if was_stuck => self.note(tau, EventKind::Slip, j, self.heads[j], 0),
-                false if arrived => self.note(tau, EventKind::Stick, j, self.arrived[j], 0),
-                false if !was_stuck && !goes_on => self.note(tau, EventKind::Stick, j, [R::zero(); 2], 0),
+                false if arrived || !was_stuck && !goes_on => self.note(tau, EventKind::Stick, j, [R::zero(); 2], 0),
                 _ => {}
             }
         }

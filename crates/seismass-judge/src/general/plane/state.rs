@@ -28,8 +28,6 @@ pub(super) struct Plane<R> {
     pub(super) heads: Vec<[R; 2]>,
     /// Blocks that have started from rest and whose relative velocity is none still.
     pub(super) young: Vec<bool>,
-    /// The last relative velocity of a block that has come to rest.
-    pub(super) arrived: Vec<[R; 2]>,
     /// Drifts in x and y that are the axes of the ellipse at which a spring collapses.
     pub(super) collapse: Vec<[Option<R>; 2]>,
     /// The largest velocity so far, of a node or of a block relative to its own.
@@ -57,8 +55,7 @@ impl<R: Real> Plane<R> {
         let nodes = directions[0].model.mass.len();
         let mut plane = Self {
             young: vec![false; none.len()],
-            heads: none.clone(),
-            arrived: none,
+            heads: none,
             collapse: (0..nodes).map(|p| [0, 1].map(|a| directions[a].model.springs[p].collapse_drift)).collect(),
             directions,
             fastest: R::zero(),

@@ -72,24 +72,22 @@ impl PlaneHappening<'_, '_> {
         outcome
     }
 
-    /// Lets a node decide; `arrived` are blocks that slid until now, with their angles.
-    fn decide(&mut self, node: usize, cause: Cause, arrived: &[(usize, f64)]) -> Outcome {
+    /// Lets a node decide; `arrived` are blocks that slid until now.
+    fn decide(&mut self, node: usize, cause: Cause, arrived: &[usize]) -> Outcome {
         let Some(choices) = self.state.decide(node, self.tau, cause) else { return Outcome::Undecided(node) };
         for (block, choice) in choices {
-            let before = arrived.iter().find(|(j, _)| *j == block).map(|&(_, angle)| angle);
-            let before = before.or(self.state.slides[block].start.map(angle));
-            let kind = match (before, choice) {
-                (None, Choice::Sticks) => continue,
-                (None, Choice::Starts(direction)) => {
+            let had_started = self.state.slides[block].start.is_some();
+            let (kind, angle) = match (had_started || arrived.contains(&block), choice) {
+                (false, Choice::Sticks) => continue,
+                (false, Choice::Starts(direction)) => {
                     self.state.start(block, direction);
                     (EventKind::Slip, angle(direction))
                 }
-                (Some(before), Choice::Sticks) => {
+                (true, Choice::Sticks) => {
                     self.state.set(block, BlockState::Stuck);
-                    (EventKind::Stick, before)
+                    (EventKind::Stick, f64::NAN)
                 }
-                (Some(_), Choice::Starts(direction)) => {
-                    let had_started = self.state.slides[block].start.is_some();
+                (true, Choice::Starts(direction)) => {
                     self.state.start(block, direction);
                     if had_started {
                         continue;
@@ -97,25 +95,23 @@ impl PlaneHappening<'_, '_> {
                     (EventKind::Reverse, angle(direction))
                 }
             };
-            self.note(block, kind.0, kind.1, 0);
+            self.note(block, kind, angle, 0);
         }
         Outcome::Continue
     }
 
     /// Blocks of a node have come to rest.
     pub(super) fn arrive(&mut self, node: usize, blocks: &[usize]) -> Outcome {
-        let arrived: Vec<(usize, f64)> = blocks.iter().map(|&j| (j, self.state.heading(j))).collect();
         blocks.iter().for_each(|&j| self.state.bring_to_rest(j));
-        let outcome = self.decide(node, Cause::Other, &arrived);
+        let outcome = self.decide(node, Cause::Other, blocks);
         self.state.follow();
         outcome
     }
 
     /// A block that has broken away grazes its limit: it sticks again.
     pub(super) fn graze(&mut self, block: usize) {
-        let angle = self.state.heading(block);
         self.state.set(block, BlockState::Stuck);
-        self.note(block, EventKind::Stick, angle, 0);
+        self.note(block, EventKind::Stick, f64::NAN, 0);
         self.state.follow();
     }
 

@@ -48,8 +48,8 @@ pub struct PlaneEvent {
     pub event: GeneralEvent,
     /// The direction to which it belongs: that of a spring or of a stop. None: it is of a vector.
     pub axis: Option<Axis>,
-    /// Angle from x towards y (rad) of the vector: slip and reverse, of the relative velocity that follows; stick, of the
-    /// one before; wear, lift and land, of the one then. NaN where there is none.
+    /// Angle from x towards y (rad) of the vector: slip and reverse, of the relative velocity that follows; wear, lift and
+    /// land, of the one then. NaN where there is none, as at a stick.
     pub angle: f64,
 }
 
