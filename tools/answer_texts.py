@@ -75,10 +75,8 @@ def steady(text: str) -> str:
 
 
 def table_lines(table: pl.DataFrame) -> Iterator[str]:
-    """Yield a table by its columns: all of a short one, else sum, least and largest. Angles of goods that come to rest
-    are of velocities of rounding.
-    """
-    for name in table.drop("angle", strict=False).columns:
+    """Yield a table by its columns: all of a short one, else sum, least and largest."""
+    for name in table.columns:
         column = table[name]
         if table.height <= 12:
             yield f"{name}: {', '.join(map(_shown, column.to_list()))}"
