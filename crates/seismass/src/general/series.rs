@@ -130,9 +130,14 @@ impl Series {
         self.holding = std::array::from_fn(|k| powers[k] * terms.holding[k]);
         self.blocks.clear();
         self.blocks.extend(terms.blocks.iter().map(|block| {
-            let of = |terms: &[[f64; D]; MAX_DEGREE + 1]| std::array::from_fn(|k| powers[k] * terms[k][d]);
-            let (velocity, slip, friction): ([f64; MAX_DEGREE + 1], [f64; MAX_DEGREE + 1], _) =
-                (of(&block.velocity), of(&block.slip), of(&block.friction));
+            let of = |terms: &[[f64; D]; MAX_DEGREE + 1]| {
+                let mut of_direction = [0.0; MAX_DEGREE + 1];
+                for ((own, power), term) in of_direction.iter_mut().zip(&powers).zip(terms).take(order + 3) {
+                    *own = power * term[d];
+                }
+                of_direction
+            };
+            let (velocity, slip, friction) = (of(&block.velocity), of(&block.slip), of(&block.friction));
             let size = |terms: &[f64]| terms.iter().map(|term| term.abs()).sum();
             let (velocity_change, slip_change) = (size(&velocity[1..=order + 1]), size(&slip[1..=order + 2]));
             BlockSeries { velocity, slip, friction, velocity_change, slip_change }

@@ -52,18 +52,28 @@ impl<const D: usize> Matrices<D> {
     #[inline(always)]
     fn add(&self, matrix: &[Four], values: &[[f64; D]], sums: &mut [[f64; D]]) {
         let values = &values[..self.count];
+        let (whole, rest) = sums.as_flattened_mut().as_chunks_mut::<4>();
         let mut fours = matrix;
-        for sums in sums.as_flattened_mut().chunks_mut(4) {
-            let Some((columns, rest)) = fours.split_at_checked(self.count) else { return };
-            fours = rest;
+        for sums in whole {
+            let Some((columns, others)) = fours.split_at_checked(self.count) else { return };
+            fours = others;
+            *sums = added(*sums, columns, values);
+        }
+        if !rest.is_empty() && !fours.is_empty() {
             let mut four = [0.0; 4];
-            four[..sums.len()].copy_from_slice(sums);
-            for (entries, value) in columns.iter().zip(values) {
-                (0..4).for_each(|l| four[l] += entries[l] * value[l % D]);
-            }
-            sums.copy_from_slice(&four[..sums.len()]);
+            four.iter_mut().zip(rest.iter()).for_each(|(of_four, sum)| *of_four = *sum);
+            rest.iter_mut().zip(added(four, fours, values)).for_each(|(sum, of_four)| *sum = of_four);
         }
     }
+}
+
+/// Four sums with four entries of each column, times its value, added.
+#[inline(always)]
+fn added<const D: usize>(mut four: Four, columns: &[Four], values: &[[f64; D]]) -> Four {
+    for (entries, value) in columns.iter().zip(values) {
+        (0..4).for_each(|l| four[l] += entries[l] * value[l % D]);
+    }
+    four
 }
 
 /// Terms of a block that moves.
@@ -148,7 +158,7 @@ impl<const D: usize> Terms<D> {
         self.form_shear(states, k);
         let row = k * self.row;
         let force = &mut self.acceleration[row..row + width];
-        force.fill([0.0; D]);
+        force.iter_mut().for_each(|of_node| *of_node = [0.0; D]);
         for block in &self.blocks {
             let (force, friction) = (&mut force[block.node], &block.friction[k]);
             *force = each(|d| force[d] + block.mass * friction[d]);
