@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from seismass import _kernel
 from seismass.base.errors import InvalidOption, SeismassError, did_you_mean
@@ -48,13 +48,21 @@ def as_threads(value: Any, owner: str) -> int | None:
     return count
 
 
-def as_bootstrap(confidence: Any, resamples: Any, seed: Any, owner: str, *, least: int = 1) -> tuple[float, int, int]:
-    """Return probability of intervals, number of resamples and seed of a bootstrap."""
+class Bootstrap(NamedTuple):
+    """Probability of intervals, number of resamples and seed."""
+
+    confidence: float
+    resamples: int
+    seed: int
+
+
+def as_bootstrap(confidence: Any, resamples: Any, seed: Any, owner: str, *, least: int = 1) -> Bootstrap:
+    """Return checked options of a bootstrap."""
     share = as_number(confidence, "confidence", owner, InvalidOption)
     if not 0.0 < share < 1.0:
         raise refusal(InvalidOption, "confidence", owner, "above 0 and below 1", f"{share:g}")
     count = as_count(resamples, "resamples", owner, InvalidOption, least=least)
-    return share, count, as_count(seed, "seed", owner, InvalidOption)
+    return Bootstrap(share, count, as_count(seed, "seed", owner, InvalidOption))
 
 
 def as_share(value: Any, parameter: str, owner: str) -> float:

@@ -89,7 +89,7 @@ def interval_of(values: FloatArray, confidence: float) -> tuple[FloatArray, Floa
     return _at(ordered, tail * last), _at(ordered, (1.0 - tail) * last)
 
 
-def bootstrap_counts(cluster_of: NDArray[np.int64], resamples: int, seed: int) -> FloatArray:
+def bootstrap_counts(cluster_of: NDArray[np.int64], resamples: int, seed: int | list[int]) -> FloatArray:
     """Return how often each resample has each record, shape (resamples, records); those of one cluster go together."""
     count = int(cluster_of.max()) + 1
     draws = np.random.default_rng(seed).multinomial(count, np.full(count, 1.0 / count), size=resamples)

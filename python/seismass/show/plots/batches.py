@@ -18,7 +18,7 @@ from seismass.base.values import FloatArray, as_number, brief, refusal
 from seismass.media.roles import ALPHA, BLOCK_COLOURS, GREY, INK, LIMIT, MU, PAPER, SLIDE, SLIDE_LOW
 from seismass.media.style import drawing, grid_lines, plain, say, single
 from seismass.runs.quantities import SHOWN, unit_of
-from seismass.studies.fragility.fragility import fit_counts
+from seismass.studies.fragility.estimate import fit_counts
 
 _LABELS: Final[dict[str, tuple[str, float]]] = {
     "peak_drift_ratio": ("peak drift / height (%)", 1e2),

@@ -1,7 +1,8 @@
 """Fragility of buildings with sliding goods, and what a code's model makes of it: intensities, limit states, fits."""
 
 from seismass.studies.fragility.analysis import cloud_analysis, incremental_dynamic_analysis, multiple_stripes
-from seismass.studies.fragility.fragility import Fragility, fit_capacities, fit_cloud, fit_counts
+from seismass.studies.fragility.estimate import fit_capacities, fit_cloud, fit_counts
+from seismass.studies.fragility.fragility import Fragility
 from seismass.studies.fragility.hunt import HuntAndFill
 from seismass.studies.fragility.limits import IntensityMeasure, LimitState, intensity_of, parse_limit
 from seismass.studies.fragility.result import FragilityAnalysis

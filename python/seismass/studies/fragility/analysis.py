@@ -9,14 +9,14 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass.base.arguments import ProgressLike, as_word
+from seismass.base.arguments import ProgressLike, as_bootstrap, as_word
 from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.values import FloatArray, as_list, as_positive, brief, refusal
 from seismass.effective_mass.models import SAME_DAMPING, ModelDamping
 from seismass.model.scene import Scene
 from seismass.motions.motion import HasMotion, Motion, MotionLike
 from seismass.studies.fragility import estimate
-from seismass.studies.fragility.fragility import CONFIDENCE, RESAMPLES, bootstrap_options
+from seismass.studies.fragility.estimate import CONFIDENCE, RESAMPLES
 from seismass.studies.fragility.hunt import CapacityRule, HuntAndFill, crossing_of, hunt_and_fill
 from seismass.studies.fragility.limits import IntensityMeasure, LimitState, MeasureName
 from seismass.studies.fragility.result import Fits, FragilityAnalysis, result_of
@@ -27,6 +27,7 @@ from seismass.studies.fragility.run import (
     check_levels,
     compared_models,
     setting_of,
+    solve_levels,
     solve_runs,
 )
 
@@ -131,15 +132,15 @@ def incremental_dynamic_analysis(
             raise refusal(InvalidOption, "intensities", owner, requirement, brief(intensities))
     elif intensities is not None:
         raise refusal(InvalidOption, "intensities", owner, "left out where method is hunt_fill", brief(intensities))
-    options = bootstrap_options(confidence, resamples, seed, owner)
-    rule = _rule(capacity, owner)
+    options = as_bootstrap(confidence, resamples, seed, owner, least=0)
+    rule: CapacityRule = as_word(capacity, get_args(CapacityRule), "capacity", owner)
     named, settings = _models(models, code_share, damping)
     setting = setting_of(named, motions, limits, measure, period, owner, threads=threads)
     settings |= {"capacity": rule}
     draws = estimate.draws_of(setting.motions.cluster_of, options)
     if method == "stripes":
         levels = check_levels(intensities, owner)
-        runs = _solve_all(setting, levels, threads, progress)
+        runs = solve_levels(setting, levels, threads, progress)
         every = np.arange(len(setting.motions))
         fits = _stripe_fits(setting, runs, levels, [every] * len(levels), [draws] * len(levels))
         settings |= {"intensities": levels.tolist()}
@@ -212,7 +213,7 @@ def multiple_stripes(
     54
     """
     owner = "multiple stripes"
-    options = bootstrap_options(confidence, resamples, seed, owner)
+    options = as_bootstrap(confidence, resamples, seed, owner, least=0)
     listed, indices, levels = _stripes(stripes, owner)
     named, settings = _models(models, code_share, damping)
     setting = setting_of(named, listed, limits, measure, period, owner, threads=threads)
@@ -288,7 +289,7 @@ def cloud_analysis(
     'cloud'
     """
     owner = "cloud analysis"
-    options = bootstrap_options(confidence, resamples, seed, owner)
+    options = as_bootstrap(confidence, resamples, seed, owner, least=0)
     factor = as_positive(scale, "scale", owner, InvalidOption)
     named, settings = _models(models, code_share, damping)
     setting = setting_of(named, motions, limits, measure, period, owner, threads=threads)
@@ -347,18 +348,6 @@ def _models(models: Any, code_share: float, damping: ModelDamping) -> tuple[Any,
 def _with(setting: Setting, limit: LimitState) -> list[str]:
     """Names of the models that have the quantity of a limit."""
     return [name for name, scene in setting.models.items() if limit.applies(scene)]
-
-
-def _rule(capacity: Any, owner: str) -> CapacityRule:
-    checked: CapacityRule = as_word(capacity, get_args(CapacityRule), "capacity", owner)
-    return checked
-
-
-def _solve_all(setting: Setting, levels: FloatArray, threads: int | None, progress: ProgressLike) -> pl.DataFrame:
-    """Runs of all models under all motions at all levels, sorted so."""
-    shape = (len(setting.models), len(setting.motions), len(levels))
-    model, motion, level = (part.ravel() for part in np.indices(shape))
-    return solve_runs(setting, model, motion, levels[level], threads=threads, progress=progress)
 
 
 def _stripes(stripes: Any, owner: str) -> tuple[list[Any], list[IndexArray], FloatArray]:

@@ -10,7 +10,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike
 
-from seismass.base.arguments import as_word, is_one_of
+from seismass.base.arguments import Bootstrap, as_word, is_one_of
 from seismass.base.errors import InvalidOption
 from seismass.base.statistics import quantile
 from seismass.base.stored_results import metadata_head, motion_contents
@@ -24,7 +24,7 @@ from seismass.studies.fragility.compare import (
     fragility_table,
     reference_of,
 )
-from seismass.studies.fragility.fragility import BootstrapOptions, Fragility
+from seismass.studies.fragility.fragility import Fragility
 from seismass.studies.fragility.hunt import demand_at, intensity_at
 from seismass.studies.fragility.limits import IntensityMeasure, LimitState
 from seismass.studies.fragility.run import Setting, check_levels
@@ -273,7 +273,7 @@ def result_of(
     capacities: pl.DataFrame | None,
     fits: Fits,
     intensities: ArrayLike,
-    options: BootstrapOptions,
+    options: Bootstrap,
     settings: dict[str, Any],
 ) -> FragilityAnalysis:
     """Return the result with its tables, remarks and metadata."""
@@ -287,9 +287,7 @@ def result_of(
         "method": method,
         "measure": setting.measure.to_dict(),
         "limits": [limit.to_dict() for limit in setting.limits],
-        "confidence": options.confidence,
-        "resamples": options.resamples,
-        "seed": options.seed,
+        **options._asdict(),
         "at": levels.tolist(),
     }
     return FragilityAnalysis(
@@ -328,7 +326,7 @@ def _remarks(
     method: AnalysisMethod,
     capacities: pl.DataFrame,
     fits: Fits,
-    options: BootstrapOptions,
+    options: Bootstrap,
     settings: dict[str, Any],
 ) -> tuple[str, ...]:
     """What a user must know beside the numbers."""

@@ -220,7 +220,11 @@ def solve_grid(
     """
     owner = "runs at intensities"
     setting = setting_of(models, motions, limits, measure, period, owner, threads=threads)
-    levels = check_levels(intensities, owner)
+    return solve_levels(setting, check_levels(intensities, owner), threads, progress)
+
+
+def solve_levels(setting: Setting, levels: FloatArray, threads: int | None, progress: ProgressLike) -> pl.DataFrame:
+    """Return the runs of all models under all motions at all levels, sorted so."""
     shape = (len(setting.models), len(setting.motions), len(levels))
     model, motion, level = (part.ravel() for part in np.indices(shape))
     return solve_runs(setting, model, motion, levels[level], threads=threads, progress=progress)
