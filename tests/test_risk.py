@@ -14,7 +14,7 @@ from seismass.studies.fragility import IntensityMeasure, solve_grid
 from seismass.studies.fragility.hunt import STEP, exact_capacities
 from seismass.studies.fragility.run import setting_of
 from seismass.studies.risk.annual_rate import annual_rate
-from seismass.studies.risk.tables import RateCurve
+from seismass.studies.risk.tables import RateCurve, rate_parts
 
 G = sm.STANDARD_GRAVITY
 HAZARD = sm.risk.HazardCurve(
@@ -129,7 +129,8 @@ def test_operator_on_rates(rates: list[float], kind: str, value: float) -> None:
     hazard = sm.risk.HazardCurve([1e-3, 1e3], [1e3, 1e-3])  # the rate is 1 over the capacity
     capacities = 1.0 / np.array(rates)[:, None]
     shares = np.array([0.0, 0.5, 1.0])
-    curve = RateCurve.of(shares, np.array([1.0]), capacities, hazard, "empirical", True, np.ones((1, 1)))
+    model = rate_parts(capacities, hazard, "empirical", np.ones((1, 1))).total(True)
+    curve = RateCurve(shares, 1.0, model[0], np.ones(1), model)
     np.testing.assert_allclose(curve.model, rates, rtol=1e-12)
     assert curve.kind == kind
     assert curve.value == pytest.approx(value, abs=1e-12)

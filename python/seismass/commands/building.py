@@ -7,6 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from seismass.base.errors import InvalidOption, MissingPackage
+from seismass.base.files import write_file
 from seismass.commands.frame import Command, print_answer, progress, show
 from seismass.commands.options import (
     add_answer_options,
@@ -77,8 +79,6 @@ def run(args: argparse.Namespace) -> int:
     from seismass.assessment.building_file import read_building
     from seismass.assessment.mass_source import mass_source_lines
     from seismass.assessment.run import write_models
-    from seismass.base.errors import InvalidOption
-    from seismass.base.files import write_file
     from seismass.show.assessment.text import write_with
 
     if args.mass_source is None:
@@ -112,7 +112,6 @@ def run(args: argparse.Namespace) -> int:
 
 def _live_page(result: Assessment) -> dict[str, str]:
     """The live page, to which the page links, where it can show the building and the package has its kernel."""
-    from seismass.base.errors import MissingPackage
     from seismass.media.page import PAGE
     from seismass.show.assessment.page_input import live_case
     from seismass.show.explore import explorer_html

@@ -7,6 +7,8 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from seismass.base.errors import InvalidOption
+from seismass.base.values import refusal
 from seismass.commands.frame import Command, progress, seconds, show
 from seismass.commands.options import add_jobs_option, add_json_option, threads_option
 
@@ -40,8 +42,6 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the campaign, or say how far it is; return the exit code."""
-    from seismass.base.errors import InvalidOption
-    from seismass.base.values import refusal
     from seismass.studies.campaign import CampaignFolder, example_description, read_campaign
 
     if args.example:
@@ -71,7 +71,7 @@ def run(args: argparse.Namespace) -> int:
                 progress=None if tell is None else lambda state: tell(state.runs_done, state.runs),
             )
     folder = CampaignFolder(place)
-    problems = _problems(folder) if args.verify else []
+    problems = folder.verify().drop_nulls("problem").select("part", "problem").rows() if args.verify else []
     state = _state(folder, problems if args.verify else None)
     if args.json:
         print(json.dumps(state, indent=2))
@@ -86,8 +86,6 @@ def run(args: argparse.Namespace) -> int:
 
 def _announce(campaign: Campaign, place: Path, args: argparse.Namespace) -> None:
     """Print what is about to be solved, and what it takes where that is much; refuse more than a day without --long."""
-    from seismass.base.errors import InvalidOption
-    from seismass.base.values import refusal
     from seismass.studies.campaign import CampaignFolder
     from seismass.studies.campaign.engine import duration_text, estimated
     from seismass.studies.campaign.manifest import MANIFEST
@@ -168,13 +166,6 @@ def _text(folder: CampaignFolder, state: dict[str, Any]) -> str:
 def _listed(parts: list[int], most: int = 10) -> str:
     more = f" and {len(parts) - most} more" if len(parts) > most else ""
     return ", ".join(map(str, parts[:most])) + more
-
-
-def _problems(folder: CampaignFolder) -> list[tuple[int, str]]:
-    import polars as pl
-
-    rows = folder.verify().filter(pl.col("problem").is_not_null())
-    return [(row["part"], row["problem"]) for row in rows.iter_rows(named=True)]
 
 
 def shard_option(text: str) -> tuple[int, int]:

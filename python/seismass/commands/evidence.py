@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from seismass._kernel import VERSION
+from seismass.base.errors import InvalidOption
+from seismass.base.units import STANDARD_GRAVITY
 from seismass.commands.frame import Command, give_answer, progress
 from seismass.commands.options import (
     add_answer_options,
@@ -48,7 +50,6 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Make the table, write its files and print what it says; return the exit code."""
-    from seismass.base.errors import InvalidOption
     from seismass.base.stored_results import result_store
     from seismass.motions.records import builtin_suite
     from seismass.runs.simulate import instruction_set
@@ -98,8 +99,6 @@ def run(args: argparse.Namespace) -> int:
 
 def _hazard(args: argparse.Namespace, setting: Any) -> Any:
     """The hazard over the design level; None where no curve is given."""
-    from seismass.base.errors import InvalidOption
-    from seismass.base.units import STANDARD_GRAVITY
     from seismass.studies.risk.hazard import HazardCurve
 
     if args.hazard is None:

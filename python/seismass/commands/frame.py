@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
+from seismass.base.files import write_file
 from seismass.commands.options import check_outputs, left_out, warn_left_out
 from seismass.commands.parser import ANY_COMMAND, HelpText, columns
 from seismass.media.text_table import fitted_blocks, is_row
@@ -239,7 +240,6 @@ def print_answer(
 
 def write_figure(figure: Figure, path: Path) -> None:
     """Write one figure, PNG or SVG by the suffix of its file."""
-    from seismass.base.files import write_file
     from seismass.media.svg import figure_content
 
     kind: Literal["png", "svg"] = "svg" if path.suffix.lower() == ".svg" else "png"

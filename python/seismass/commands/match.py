@@ -10,6 +10,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from seismass.base.errors import InvalidOption
+from seismass.base.files import Content, check_files, table_content
 from seismass.commands.frame import Command, progress, show, write_figure
 from seismass.commands.options import (
     add_json_option,
@@ -98,7 +100,9 @@ def run(args: argparse.Namespace) -> int:
     if args.out is not None:
         _write(matched, args.out)
     if args.plot is not None:
-        _plot(matched, args.plot)
+        for number, one in enumerate(matched, start=1):
+            name = f"{args.plot.stem}_{number:03d}{args.plot.suffix}"
+            write_figure(one.plot(), args.plot if len(matched) == 1 else args.plot.with_name(name))
     if args.json:
         rows = [
             {**row, "remarks": list(one.remarks), "history": list(one.record.history)}
@@ -126,8 +130,6 @@ def _check_out(out: Path | None, path: Path, suite: Suite) -> None:
     """Refuse what --out cannot be for these records, before they are matched: a file for several records, or one that
     would replace a record or stand among them.
     """
-    from seismass.base.errors import InvalidOption
-    from seismass.base.files import check_files
     from seismass.base.folders import check_out
     from seismass.motions.matching.result import SUFFIXES
 
@@ -161,7 +163,6 @@ def _write(matched: MatchedSuite, out: Path) -> None:
     """One record to the file that is named, or all to a folder with a list."""
     import polars as pl
 
-    from seismass.base.files import Content, table_content
     from seismass.base.folders import write_folder
     from seismass.motions.matching.result import SUFFIXES, at2_text
 
@@ -176,13 +177,6 @@ def _write(matched: MatchedSuite, out: Path) -> None:
         labels = {"event": one.record.event, "station": one.record.station, "component": one.record.component}
         rows.append({"number": number, "file": file, "name": one.record.name, **labels, "note": note})
     write_folder(out, {**files, _LIST: table_content(pl.DataFrame(rows), "csv")}, owner="match")
-
-
-def _plot(matched: MatchedSuite, path: Path) -> None:
-    """Draw each record, to files with a number where there are several."""
-    for number, one in enumerate(matched, start=1):
-        file = path if len(matched) == 1 else path.with_name(f"{path.stem}_{number:03d}{path.suffix}")
-        write_figure(one.plot(), file)
 
 
 def _scale_option(text: str) -> str | float:

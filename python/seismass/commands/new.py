@@ -9,12 +9,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from seismass.base.errors import InvalidBuildingFile, InvalidOption
+from seismass.base.files import check_files, write_file
 from seismass.base.units import STANDARD_GRAVITY
+from seismass.base.values import refusal
 from seismass.commands.frame import Command, show, write_figure
 from seismass.commands.options import refuse_options
 
 if TYPE_CHECKING:
-    from seismass.assessment.building import OwnBuilding
     from seismass.assessment.storey_table import StoreyTable
 
 _OPTIONS = {
@@ -91,12 +93,10 @@ def run(args: argparse.Namespace) -> int:
     """Ask, write the file and say what comes next; return the exit code."""
     from seismass.assessment.answer import doubt_lines
     from seismass.assessment.building_file import read_building
+    from seismass.assessment.doubts import building_doubts
     from seismass.assessment.new_file import MASS_INCLUDES, building_text, fit_of_curves, questions_for
     from seismass.assessment.pushover_file import read_pushover
     from seismass.assessment.storey_table import read_storey_table
-    from seismass.base.errors import InvalidBuildingFile, InvalidOption
-    from seismass.base.files import check_files, write_file
-    from seismass.base.values import refusal
 
     if args.out.suffix.lower() != ".toml":
         raise refusal(InvalidOption, "file", "new", "one with the suffix .toml", str(args.out))
@@ -135,7 +135,8 @@ def run(args: argparse.Namespace) -> int:
         fit = fit_of_curves(curves, answers, table, shape=shape, pattern=args.forces)
     text = building_text(answers, table, curves, fit, args.loaded or ())
     building = read_building(tomllib.loads(text))  # refused before anything is written
-    for line in (*_table_lines(table, answers, args.loaded or ()), *doubt_lines(_doubts(building))):
+    doubts = building_doubts(building, building.scene(building.target), building.target)
+    for line in (*_table_lines(table, answers, args.loaded or ()), *doubt_lines(doubts)):
         show(line)
     write_file(args.out, text)
     if fit is not None:
@@ -155,13 +156,6 @@ def _lacking(args: argparse.Namespace) -> str:
     masses = args.table is not None and any(one.name == "mass_includes" for one in asked)
     missing = [", ".join(options)] * bool(options) + ["--mass-includes where there are masses"] * masses
     return f"; to be given too: {', and '.join(missing)}" if missing else ""
-
-
-def _doubts(building: OwnBuilding) -> tuple[str, ...]:
-    """What `seismass building` would doubt of the file before it solves anything."""
-    from seismass.assessment.doubts import building_doubts
-
-    return building_doubts(building, building.scene(building.target), building.target)
 
 
 def _table_lines(table: StoreyTable | None, answers: dict[str, Any], loaded: Sequence[str]) -> list[str]:
@@ -192,8 +186,6 @@ def _table_lines(table: StoreyTable | None, answers: dict[str, Any], loaded: Seq
 
 def _asked(question: Any) -> Any:
     """Ask until there is an answer that can be read."""
-    from seismass.base.errors import InvalidOption
-
     while True:
         default = f" [{question.default}]" if question.default else ""
         try:

@@ -9,7 +9,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Literal, cast, get_args
 
+from seismass.base.errors import InvalidOption, RecordFormatError
 from seismass.base.files import check_files
+from seismass.base.units import ACCELERATION_UNITS
+from seismass.base.values import printable
 from seismass.commands.parser import tell
 from seismass.motions.scaling import TARGET_HELP
 
@@ -70,8 +73,6 @@ def add_spring_options(group: argparse._ActionsContainer, names: Iterable[str] =
 
 def add_reading_options(parser: argparse.ArgumentParser) -> None:
     """Add --dt, --unit, --format, --skip and --channel, which say of one file what it does not state."""
-    from seismass.base.units import ACCELERATION_UNITS
-
     parser.add_argument(
         "--dt", type=positive_option, metavar="S", help="time step of a record whose file does not state it, s"
     )
@@ -118,7 +119,6 @@ def add_records_options(group: argparse._ArgumentGroup) -> None:
 
 def read_motions(args: argparse.Namespace, default: BuiltinName = "forty") -> Suite:
     """Return the suite that the options name; a built-in suite beside --records is refused."""
-    from seismass.base.errors import InvalidOption
     from seismass.motions.records import builtin_suite, read_suite
 
     if args.records is None:
@@ -130,7 +130,6 @@ def read_motions(args: argparse.Namespace, default: BuiltinName = "forty") -> Su
 
 def read_pairs(args: argparse.Namespace) -> Pairs:
     """Return the pairs of the options: those of a folder, or the forty built-in ones."""
-    from seismass.base.errors import InvalidOption, RecordFormatError
     from seismass.motions.records import builtin_pairs, find_pairs
 
     if args.records is None:
@@ -162,8 +161,6 @@ def left_out(suite: Suite | Pairs) -> list[str]:
     """Return a line for each file that the suite left out, with the reason, and for each of its remarks. More than a
     few files are counted by reason.
     """
-    from seismass.base.values import printable
-
     if len(suite.excluded) <= _LISTED_SINGLY:
         lines = [f"left out {printable(item.file.name)}: {item.reason}" for item in suite.excluded]
     else:
@@ -188,7 +185,6 @@ def add_opensees_option(parser: argparse.ArgumentParser, what: str) -> None:
 
 def read_target(args: argparse.Namespace) -> TargetSpectrum:
     """Return the target spectrum that the options describe; --target excludes the numbers of the ASCE 7 shape."""
-    from seismass.base.errors import InvalidOption
     from seismass.motions.scaling.suite import target_of
     from seismass.motions.spectra import DEFAULT_SD1_G, DEFAULT_SDS_G, DEFAULT_TL, TargetSpectrum
 
@@ -207,8 +203,6 @@ def read_target(args: argparse.Namespace) -> TargetSpectrum:
 
 def read_site(args: argparse.Namespace, command: str) -> TargetSpectrum | None:
     """Return the site spectrum that the options describe, in place of a file's; None where they describe none."""
-    from seismass.base.errors import InvalidOption
-
     if args.target is None:
         if args.sds is args.sd1 is args.tl is None:
             return None
@@ -286,8 +280,6 @@ class Output:
         """Return the path; one that cannot be written is refused."""
         path = self.default(args) if stated is None else stated
         if stated is not None and self.suffixes and stated.suffix.lower() not in self.suffixes:
-            from seismass.base.errors import InvalidOption
-
             suffixes = " or ".join(self.suffixes)
             raise InvalidOption(f"{flag} of {command} must be a file with the suffix {suffixes}; got {stated}")
         if path is not None and self.is_folder:
@@ -359,8 +351,6 @@ def add_plot_option(group: argparse._ActionsContainer, of_several: str = "") -> 
 
 def refuse_options(args: argparse.Namespace, names: Iterable[str], command: str, when: str) -> None:
     """Refuse options that are not used, by the names of their values."""
-    from seismass.base.errors import InvalidOption
-
     for name in names:
         value = getattr(args, name)
         if value is not None:

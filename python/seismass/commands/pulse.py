@@ -7,6 +7,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.commands.frame import Command, show, write_figure
 from seismass.commands.options import (
     add_json_option,
@@ -50,8 +51,6 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the classes; return the exit code."""
-    from seismass.base.errors import InvalidOption
-
     if args.orientations is not None and args.method == "shahi_baker2014":
         raise InvalidOption("--method of pulse must be baker2007 with --orientations; got shahi_baker2014")
     groups = _groups(args)
@@ -70,7 +69,6 @@ def run(args: argparse.Namespace) -> int:
 
 def _groups(args: argparse.Namespace) -> list[Record | Pair]:
     """Return what is judged: a component, two, or every pair of a folder; report on standard error what has no pair."""
-    from seismass.base.errors import InvalidMotion, InvalidOption
     from seismass.motions.records import Pair, Suite, find_pairs, read_record
 
     if args.first.is_dir():
@@ -102,7 +100,6 @@ def _warn_remarks(groups: list[Record | Pair]) -> None:
 
 def _one_file(path: Path, options: dict[str, Any]) -> Record | Pair:
     """The one record of a file, or the pair of its two horizontal channels."""
-    from seismass.base.errors import InvalidOption
     from seismass.motions.records import Pair, read_record, read_records
     from seismass.motions.records.formats.labels import is_vertical
 
@@ -122,7 +119,6 @@ def _one_file(path: Path, options: dict[str, Any]) -> Record | Pair:
 
 
 def _judged(motion: Record | Pair, args: argparse.Namespace) -> list[PulseResult | OrientationScan]:
-    from seismass.base.errors import InvalidOption
     from seismass.motions.pulses import baker2007, baker2007_orientations, shahi_baker2014
     from seismass.motions.records import Record
 

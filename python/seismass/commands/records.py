@@ -9,6 +9,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from seismass.base.errors import InvalidOption, RecordFormatError
+from seismass.base.values import printable
 from seismass.commands.frame import Command, show
 from seismass.commands.options import add_json_option, add_reading_options, reading
 from seismass.commands.parser import columns
@@ -32,8 +34,6 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Print the table or the report; return the exit code."""
-    from seismass.base.errors import InvalidOption
-
     if args.path is not None and args.find is not None:
         raise InvalidOption(f"PATH of records must be left out where --find is given; got {args.path}")
     if args.path is None:
@@ -74,8 +74,6 @@ def _read(path: Path, reading: Reading) -> Suite:
 
 def _all_of(folder: Path, named: Path) -> Suite:
     """Every record below a folder, which messages call `named`, and the files that are not records."""
-    from seismass.base.errors import RecordFormatError
-    from seismass.base.values import printable
     from seismass.motions.records import Excluded, Suite
     from seismass.motions.records import read_records as read_channels
     from seismass.motions.records.known import with_tables
@@ -124,7 +122,6 @@ def _rows(suite: Suite) -> list[dict[str, Any]]:
 
 
 def _table(suite: Suite) -> list[str]:
-    from seismass.base.values import printable
     from seismass.media.text_table import number_text, text_line
     from seismass.motions.records.known import known_words
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from seismass.base.arguments import ProgressLike
+from seismass.base.files import write_file
 from seismass.commands.frame import Command, progress, seconds, show
 from seismass.commands.options import add_output_option
 from seismass.media.result import PAGE
@@ -26,7 +27,6 @@ def write_page(folder: Path, target: Path, *, force: bool = False, progress: Pro
     written, which are read with `force` alone; `progress` is called with (figures drawn, figures in all).
     """
     from seismass.assessment.result import Assessment
-    from seismass.base.files import write_file
     from seismass.base.folders import as_written, read_folder
     from seismass.show.assessment.page import whole_page as page_of_assessment
     from seismass.show.study.write import whole_page as page_of_study

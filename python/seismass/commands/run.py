@@ -38,48 +38,27 @@ def run(args: argparse.Namespace) -> int:
         return 0
     from seismass.runs.peak_digits import digits_remarks
     from seismass.runs.simulate import simulate
-    from seismass.show.response_text import run_text
+    from seismass.show.response_text import plane_run_text, run_text
 
     file = read_scene(args.scene)
-    if file.other_motion is not None:
-        return _run_plane(args, file)
-    if args.opensees is not None:
+    motion: Any = file.motion if file.other_motion is None else (file.motion, file.other_motion)
+    if args.opensees is not None and file.other_motion is None:
         from seismass.runs.opensees_export import write_opensees
 
         write_opensees(args.opensees, {"scene": file.scene}, [file.motion])
-    response = simulate(file.scene, file.motion, histories=args.out is not None, displacements_only=True, energy=True)
+    response: Any = simulate(file.scene, motion, histories=args.out is not None, displacements_only=True, energy=True)
     if args.out is not None:
         _write_histories(response, args.out)
     if args.json:
         print(json.dumps(as_json(file, response), indent=2, allow_nan=False))
         return 0
-    title, source = file.name or file.path.stem, "".join(record.name for record in file.records[:1])
-    show(
-        run_text(
-            response,
-            title=title,
-            note=file.note,
-            source=source,
-            remarks=(*(file.remarks or response.remarks), *digits_remarks(response)),
-        )
-    )
-    return 0
-
-
-def _run_plane(args: argparse.Namespace, file: SceneFile) -> int:
-    """Solve a scene in two directions and print it."""
-    from seismass.runs.peak_digits import digits_remarks
-    from seismass.runs.simulate import simulate
-    from seismass.show.response_text import plane_run_text
-
-    pair = (file.motion, file.other_motion or file.motion)
-    response = simulate(file.scene, pair, histories=args.out is not None, displacements_only=True, energy=True)
-    if args.out is not None:
-        _write_histories(response, args.out)
-    if args.json:
-        print(json.dumps(as_json(file, response), indent=2, allow_nan=False))
-    else:
-        show("\n".join([plane_run_text(response, title=file.name or file.path.stem), *digits_remarks(response)]))
+    title, chaotic = file.name or file.path.stem, digits_remarks(response)
+    if file.other_motion is not None:
+        show("\n".join([plane_run_text(response, title=title), *chaotic]))
+        return 0
+    source = "".join(record.name for record in file.records[:1])
+    remarks = (*(file.remarks or response.remarks), *chaotic)
+    show(run_text(response, title=title, note=file.note, source=source, remarks=remarks))
     return 0
 
 

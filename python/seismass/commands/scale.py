@@ -7,6 +7,9 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from seismass.base.errors import InvalidMotion, InvalidOption
+from seismass.base.files import table_content, write_file
+from seismass.base.values import counted
 from seismass.commands.frame import Command, show, write_figure
 from seismass.commands.options import (
     SPRING_OPTIONS,
@@ -94,13 +97,14 @@ def run(args: argparse.Namespace) -> int:
     """Print the factors; return the exit code."""
     from dataclasses import replace
 
+    from seismass.assessment.building_file import read_building
     from seismass.assessment.models import scaled_to_site, with_mass
     from seismass.design.scaling import select_records
     from seismass.model.plausibility import motion_remarks
     from seismass.motions.spectra.target import target_remarks
 
     _check_options(args)
-    assessed = _building_of_file(args)
+    assessed = None if args.building is None else read_building(args.building)
     args.method = args.method or (assessed.scaling_code if assessed is not None else "asce7-10")
     target = _target(args, assessed)
     suite, scaled = _motions(args)
@@ -134,7 +138,6 @@ def _motions(args: argparse.Namespace) -> tuple[Suite, Suite | Pairs]:
     if not args.pairs:
         suite = read_motions(args, "eleven" if args.method in (*MAXIMUM_DIRECTION, "tbdy2018") else "seven")
         return suite, suite
-    from seismass.base.errors import InvalidMotion
     from seismass.motions.records import Suite, find_pairs
 
     pairs = find_pairs(args.records)
@@ -146,8 +149,6 @@ def _motions(args: argparse.Namespace) -> tuple[Suite, Suite | Pairs]:
 
 def _check_options(args: argparse.Namespace) -> None:
     """Refuse options that the method, or a scaling without selection, does not use."""
-    from seismass.base.errors import InvalidOption
-
     method = args.method or "asce7-10"
     by_code, used = args.method is None or method in BY_CODE, set[str]()
     if by_code:
@@ -172,14 +173,6 @@ def _check_options(args: argparse.Namespace) -> None:
             got = method if args.records is not None else f"{method} without --records"
             raise InvalidOption(f"--pairs of scale must be given with a rule of a code and --records; got {got}")
         refuse_options(args, ("select",), "scale", "with --pairs")
-
-
-def _building_of_file(args: argparse.Namespace) -> OwnBuilding | None:
-    if args.building is None:
-        return None
-    from seismass.assessment.building_file import read_building
-
-    return read_building(args.building)
 
 
 def _target(args: argparse.Namespace, building: OwnBuilding | None) -> TargetSpectrum:
@@ -208,8 +201,6 @@ def _scaled(args: argparse.Namespace, suite: Any, target: TargetSpectrum, buildi
 
 def _write_table(path: Path, scaling: ScalingResult) -> None:
     import polars as pl
-
-    from seismass.base.files import table_content, write_file
 
     table = scaling.diagnostics()
     if "roots" in table.columns:
@@ -250,7 +241,6 @@ def _print(
     selection: Selection | None,
     remarks: tuple[str, ...],
 ) -> None:
-    from seismass.base.values import counted
     from seismass.show.motions import factor_lines, scaling_lines
 
     show(f"suite   {suite.name}: {counted(len(suite), 'motion')}")

@@ -8,7 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol, TypeVar, cast
 
-from seismass.base.input_table import BUILDING_FILE, kind_of
+from seismass.base.errors import InvalidOption, InvalidSceneFile
+from seismass.base.input_table import BUILDING_FILE, kind_of, load_table
 from seismass.commands.options import (
     add_period_option,
     add_target_options,
@@ -135,9 +136,6 @@ def with_doubts(result: Doubtable, doubts: tuple[str, ...]) -> tuple[Doubtable, 
 
 def is_building_file(path: Path) -> bool:
     """Whether a file has the tables of a building file."""
-    from seismass.base.errors import InvalidSceneFile
-    from seismass.base.input_table import load_table
-
     return kind_of(load_table(path, "scene or building file", InvalidSceneFile).values) == BUILDING_FILE
 
 
@@ -148,7 +146,6 @@ def read_scene_or_building(
     the latter. `only_site` names a command that needs a site spectrum, which a scene file lacks.
     """
     from seismass.assessment.building_file import read_building
-    from seismass.base.errors import InvalidOption
     from seismass.runs.scene_file import scene_without_motion
 
     if not is_building_file(path):

@@ -6,6 +6,8 @@ import argparse
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from seismass.base.errors import InvalidOption
+from seismass.base.values import brief, refusal
 from seismass.commands.frame import Command, give_answer, progress
 from seismass.commands.options import add_answer_options, add_records_options, add_target_options, arguments, read_site
 from seismass.commands.scene_or_building import (
@@ -81,8 +83,6 @@ def parse_clearance(text: str, *, plane: bool = False) -> Clearance:
     """Return a clearance from its text: a distance for both sides, or one for each, separated by a comma; in two
     directions four for the sides of x and y. A distance after @ is one in any direction.
     """
-    from seismass.base.errors import InvalidOption
-    from seismass.base.values import brief, refusal
     from seismass.studies.slip import Clearance
 
     sides, sign, reach = text.partition("@")
@@ -108,9 +108,6 @@ def _per_block(
     """Return one value per block from values for all blocks or for single ones, else those that the file has; None
     where nothing is given.
     """
-    from seismass.base.errors import InvalidOption
-    from seismass.base.values import refusal
-
     if not words:
         return stated
     values: dict[int, Any] = {}

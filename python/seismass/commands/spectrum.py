@@ -7,6 +7,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from seismass.base.files import without_formulas
+from seismass.base.units import STANDARD_GRAVITY
 from seismass.commands.frame import Command
 from seismass.commands.options import (
     SPRING_OPTIONS,
@@ -63,7 +65,6 @@ def run(args: argparse.Namespace) -> int:
     """Print the table; return the exit code."""
     import numpy as np
 
-    from seismass.base.files import without_formulas
     from seismass.motions.records.builtin import records_named
 
     inelastic = args.strength is not None or args.ductility is not None
@@ -82,7 +83,6 @@ def _elastic(suite: Suite, periods: Any, args: argparse.Namespace) -> pl.DataFra
     import numpy as np
     import polars as pl
 
-    from seismass.base.units import STANDARD_GRAVITY
     from seismass.motions.spectra import response_spectrum
 
     kind = args.kind or "psa"

@@ -6,6 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from seismass.base.files import table_content, write_file
 from seismass.commands.frame import Command, show
 from seismass.commands.options import add_output_option, numbers_option
 from seismass.commands.parser import RUNS, tell
@@ -29,7 +30,6 @@ def options(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Print or write the table; return the exit code."""
     from seismass.assessment.building_file import read_building
-    from seismass.base.files import table_content, write_file
     from seismass.motions.scaling.suite import target_of
     from seismass.motions.spectra.target import target_remarks
 

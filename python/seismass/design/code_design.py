@@ -17,6 +17,7 @@ from seismass.base.values import FieldValue, FloatArray, as_one_of, as_positive,
 from seismass.base.views import Card
 from seismass.design.lateral_force import (
     PERIOD_CODES,
+    DistributionRule,
     code_period,
     equivalent_lateral_forces,
     seismic_response_coefficient,
@@ -119,10 +120,12 @@ class CodeDesign(FieldValue, Card):
 
 
 class _Design:
-    """Entries and omissions of a design while it is made."""
+    """A design while it is made: its weight (N), period (s) and C_s, entries and omissions."""
 
-    def __init__(self, code_id: str) -> None:
-        self.code_id = code_id
+    def __init__(self, code_id: str, weight: float) -> None:
+        self.code_id, self.weight = code_id, weight
+        self.period = 0.0
+        self.coefficient: float | None = None
         self.entries: list[DesignEntry] = []
         self.missing: list[str] = []
 
@@ -135,6 +138,23 @@ class _Design:
     def lacks(self, sentence: str) -> None:
         """Add what is not applied."""
         self.missing.append(f"{CODE_NAMES.get(self.code_id, 'the code')}: {sentence}")
+
+    def with_strengths(
+        self,
+        strength: FloatArray,
+        rule: CodeRule | DistributionRule | None,
+        base_shear: float | None,
+        modal_shear: float | None = None,
+        scale: float = 1.0,
+    ) -> CodeDesign:
+        """Return the design with the first yields V_y (N) that a rule gives."""
+        clause, status = ("", "") if rule is None else (rule.clause, rule.status)
+        for number, value in enumerate(strength, start=1):
+            self.entries.append(DesignEntry("V_y", number, float(value), "N", clause, status, "first yield"))
+        if modal_shear is not None and base_shear is not None:
+            self.add("V_y/(C_s W)", float(strength[0]) / base_shear, note="storey 1")
+        known = (self.code_id, self.weight, self.period, self.coefficient, base_shear, modal_shear, scale)
+        return CodeDesign(*known, frozen(strength), tuple(self.entries), tuple(self.missing))
 
 
 def design_by_code(
@@ -203,19 +223,19 @@ def design_by_code(
     """
     as_word(procedure, get_args(Procedure), "procedure", "design")
     target = as_target(target, "design")
-    made = _Design(as_one_of(code_id, str, "code_id", "design", InvalidOption))
+    code_id = as_one_of(code_id, str, "code_id", "design", InvalidOption)
     risk_category = known_category(risk_category)
     as_one_of(system, str, "system", "design", InvalidOption)
     reduction = as_positive(reduction, "reduction", "design", InvalidOption)
     s_1 = None if s_1 is None else as_positive(s_1, "s_1", "design", InvalidOption)
     mass = positive(mass, "mass", or_zero=True)
-    weight = STANDARD_GRAVITY * float(mass.sum())
+    made = _Design(code_id, STANDARD_GRAVITY * float(mass.sum()))
     options: dict[str, Any] = {"stiffness_matrix": stiffness_matrix, "combination": combination, "damping": damping}
     elastic = response_spectrum_analysis(mass, stiffness, target, **options)
     calculated = float(elastic.modes.periods[0])
-    made.add("W", weight, "N", note="weight of the floors with what counts of the live load")
+    made.add("W", made.weight, "N", note="weight of the floors with what counts of the live load")
     made.add("T_1", calculated, "s", note="first period with W")
-    period = _limited(made, calculated, target, system, height, len(mass))
+    made.period = period = _limited(made, calculated, target, system, height, len(mass))
     importance, of_spectrum = _importance(made, risk_category)
     form = rule_of(code_id, "coefficient")
     kind = "" if form is None else form.value
@@ -227,58 +247,39 @@ def design_by_code(
     if kind == "ec8":
         spectrum = _ec8_spectrum(made, target, reduction)
         analysis, factor = response_spectrum_analysis(mass, stiffness, spectrum, **options), 1.0
-        coefficient: float | None = _ec8_coefficient(made, spectrum, period, target, len(mass))
+        made.coefficient = _ec8_coefficient(made, spectrum, period, target, len(mass))
     elif kind == "nzs1170.5":
-        coefficient = _nzs_coefficient(made, target, period, factor)
+        made.coefficient = _nzs_coefficient(made, target, period, factor)
     elif kind == "asce7":
-        coefficient = _coefficient(made, target, period, importance, reduction, s_1)
-    else:
-        coefficient = None
+        made.coefficient = _coefficient(made, target, period, importance, reduction, s_1)
     for rule in APPLIED:
         if rule_of(code_id, rule) is None and (rule, kind) not in (("period limit", "ec8"), ("modal share", "ec8")):
             made.lacks(f"no rule of the {rule} is known here, and none is applied")
     if of_spectrum and importance != 1.0 and target.parameters.get("importance", target.parameters.get("r")) is None:
         made.lacks(f"{importance:g} for category {risk_category} is taken to be in the site spectrum")
-    base_shear = None if coefficient is None else coefficient * weight
-    if coefficient is not None and base_shear is not None:
-        made.add("C_s", coefficient, rule=form)
+    base_shear = None
+    if made.coefficient is not None:
+        base_shear = made.coefficient * made.weight
+        made.add("C_s", made.coefficient, rule=form)
         made.add("V", base_shear, "N", form, "C_s W")
     if procedure == "lateral-force":
-        return _by_lateral_forces(made, mass, heights, weight, period, coefficient)
-    return _scaled(made, analysis, factor, weight, period, coefficient, base_shear)
+        return _by_lateral_forces(made, mass, heights, base_shear)
+    return _scaled(made, analysis, factor, base_shear)
 
 
 def _by_lateral_forces(
-    made: _Design,
-    mass: FloatArray,
-    heights: ArrayLike | None,
-    weight: float,
-    period: float,
-    coefficient: float | None,
+    made: _Design, mass: FloatArray, heights: ArrayLike | None, base_shear: float | None
 ) -> CodeDesign:
     """The design with the storey shears of equivalent lateral forces."""
-    if coefficient is None or heights is None:
+    if base_shear is None or heights is None:
         missing = "heights" if heights is None else "base shear"
         raise refusal(InvalidOption, missing, "design by lateral forces", "known", "none")
-    forces = equivalent_lateral_forces(
-        STANDARD_GRAVITY * mass, heights, coefficient * weight, period, code_id=made.code_id
-    )
-    rule = forces.rule
-    for number, value in enumerate(forces.shear, start=1):
-        made.entries.append(DesignEntry("V_y", number, float(value), "N", rule.clause, rule.status, "first yield"))
-    shears = (forces.base_shear, None, 1.0, forces.shear)
-    return CodeDesign(made.code_id, weight, period, coefficient, *shears, tuple(made.entries), tuple(made.missing))
+    weights = STANDARD_GRAVITY * mass
+    forces = equivalent_lateral_forces(weights, heights, base_shear, made.period, code_id=made.code_id)
+    return made.with_strengths(forces.shear, forces.rule, forces.base_shear)
 
 
-def _scaled(
-    made: _Design,
-    analysis: SpectrumAnalysis,
-    factor: float,
-    weight: float,
-    period: float,
-    coefficient: float | None,
-    base_shear: float | None,
-) -> CodeDesign:
+def _scaled(made: _Design, analysis: SpectrumAnalysis, factor: float, base_shear: float | None) -> CodeDesign:
     """The design with its modal shears times a factor and scaled to the base shear."""
     modal = factor * analysis.base_shear
     made.add("V_t", modal, "N", note="base shear of the modes, reduced")
@@ -289,23 +290,7 @@ def _scaled(
         made.add("scale", scale, rule=share, note=note)
     # Without walls the springs carry the storey shear; walls stay elastic.
     strength = scale * factor * analysis.spring_shear
-    for number, value in enumerate(strength, start=1):
-        clause, status = ("", "") if share is None else (share.clause, share.status)
-        made.entries.append(DesignEntry("V_y", number, float(value), "N", clause, status, "first yield"))
-    if base_shear is not None:
-        made.add("V_y/(C_s W)", float(strength[0]) / base_shear, note="storey 1")
-    return CodeDesign(
-        made.code_id,
-        weight,
-        period,
-        coefficient,
-        base_shear,
-        modal,
-        scale,
-        frozen(strength),
-        tuple(made.entries),
-        tuple(made.missing),
-    )
+    return made.with_strengths(strength, share, base_shear, modal, scale)
 
 
 def _limited(

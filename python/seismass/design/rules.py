@@ -452,6 +452,11 @@ def _not_negative(values: ArrayLike, name: str, storeys: int) -> FloatArray:
     if len(array) != storeys:
         requirement = f"a list of {storeys} values, one per storey"
         raise refusal(InvalidOption, name, "storeys", requirement, f"{len(array)} values")
+    return not_negative(array, name, "storeys")
+
+
+def not_negative(array: FloatArray, name: str, owner: str) -> FloatArray:
+    """Return finite numbers of at least 0."""
     if not (np.isfinite(array) & (array >= 0.0)).all():
-        raise refusal(InvalidOption, name, "storeys", "numbers of at least 0", brief(array.tolist()))
+        raise refusal(InvalidOption, name, owner, "numbers of at least 0", brief(array.tolist()))
     return array

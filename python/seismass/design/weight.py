@@ -14,8 +14,9 @@ from seismass.base.arguments import as_word, is_one_of, known_id
 from seismass.base.errors import InvalidOption
 from seismass.base.files import stored_rows
 from seismass.base.units import STANDARD_GRAVITY
-from seismass.base.values import FieldValue, FloatArray, as_array, as_number, brief, frozen, refusal
+from seismass.base.values import FieldValue, FloatArray, as_array, as_number, frozen, refusal
 from seismass.base.views import Card
+from seismass.design.rules import not_negative, weakest
 from seismass.model.codes import CODE_IDS, FROM_MEMORY, SECOND_HAND, VERIFIED, Use, code_fraction
 
 FloorUse: TypeAlias = Use
@@ -26,7 +27,6 @@ PARTITION_MINIMUM: Final = 480.0
 SMALL_SHARE: Final = 0.05
 """Storage that adds at most so much to the weight of its level is exempt: ASCE/SEI 7-10, 12.7.2, item 1a (verified)."""
 
-_STRENGTH: Final = (VERIFIED, SECOND_HAND, FROM_MEMORY)
 _ASCE: Final = {"asce7-10": VERIFIED, "asce7-16": FROM_MEMORY, "asce7-22": SECOND_HAND}
 _ITEM_1A: Final = "storage that adds at most 5 % to the weight of its level is exempt: 12.7.2, exception a"
 _TOGETHER: Final = "storage, equipment and landscaping that add at most 5 % together are exempt: 12.7.2, exception a"
@@ -201,7 +201,7 @@ class _Rules:
     @property
     def status(self) -> str:
         """The weakest of all."""
-        return max((status for _, status in self._rows.values()), key=_STRENGTH.index, default=VERIFIED)
+        return weakest([status for _, status in self._rows.values()])
 
     def table(self) -> pl.DataFrame:
         """One row per rule."""
@@ -280,6 +280,4 @@ def _loads(values: ArrayLike, name: str, floors: int | None) -> FloatArray:
     array = as_array(values, name, "seismic weight", InvalidOption)
     if floors is not None and len(array) != floors:
         raise refusal(InvalidOption, name, "seismic weight", f"{floors} values, one per floor", f"{len(array)} values")
-    if not (np.isfinite(array) & (array >= 0.0)).all():
-        raise refusal(InvalidOption, name, "seismic weight", "numbers of at least 0", brief(array.tolist()))
-    return array
+    return not_negative(array, name, "seismic weight")

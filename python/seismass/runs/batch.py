@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from seismass import _kernel
 from seismass.base.arguments import Progress, ProgressLike, as_progress, as_threads
-from seismass.base.errors import InvalidMotion, InvalidOption, InvalidScene
+from seismass.base.errors import InvalidMotion, InvalidOption
 from seismass.base.files import check_files, polars_writing, write_file
 from seismass.base.fork_check import require_polars
 from seismass.base.stored_results import inputs_digest, result_store
@@ -28,6 +28,7 @@ from seismass.runs.batch_tables import (
     batch_table,
     heights_of,
     heights_of_runs,
+    listed_scenes,
     rack_columns,
     with_directions,
     without_directions,
@@ -315,9 +316,8 @@ def _stretch(runs: Any, total: int) -> range:
     if runs is None:
         return range(total)
     limits = f"a range of numbers of runs, from 1 to {total}, without steps"
-    if not isinstance(runs, range) or (len(runs) > 1 and runs.step != 1):
-        raise refusal(InvalidOption, "runs", "batch", limits, brief(runs))
-    if len(runs) and not (runs[0] >= 1 and runs[-1] <= total):
+    outside = isinstance(runs, range) and len(runs) > 0 and not (runs[0] >= 1 and runs[-1] <= total)
+    if not isinstance(runs, range) or (len(runs) > 1 and runs.step != 1) or outside:
         raise refusal(InvalidOption, "runs", "batch", limits, brief(runs))
     return range(runs[0] - 1, runs[-1]) if len(runs) else range(0)
 
@@ -363,7 +363,7 @@ def _batch(scenes: Any, motions: Any, pairs: ArrayLike | None) -> _Batch:
         batch: _Batch = _GridBatch(scenes, checked, names)
         scenes._check_motions(len(checked))
     else:
-        listed, listed_motions = _listed_scenes(scenes), _listed_motions(motions)
+        listed, listed_motions = listed_scenes(scenes, "batch"), _listed_motions(motions)
         wanted = None if pairs is None else _pairs(pairs, len(listed), len(listed_motions))
         batch = _SceneBatch(SceneRuns.of(listed, _in_any_plane(listed_motions), motion_names(listed_motions)), wanted)
         batch.check()
@@ -530,15 +530,6 @@ class _GridBatch:
         heights = [building.heights for building in self.grid.buildings]
         of_scene = heights_of_runs(heights, self.grid._building_of(scene), batch.storeys)
         return batch_table(batch, scene, motion, self.names, of_scene)
-
-
-def _listed_scenes(scenes: Any) -> list[Scene]:
-    single = isinstance(scenes, Scene)
-    listed = [scenes] if single else as_list(scenes, "scenes", "batch", InvalidScene, "a list of Scenes")
-    for number, scene in enumerate(listed, start=1):
-        if not isinstance(scene, Scene):
-            raise refusal(InvalidScene, f"scene {number}", "batch", "a Scene", brief(scene))
-    return listed
 
 
 def _pairs(pairs: ArrayLike, scenes: int, motions: int) -> IndexArray:

@@ -9,33 +9,21 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass import _kernel
-from seismass.base.values import FloatArray
+from seismass.base.errors import InvalidScene
+from seismass.base.values import FloatArray, as_list, brief, refusal
 from seismass.model.scene import Scene
 from seismass.runs.grid.columns import IndexArray
 
+PER_STOREY: Final = (
+    *("peak_drift", "peak_drift_time", "peak_drift_ratio", "residual_drift"),
+    *("peak_floor_acceleration", "peak_storey_shear"),
+)
+PER_BLOCK: Final = ("peak_slip", "peak_slip_time", "residual_slip", "slip_path")
+"""Lists of a batch, one value per storey or per block."""
 _COLUMNS: Final = (
-    "scene",
-    "motion",
-    "record",
-    "status",
-    "reason",
-    "end_time",
-    "collapsed_storey",
-    "peak_drift",
-    "peak_drift_time",
-    "peak_drift_ratio",
-    "residual_drift",
-    "peak_floor_acceleration",
-    "peak_storey_shear",
-    "peak_base_shear",
-    "peak_floor_force",
-    "peak_slip",
-    "peak_slip_time",
-    "residual_slip",
-    "slip_path",
-    "events",
-    "yields",
-    "slips",
+    *("scene", "motion", "record", "status", "reason", "end_time", "collapsed_storey"),
+    *(*PER_STOREY, "peak_base_shear", "peak_floor_force", *PER_BLOCK),
+    *("events", "yields", "slips"),
 )
 
 
@@ -45,22 +33,11 @@ def batch_table(
     """The flat columns of a batch as a frame, without a Python object per run; `heights` as `peak_drift`."""
     failed = pl.Series(batch.status == _kernel.Batch.status_names().index("failed"))
     storeys, blocks = batch.storeys, batch.blocks
-    per_storey = {
-        "peak_drift": batch.peak_drift,
-        "peak_drift_time": batch.peak_drift_time,
-        "peak_drift_ratio": batch.peak_drift / heights,
-        "residual_drift": batch.residual_drift,
-        "peak_floor_acceleration": batch.peak_floor_acceleration,
-        "peak_storey_shear": batch.peak_storey_shear,
-    }
+    per_storey = {name: getattr(batch, name) for name in PER_STOREY if name != "peak_drift_ratio"}
+    per_storey["peak_drift_ratio"] = batch.peak_drift / heights
     if batch.peak_floor_force is not None:
         per_storey["peak_floor_force"] = batch.peak_floor_force
-    per_block = {
-        "peak_slip": batch.peak_slip,
-        "peak_slip_time": batch.peak_slip_time,
-        "residual_slip": batch.residual_slip,
-        "slip_path": batch.slip_path,
-    }
+    per_block = {name: getattr(batch, name) for name in PER_BLOCK}
     reasons = pl.DataFrame(batch.failures, schema={"run": pl.UInt32, "reason": pl.String}, orient="row")
     unknown = pl.element().is_nan().all()
     table = (
@@ -113,15 +90,25 @@ def rack_columns(table: pl.DataFrame, batch: _kernel.Batch, racks: _kernel.RackC
         of_bases = {name: np.full(len(batch.status), np.nan) for name in OF_BASES}
     else:
         levels = racks.levels
-        of_levels = {name: getattr(racks, name) for name in OF_LEVELS}
-        of_contacts = {name: getattr(racks, name) for name in OF_CONTACTS}
-        of_bases = {name: getattr(racks, name) for name in OF_BASES}
+        of_levels, of_contacts, of_bases = (
+            {name: getattr(racks, name) for name in names} for names in (OF_LEVELS, OF_CONTACTS, OF_BASES)
+        )
         shear = pl.Series(racks.peak_base_shear).fill_nan(None)
         table = table.with_columns(peak_base_shear=pl.when(pl.col("status") != "failed").then(shear))
     columns = {**_lists(of_levels, levels, failed), **_lists(of_contacts, batch.blocks, failed)}
     return table.with_columns(
         **columns, **{name: pl.Series(values).fill_nan(None) for name, values in of_bases.items()}
     )
+
+
+def listed_scenes(scenes: Any, owner: str) -> list[Scene]:
+    """Return scenes that are given as one or as a list of them."""
+    single = isinstance(scenes, Scene)
+    listed = [scenes] if single else as_list(scenes, "scenes", owner, InvalidScene, "a list of Scenes")
+    for number, scene in enumerate(listed, start=1):
+        if not isinstance(scene, Scene):
+            raise refusal(InvalidScene, f"scene {number}", owner, "a Scene", brief(scene))
+    return listed
 
 
 def heights_of(scene: Scene) -> FloatArray | None:

@@ -11,24 +11,16 @@ import polars as pl
 from numpy.typing import NDArray
 
 from seismass.base.arguments import as_word
-from seismass.base.errors import InvalidOption, InvalidScene
+from seismass.base.errors import InvalidOption
 from seismass.base.fork_check import require_polars
-from seismass.base.values import as_list, as_one_of, brief, refusal
+from seismass.base.values import as_one_of, brief, refusal
 from seismass.model.scene import Scene
+from seismass.runs.batch_tables import PER_BLOCK, PER_STOREY, listed_scenes
 from seismass.runs.grid.columns import TABLE_COLUMNS, table_of
 from seismass.runs.grid.grid import Grid
 from seismass.runs.quantities import QUANTITIES, names_read_by
 from seismass.runs.response import Response
 
-_PER_STOREY: Final = (
-    "peak_drift",
-    "peak_drift_time",
-    "peak_drift_ratio",
-    "residual_drift",
-    "peak_floor_acceleration",
-    "peak_storey_shear",
-)
-_PER_BLOCK: Final = ("peak_slip", "peak_slip_time", "residual_slip", "slip_path")
 _HISTORIES: Final = ("_history", "_displacement", "_histories_of_racks", "_ground")  # methods of a response
 _OF_RUN: Final = ("status", "reason", "end_time", "collapsed_storey", "peak_base_shear", "events", "yields", "slips")
 
@@ -82,10 +74,10 @@ def long_table(table: pl.DataFrame, scenes: Scene | Iterable[Scene] | Grid) -> p
     described, blocks = _of_grid(scenes, table) if isinstance(scenes, Grid) else _of_scenes(scenes, table)
     runs = table.with_row_index("run", offset=1)
     number = _numbered(runs, "peak_drift").select("run", "scene", "motion", "record", *_OF_RUN, storey="number")
-    long = pl.concat([number, _flat(runs, _PER_STOREY)], how="horizontal")
+    long = pl.concat([number, _flat(runs, PER_STOREY)], how="horizontal")
     slid = _numbered(runs, "peak_slip").select("run", "scene", block="number")
     of_blocks = (
-        pl.concat([slid, _flat(runs, _PER_BLOCK)], how="horizontal")
+        pl.concat([slid, _flat(runs, PER_BLOCK)], how="horizontal")
         .join(blocks, on=["scene", "block"], how="inner", maintain_order="left")
         .drop("scene")
     )
@@ -102,7 +94,7 @@ def long_table(table: pl.DataFrame, scenes: Scene | Iterable[Scene] | Grid) -> p
     of_scene = [name for name in described.columns if name != "scene"]
     varied = [name for name in TABLE_COLUMNS if name in of_scene or name in by_floor]
     return joined.select(
-        "run", "scene", "motion", "record", *varied, "storey", *_PER_STOREY, "block", *_PER_BLOCK, *_OF_RUN
+        "run", "scene", "motion", "record", *varied, "storey", *PER_STOREY, "block", *PER_BLOCK, *_OF_RUN
     )
 
 
@@ -161,7 +153,7 @@ def history_table(response: Response, places: Places = "storeys") -> pl.DataFram
 
 
 def _check_table(table: Any) -> None:
-    needed = {"scene", "motion", "record", *_PER_STOREY, *_PER_BLOCK, *_OF_RUN}
+    needed = {"scene", "motion", "record", *PER_STOREY, *PER_BLOCK, *_OF_RUN}
     missing = sorted(needed - set(table.columns)) if isinstance(table, pl.DataFrame) else None
     if missing is None or missing:
         got = brief(table) if missing is None else f"none of {', '.join(missing)}"
@@ -207,11 +199,7 @@ def _of_grid(grid: Grid, table: pl.DataFrame) -> tuple[pl.DataFrame, pl.DataFram
 
 def _of_scenes(scenes: Any, table: pl.DataFrame) -> tuple[pl.DataFrame, pl.DataFrame]:
     """As `_of_grid`, of scenes that are objects."""
-    single = isinstance(scenes, Scene)
-    listed = [scenes] if single else as_list(scenes, "scenes", "long_table", InvalidScene, "a list of Scenes")
-    for number, scene in enumerate(listed, start=1):
-        if not isinstance(scene, Scene):
-            raise refusal(InvalidScene, f"scene {number}", "long_table", "a Scene", brief(scene))
+    listed = listed_scenes(scenes, "long_table")
     used = _used(table, len(listed))
     scenes_used = [listed[number - 1] for number in used.tolist()]
     periods = [None if scene.building is None else float(scene.building.periods[0]) for scene in scenes_used]

@@ -180,22 +180,6 @@ _EVENT: Final = np.dtype(
 )
 
 
-_LISTS: Final = (
-    "peak_drift",
-    "peak_drift_time",
-    "peak_slip",
-    "peak_slip_time",
-    "peak_floor_acceleration",
-    "peak_floor_acceleration_time",
-    "peak_storey_shear",
-    "peak_storey_shear_time",
-    "residual_drift",
-    "residual_slip",
-    "slip_path",
-)
-"""Arrays that are given whole."""
-
-
 class Response(Numbers):
     """What a run gives back. Index 0 is storey 1 (or block 1); drifts and slips are in m, times in s.
 
@@ -268,17 +252,17 @@ class Response(Numbers):
 
     peak_drift = Values[FloatArray]("_array")
     peak_drift_time = Values[FloatArray]("_array")
-    residual_drift = Values[FloatArray]("_array")
+    peak_slip = Values[FloatArray]("_array")
+    peak_slip_time = Values[FloatArray]("_array")
     peak_floor_acceleration = Values[FloatArray]("_array")
     peak_floor_acceleration_time = Values[FloatArray]("_array")
     peak_storey_shear = Values[FloatArray]("_array")
     peak_storey_shear_time = Values[FloatArray]("_array")
-    peak_floor_force = Values[FloatArray]("_forces")
-    peak_floor_force_time = Values[FloatArray]("_forces")
-    peak_slip = Values[FloatArray]("_array")
-    peak_slip_time = Values[FloatArray]("_array")
+    residual_drift = Values[FloatArray]("_array")
     residual_slip = Values[FloatArray]("_array")
     slip_path = Values[FloatArray]("_array")
+    peak_floor_force = Values[FloatArray]("_forces")
+    peak_floor_force_time = Values[FloatArray]("_forces")
     peak_contact_force = Values[FloatArray]("_of_stops")
     peak_contact_velocity = Values[FloatArray]("_of_stops")
     peak_rack_drift = Values[tuple[FloatArray, ...]]("_of_racks")
@@ -466,15 +450,14 @@ class Response(Numbers):
             "end_time": self.end_time,
             "dt": self.motion.dt,
             "remarks": list(self.remarks),
-            **{name: getattr(self, name).tolist() for name in _LISTS},
+            **{name: getattr(self, name).tolist() for name in names_read_by(Response, "_array")},
             "peak_base_shear": self.peak_base_shear,
         }
         if scene.engine == "general":
             result["goods"] = list(goods_names(scene))
-            of_racks = ("peak_rack_drift", "peak_rack_drift_time", "peak_rack_acceleration", "peak_rack_shear")
-            for name in (*of_racks, "residual_rack_drift"):
+            for name in names_read_by(Response, "_of_racks"):
                 result[name] = [levels.tolist() for levels in getattr(self, name)]
-            result |= {name: getattr(self, name).tolist() for name in ("peak_contact_force", "peak_contact_velocity")}
+            result |= {name: getattr(self, name).tolist() for name in names_read_by(Response, "_of_stops")}
             if scene.base is not None:
                 result |= {name: getattr(self, name) for name in names_read_by(Response, "_of_base")}
         for name in ("peak_drift_ratio", "residual_drift_ratio"):

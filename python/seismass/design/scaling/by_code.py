@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
@@ -187,15 +188,7 @@ def _nzs(
             if k_1 < individual[index]:
                 individual[index], spectra[index] = k_1, row
     names = tuple(getattr(item, "name", "") or name for item, name in zip(items, first_spectra.names, strict=True))
-    suite = SuiteSpectra(
-        names,
-        longest,
-        first_spectra.damping,
-        first_spectra.periods,
-        first_spectra.target,
-        spectra,
-        first_spectra.target_label,
-    )
+    suite = replace(first_spectra, names=names, spectra=spectra)
     family = max(1.0, float(np.max(suite.target / np.max(individual[:, None] * spectra, axis=0))))
     stated = "" if ductility is not None else ", as no ductility is stated"
     notes = [f"S_p = {s_p:g}{stated}: the target is (1 + S_p)/2 = {0.5 * (1.0 + s_p):g} times the site spectrum"]

@@ -16,7 +16,7 @@ from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FieldValue, FloatArray, as_array, brief, frozen, is_list, read_only, refusal
 from seismass.model.building import Building, changed_building, of_storeys_alone
 from seismass.model.springs import SHAPE_FIELDS, SpringShape
-from seismass.runs.grid.sample import StrengthDesign
+from seismass.runs.grid.sample import CHANGING, LOADS, StrengthDesign
 
 IndexArray = NDArray[np.int64]
 _T = TypeVar("_T", np.int64, np.float64)
@@ -60,6 +60,15 @@ AXES: Final = {
 """Axes of a product beside the building, and what each of them holds."""
 
 
+def refuse_first(
+    wrong: Any, values: Any, kind: type[SeismassError], name: str, requirement: str, text: Callable[[Any], str]
+) -> None:
+    """Refuse the first of values that is wrong, written by `text`."""
+    places = np.flatnonzero(wrong).tolist()
+    if places:
+        raise refusal(kind, name, "grid", requirement, f"{text(values[places[0]])} as value {places[0] + 1}")
+
+
 def number_values(parameters: dict[str, ArrayLike | None]) -> dict[str, FloatArray]:
     """Return columns of one number per scene, by name; those that are None are left out."""
     arrays = {}
@@ -70,9 +79,7 @@ def number_values(parameters: dict[str, ArrayLike | None]) -> dict[str, FloatArr
         values = as_array(value, name, "grid", kind, or_number=True).reshape(-1)
         if not len(values):
             raise refusal(kind, name, "grid", "at least one value", "none")
-        wrong = np.flatnonzero(~is_right(values))
-        if len(wrong):
-            raise refusal(kind, name, "grid", requirement, f"{values[wrong[0]]:g} as value {wrong[0] + 1}")
+        refuse_first(~is_right(values), values, kind, name, requirement, "{:g}".format)
         arrays[name] = values
     return arrays
 
@@ -87,9 +94,7 @@ def index_values(value: Any, name: str, kind: type[SeismassError], *, expected: 
     if array.dtype.kind not in "iu" or array.ndim > 1 or not array.size or np.ma.is_masked(value):
         raise refusal(kind, name, "grid", requirement, brief(value))
     numbers = array.reshape(-1)
-    wrong = np.flatnonzero((numbers < 1) | (numbers > 2**32))
-    if len(wrong):
-        raise refusal(kind, name, "grid", requirement, f"{numbers[wrong[0]]} as value {wrong[0] + 1}")
+    refuse_first((numbers < 1) | (numbers > 2**32), numbers, kind, name, requirement, str)
     return read_only(numbers.astype(np.int64) - 1)
 
 
@@ -124,11 +129,8 @@ def strength_table(value: Any) -> FloatArray:
             table[number, : len(row)] = row
     if not table.size:
         raise refusal(InvalidScene, name, "grid", "at least one value", "none")
-    wrong = np.flatnonzero((table <= 0.0).any(axis=1) | np.isnan(table[:, 0]))
-    if len(wrong):
-        raise refusal(
-            InvalidScene, name, "grid", "positive", f"{brief(table[wrong[0]].tolist())} as value {wrong[0] + 1}"
-        )
+    wrong = (table <= 0.0).any(axis=1) | np.isnan(table[:, 0])
+    refuse_first(wrong, table, InvalidScene, name, "positive", lambda row: brief(row.tolist()))
     return frozen(table)
 
 
@@ -165,23 +167,18 @@ def share_values(
         if value is not None and mass_ratio is None:
             raise refusal(InvalidScene, name, "grid", "left out where mass_ratio is", brief(value))
     values = number_values({"attached": attached, "sliding": sliding})
-    if not of_design and values.get("attached", np.zeros(1)).max() > 1.0:
-        place = int(np.argmax(values["attached"] > 1.0))
-        got = f"{values['attached'][place]:g} as value {place + 1}"
-        raise refusal(InvalidScene, "attached", "grid", "between 0 and 1", got)
+    if not of_design and "attached" in values:
+        share = values["attached"]
+        refuse_first(share > 1.0, share, InvalidScene, "attached", "between 0 and 1", "{:g}".format)
     if occupancy is not None:
         values["occupancy"] = block_table(occupancy, "occupancy", blocks)
-        wrong = np.flatnonzero(~(values["occupancy"] >= 0.0).all(axis=1))
-        if len(wrong):
-            got = f"{brief(occupancy)} as value {wrong[0] + 1}"
-            raise refusal(InvalidScene, "occupancy", "grid", "a number of at least 0", got)
+        wrong = ~(values["occupancy"] >= 0.0).all(axis=1)
+        refuse_first(wrong, wrong, InvalidScene, "occupancy", "a number of at least 0", lambda _: brief(occupancy))
     shares = [values[name] for name in ("attached", "sliding") if name in values]
     if len(shares) == 2 and len({len(column) for column in shares} - {1}) < 2 and not of_design:
         both = shares[0] + shares[1]
-        wrong = np.flatnonzero(both > 1.0 + 1e-12)
-        if len(wrong):
-            got = f"{both[wrong[0]]:g} together as value {wrong[0] + 1}"
-            raise refusal(InvalidScene, "attached and sliding", "grid", "shares of at most 1 together", got)
+        most, name = "shares of at most 1 together", "attached and sliding"
+        refuse_first(both > 1.0 + 1e-12, both, InvalidScene, name, most, "{:g} together".format)
     return values
 
 
@@ -210,23 +207,7 @@ AXIS_OF: Final = {
     **dict.fromkeys(("building", "storeys", "period"), "building"),
 }
 """Axis of each column of a product."""
-TABLE_COLUMNS: Final = (
-    "building",
-    "storeys",
-    "period",
-    "strength",
-    "R",
-    "yield_shear_over_weight",
-    *SHAPE_FIELDS,
-    "mass_ratio",
-    "occupancy",
-    "attached",
-    "sliding",
-    "mu_s",
-    "mu_k",
-    "scale",
-    "motion",
-)
+TABLE_COLUMNS: Final = ("building", "storeys", *CHANGING, *LOADS, "mu_s", "mu_k", "scale", "motion")
 """Columns that the table of a grid may have beside `scene`, in their order."""
 _NUMBERS: Final = ("building", "storeys", "motion")
 
@@ -311,9 +292,6 @@ ATTACHED_DAMPING: Final = get_args(AttachedDamping)
 AttachedOf: TypeAlias = Literal["present", "design"]
 """Live load of which a share is attached: what is present, or what the building was designed for."""
 ATTACHED_OF: Final = get_args(AttachedOf)
-
-CHANGING: Final = ("period", "strength", "R", "yield_shear_over_weight", *SHAPE_FIELDS)
-"""Columns that change a building as it is given, beside the live load that is attached to it."""
 
 
 class Formed(NamedTuple):

@@ -14,7 +14,7 @@ from seismass import _kernel
 from seismass.base.arguments import as_word, is_one_of
 from seismass.base.errors import DoubtfulInput, InvalidOption, InvalidScene
 from seismass.base.fork_check import require_polars
-from seismass.base.values import FieldValue, FloatArray, as_count, as_number, brief, refusal
+from seismass.base.values import FieldValue, FloatArray, as_count, as_number, brief, counted, refusal
 from seismass.base.views import Card
 from seismass.model.block import Block
 from seismass.model.building import Building, chain_kernel
@@ -24,7 +24,6 @@ from seismass.runs.grid.columns import (
     ATTACHED_DAMPING,
     ATTACHED_OF,
     AXIS_OF,
-    CHANGING,
     AttachedDamping,
     AttachedOf,
     BuildingColumns,
@@ -43,11 +42,12 @@ from seismass.runs.grid.columns import (
     index_values,
     listed_buildings,
     number_values,
+    refuse_first,
     share_values,
     table_of,
     takes_grid_options,
 )
-from seismass.runs.grid.sample import SampleMethod, StrengthDesign, sampled_arguments
+from seismass.runs.grid.sample import CHANGING, SampleMethod, StrengthDesign, sampled_arguments
 
 MAX_SCENES: Final = 2**53
 """Most scenes of a grid: beyond, doubles in which numbers of scenes may be read skip some."""
@@ -467,9 +467,6 @@ class Grid(FieldValue, Card):
         return described(self.buildings, self._formed.periods, self._columns, self._indices)
 
     def __repr__(self) -> str:
-        def counted(number: int, noun: str) -> str:
-            return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
-
         names = [name for name in self._columns if name != "mu_k"]
         columns = f", columns {', '.join(names)}" if names else ""
         parts = f"{counted(len(self.buildings), 'building')}, {counted(len(self.floors), 'block')} each"
@@ -578,19 +575,14 @@ class Grid(FieldValue, Card):
         if "motion" not in self._indices:
             return
         index = self._indices["motion"].values
-        wrong = np.flatnonzero(index >= motions)
-        if len(wrong):
-            limits = f"the number of a motion, counted from 1 to {motions}"
-            raise refusal(InvalidOption, "motion", "grid", limits, f"{index[wrong[0]] + 1} as value {wrong[0] + 1}")
+        limits = f"the number of a motion, counted from 1 to {motions}"
+        refuse_first(index >= motions, index + 1, InvalidOption, "motion", limits, str)
 
     def _check(self, numbers: range) -> None:
         """Let the kernel judge scenes by their numbers."""
-        index = self._indices["building"]
-        wrong = np.flatnonzero(index.values >= len(self.buildings))
-        if len(wrong):
-            limits = f"the number of a building, counted from 1 to {len(self.buildings)}"
-            got = f"{index.values[wrong[0]] + 1} as value {wrong[0] + 1}"
-            raise refusal(InvalidScene, "building_index", "grid", limits, got)
+        index, count = self._indices["building"].values, len(self.buildings)
+        limits = f"the number of a building, counted from 1 to {count}"
+        refuse_first(index >= count, index + 1, InvalidScene, "building_index", limits, str)
         for first in range(0, len(numbers), _CHECKED_AT_ONCE):
             scenes = np.array(numbers[first : first + _CHECKED_AT_ONCE])
             self._kernel_columns(scenes).check(scenes + 1)

@@ -28,22 +28,11 @@ OF_GOODS: Final = (*PER_BLOCK, "attached", "sliding", "mu_k_over_mu_s")
 MOST_SAMPLES: Final = 2**26
 """Most samples, each with a value per axis in memory: half a gigabyte an axis."""
 
-SAMPLED: Final = (
-    "storeys",
-    "period",
-    "strength",
-    "R",
-    "yield_shear_over_weight",
-    *SHAPE_FIELDS,
-    "mass_ratio",
-    "occupancy",
-    "attached",
-    "sliding",
-    "mu",
-    "mu_s",
-    "mu_k",
-    "scale",
-)
+CHANGING: Final = ("period", "strength", "R", "yield_shear_over_weight", *SHAPE_FIELDS)
+"""Columns that change a building as it is given, beside the live load that is attached to it."""
+LOADS: Final = ("mass_ratio", "occupancy", "attached", "sliding")
+"""Columns of the live load, and of its shares."""
+SAMPLED: Final = ("storeys", *CHANGING, *LOADS, "mu", "mu_s", "mu_k", "scale")
 """Arguments of a grid that a sample may draw, beside its buildings and motions."""
 _SMALLEST: Final = 2.0**-53
 """Distance of coordinates from 0 and 1, where distributions without bounds are infinite."""

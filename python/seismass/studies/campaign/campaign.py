@@ -20,6 +20,7 @@ from seismass.base.stored_results import inputs_digest
 from seismass.base.values import FieldValue, as_count, as_flag, as_list, as_name, as_number, brief, printable, refusal
 from seismass.motions.motion import Motion, MotionLike
 from seismass.runs.batch import checked_motions, stream_many
+from seismass.runs.batch_tables import PER_BLOCK, PER_STOREY
 from seismass.runs.grid.content import axes_table, grid_document
 from seismass.runs.grid.grid import Grid
 from seismass.runs.quantities import unit_of
@@ -29,9 +30,8 @@ KEYS: Final = ("scene", "motion", "status")
 
 _COLUMNS: Final = (
     *KEYS,
-    *("reason", "end_time", "collapsed_storey", "peak_drift", "peak_drift_time", "peak_drift_ratio", "residual_drift"),
-    *("peak_floor_acceleration", "peak_storey_shear", "peak_base_shear"),
-    *("peak_slip", "peak_slip_time", "residual_slip", "slip_path", "events", "yields", "slips"),
+    *("reason", "end_time", "collapsed_storey", *PER_STOREY, "peak_base_shear"),
+    *(*PER_BLOCK, "events", "yields", "slips"),
 )
 UNITS: Final[Mapping[str, str]] = MappingProxyType({name: unit_of(name) for name in _COLUMNS})
 """Unit of each column that a part may have; empty for what has none. Lists are per storey or per block."""
@@ -104,31 +104,22 @@ def named_motions(items: list[Any], motions: list[Motion], names: list[str]) -> 
 
 def motions_table(motions: tuple[NamedMotion, ...]) -> pl.DataFrame:
     """Return one row per motion: number, name, origin, time step, peak, digest, samples (m/s2)."""
+    samples = pl.List(pl.Float64)
     return pl.DataFrame(
         {
-            "motion": np.arange(1, len(motions) + 1, dtype=np.uint32),
-            "record": [item.name for item in motions],
-            "file": [item.file for item in motions],
-            "synthetic": [item.synthetic for item in motions],
-            "samples": [item.motion.samples for item in motions],
-            "dt": [item.motion.dt for item in motions],
-            "pga_g": [item.motion.pga_g for item in motions],
-            "sha256": [item.sha256 for item in motions],
-            "acceleration": [item.motion.acceleration.tolist() for item in motions],
-            "vertical": [None if item.motion.vertical is None else item.motion.vertical.tolist() for item in motions],
-        },
-        schema={
-            "motion": pl.UInt32,
-            "record": pl.String,
-            "file": pl.String,
-            "synthetic": pl.Boolean,
-            "samples": pl.UInt32,
-            "dt": pl.Float64,
-            "pga_g": pl.Float64,
-            "sha256": pl.String,
-            "acceleration": pl.List(pl.Float64),
-            "vertical": pl.List(pl.Float64),
-        },
+            "motion": pl.Series(range(1, len(motions) + 1), dtype=pl.UInt32),
+            "record": pl.Series([item.name for item in motions], dtype=pl.String),
+            "file": pl.Series([item.file for item in motions], dtype=pl.String),
+            "synthetic": pl.Series([item.synthetic for item in motions], dtype=pl.Boolean),
+            "samples": pl.Series([item.motion.samples for item in motions], dtype=pl.UInt32),
+            "dt": pl.Series([item.motion.dt for item in motions], dtype=pl.Float64),
+            "pga_g": pl.Series([item.motion.pga_g for item in motions], dtype=pl.Float64),
+            "sha256": pl.Series([item.sha256 for item in motions], dtype=pl.String),
+            "acceleration": pl.Series([item.motion.acceleration.tolist() for item in motions], dtype=samples),
+            "vertical": pl.Series(
+                [None if (up := item.motion.vertical) is None else up.tolist() for item in motions], dtype=samples
+            ),
+        }
     )
 
 

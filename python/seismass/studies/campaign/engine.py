@@ -9,7 +9,7 @@ import os
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ThreadPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
 from dataclasses import dataclass
 from itertools import islice
@@ -365,8 +365,6 @@ def _by_executor(
             clock.report()
     except (SeismassError, OSError):
         raise
-    except BrokenExecutor as error:
-        raise _lost(folder, error) from error
     except Exception as error:
         raise _lost(folder, error) from error
     finally:
@@ -403,7 +401,8 @@ def prepare(campaign: CampaignRuns, folder: Path) -> None:
     write_inputs(campaign, folder)
     _make_parts(folder)
     for path in (folder, folder / PARTS):
-        _check_writable(path)
+        if not os.access(path, os.W_OK | os.X_OK):  # the system's error comes before anything is solved
+            raise PermissionError(13, os.strerror(13), str(path))
         with Directory(path) as place:
             remove_left_behind(place)
 
@@ -435,12 +434,6 @@ def _make_parts(folder: Path) -> None:
         got = f"{parts}, {'a link' if parts.is_symlink() else 'a file'}"
         raise refusal(InvalidOption, PARTS, "campaign", "a folder", got)
     parts.mkdir(exist_ok=True)
-
-
-def _check_writable(folder: Path) -> None:
-    """Raise the system's error before anything is solved."""
-    if not os.access(folder, os.W_OK | os.X_OK):
-        raise PermissionError(13, os.strerror(13), str(folder))
 
 
 SAMPLE: Final = 256

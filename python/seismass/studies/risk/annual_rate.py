@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field
-from typing import Any, Final, Protocol, runtime_checkable
+from typing import Any, Final, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 import polars as pl
@@ -42,8 +42,7 @@ class Lognormal(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class RateParts:
+class RateParts(NamedTuple):
     """Parts of annual rates, arrays of one shape: within the hazard curve, and beyond its ends with the slopes of the
     end segments. `above_least` is the probability at the last point times its rate; the most is that rate.
     """
@@ -96,11 +95,7 @@ def lognormal_rates(median: ArrayLike, dispersion: ArrayLike, hazard: HazardCurv
         certain = _step_parts(np.exp(log_median), hazard)
         inner, below, above, above_least = (
             np.where(steps, other, value)
-            for other, value in zip(
-                (certain.within, certain.below, certain.above, certain.above_least),
-                (inner, below, above, above_least),
-                strict=True,
-            )
+            for other, value in zip(certain, (inner, below, above, above_least), strict=True)
         )
     return RateParts(np.maximum(inner, 0.0), np.maximum(below, 0.0), above, above_least)
 
@@ -110,7 +105,7 @@ def capacity_rates(capacities: ArrayLike, hazard: HazardCurve) -> RateParts:
     mean over the motions of rate(capacity).
     """
     parts = _step_parts(np.asarray(capacities, dtype=np.float64), hazard)
-    return RateParts(*(value.mean(axis=-1) for value in (parts.within, parts.below, parts.above, parts.above_least)))
+    return RateParts(*(value.mean(axis=-1) for value in parts))
 
 
 def stripe_weights(levels: ArrayLike, hazard: HazardCurve) -> FloatArray:
@@ -375,7 +370,7 @@ def annual_rate(fragility: Lognormal | ArrayLike, hazard: HazardCurve, *, extrap
             raise refusal(InvalidOption, "fragility", OWNER, requirement, brief(fragility))
         parts = capacity_rates(capacities, curve)
         pieces = [float(capacity_rates(capacities, one).within) for one in _segments(curve)]
-    inner, below, above, least = (float(x) for x in (parts.within, parts.below, parts.above, parts.above_least))
+    inner, below, above, least = (float(part) for part in parts)
     rates = np.array(pieces)
     is_extrapolated = as_flag(extrapolate, "extrapolate", OWNER, InvalidOption)
     value = float(parts.total(is_extrapolated))

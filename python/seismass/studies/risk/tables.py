@@ -11,7 +11,7 @@ import polars as pl
 
 from seismass.base.arguments import as_word
 from seismass.base.errors import InvalidOption
-from seismass.base.statistics import interval_of
+from seismass.base.statistics import bootstrap_counts, interval_of
 from seismass.base.values import FloatArray, counted, refusal
 from seismass.effective_mass.models import ModelDamping, attached
 from seismass.effective_mass.search import without_friction
@@ -50,7 +50,7 @@ def rate_parts(capacities: FloatArray, hazard: HazardCurve, estimator: Estimator
         return lognormal_rates(*fitted(capacities, weights), hazard)
     single = capacity_rates(capacities[:, :, None], hazard)  # of each model and motion alone
     share = weights / weights.sum(axis=1, keepdims=True)
-    return RateParts(*(share @ part.T for part in (single.within, single.below, single.above, single.above_least)))
+    return RateParts(*(share @ part.T for part in single))
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,23 +64,6 @@ class RateCurve:
     model: FloatArray
     sliding_draws: FloatArray
     model_draws: FloatArray
-
-    @classmethod
-    def of(
-        cls,
-        shares: FloatArray,
-        sliding: FloatArray,
-        model: FloatArray,
-        hazard: HazardCurve,
-        estimator: Estimator,
-        extrapolate: bool,
-        weights: FloatArray,
-    ) -> RateCurve:
-        """Return the rates for capacities of the real building, shape (motions,), and of models, (shares, motions)."""
-        both = np.concatenate([sliding[None], model])
-        whole = rate_parts(both, hazard, estimator, np.ones((1, len(sliding)))).total(extrapolate)[0]
-        drawn = rate_parts(both, hazard, estimator, weights).total(extrapolate)
-        return cls(shares, float(whole[0]), whole[1:], drawn[:, 0], drawn[:, 1:])
 
     @property
     def kind(self) -> Kind:
@@ -161,10 +144,7 @@ class RiskSearch:
     @cached_property
     def weights(self) -> FloatArray:
         """How often each motion is in each resample, those of one earthquake together, shape (resamples, motions)."""
-        count = self.setting.motions.clusters
-        equal = np.full(count, 1.0 / count)
-        draws = np.random.default_rng(self.options.seed).multinomial(count, equal, size=self.options.resamples)
-        return draws[:, self.setting.motions.cluster_of].astype(np.float64)
+        return bootstrap_counts(self.setting.motions.cluster_of, self.options.resamples, self.options.seed)
 
     @cached_property
     def rates(self) -> RateCurve:
@@ -175,15 +155,13 @@ class RiskSearch:
         self, capacities: FloatArray, hazard: HazardCurve | None = None, estimator: Estimator | None = None
     ) -> RateCurve:
         """Return rates by share for capacities, and where given for another hazard curve or estimator."""
-        return RateCurve.of(
-            self.grid,
-            capacities[0],
-            capacities[1:],
-            hazard or self.hazard,
-            estimator or self.options.estimator,
-            self.options.extrapolate,
-            self.weights,
+        whole, drawn = (
+            rate_parts(capacities, hazard or self.hazard, estimator or self.options.estimator, weights).total(
+                self.options.extrapolate
+            )
+            for weights in (np.ones((1, capacities.shape[1])), self.weights)
         )
+        return RateCurve(self.grid, float(whole[0, 0]), whole[0, 1:], drawn[:, 0], drawn[:, 1:])
 
     def answer(self) -> FoundShare:
         """Return the share, its roots refined on the exact models; every motion must bring each model to the limit."""
@@ -235,52 +213,55 @@ SLOPE_FACTORS: Final = (0.75, 1.25)
 def rate_table(search: RiskSearch, several: bool) -> pl.DataFrame:
     """Return one row per model with its annual rate; see `RiskTargetedShare.rates`."""
     rates, options = search.rates, search.options
-    rows = []
     models = (
         ("real", None, rates.sliding, rates.sliding_draws),
         ("code", options.code_share, *rates.at(options.code_share)),
         ("attached", 1.0, *rates.at(1.0)),
         ("none", 0.0, *rates.at(0.0)),
     )
-    for name, share, rate, draws in models:
-        low, high = interval(draws, options.confidence) if several else (None, None)
-        ratio = _ratio(rates.sliding_draws, draws, options.confidence) if several else (None, None)
-        rows.append(
-            {
-                "model": name,
-                "share": share,
-                "rate": rate,
-                "rate_low": low,
-                "rate_high": high,
-                "probability_50_years": float(-np.expm1(-50.0 * rate)),
-                "real_over_model": rates.sliding / rate if rate > 0.0 else None,
-                "real_over_model_low": ratio[0],
-                "real_over_model_high": ratio[1],
-            }
-        )
+    rows = [
+        {
+            "model": name,
+            "share": share,
+            **_interval("rate", rate, draws, options.confidence, several),
+            "probability_50_years": float(-np.expm1(-50.0 * rate)),
+            **_over_model(rates, rate, draws, options.confidence, several),
+        }
+        for name, share, rate, draws in models
+    ]
     return pl.DataFrame(rows, schema_overrides=dict.fromkeys(("share", *_ENDS), pl.Float64))
 
 
 _ENDS: Final = ("rate_low", "rate_high", "real_over_model", "real_over_model_low", "real_over_model_high")
 
 
+def _interval(
+    name: str, value: float | None, draws: FloatArray | None, confidence: float, several: bool
+) -> dict[str, float | None]:
+    """A value by its name, with the ends of its interval; None without draws or with one earthquake alone."""
+    low, high = interval(draws, confidence) if several and draws is not None else (None, None)
+    return {name: value, f"{name}_low": low, f"{name}_high": high}
+
+
+def _over_model(
+    rates: RateCurve, rate: float, draws: FloatArray, confidence: float, several: bool
+) -> dict[str, float | None]:
+    """The rate of the real building over that of a model, in the same resamples; None where one is zero."""
+    ratios = rates.sliding_draws / draws if (draws > 0.0).all() else None
+    return _interval("real_over_model", rates.sliding / rate if rate > 0.0 else None, ratios, confidence, several)
+
+
 def curve_table(rates: RateCurve, confidence: float, several: bool) -> pl.DataFrame:
     """Return one row per share of the grid; see `RiskTargetedShare.curve`."""
     rows = []
-    for index, share in enumerate(rates.shares.tolist()):
-        rate, draws = float(rates.model[index]), rates.model_draws[:, index]
-        low, high = interval(draws, confidence) if several else (None, None)
-        ratio = _ratio(rates.sliding_draws, draws, confidence) if several else (None, None)
+    for share in rates.shares.tolist():
+        rate, draws = rates.at(share)
         rows.append(
             {
                 "fraction": share,
-                "rate": rate,
-                "rate_low": low,
-                "rate_high": high,
+                **_interval("rate", rate, draws, confidence, several),
                 "real_rate": rates.sliding,
-                "real_over_model": rates.sliding / rate if rate > 0.0 else None,
-                "real_over_model_low": ratio[0],
-                "real_over_model_high": ratio[1],
+                **_over_model(rates, rate, draws, confidence, several),
             }
         )
     return pl.DataFrame(rows, schema_overrides=dict.fromkeys(_ENDS, pl.Float64))
@@ -390,10 +371,3 @@ def risk_remarks(search: RiskSearch, answer: FoundShare, reason: str) -> tuple[s
     if reason:
         remarks.append(reason)
     return tuple(remarks)
-
-
-def _ratio(sliding: FloatArray, model: FloatArray, confidence: float) -> tuple[Any, Any]:
-    """Interval of the rate of the real building over that of a model, in the same resamples; None where one is zero."""
-    if not (model > 0.0).all():
-        return None, None
-    return interval(sliding / model, confidence)

@@ -160,17 +160,18 @@ class PlaneSlip:
         return cls(*(np.array([getattr(each, field.name) for each in solved]) for field in fields(cls)))
 
 
-def _peaks_at_nodes(response: PlaneResponse, ground: float) -> FloatArray:
-    """Peak length of the acceleration of the ground, the floors and the rack levels (m/s2)."""
+def _peaks_at_nodes(response: Response | PlaneResponse, ground: float) -> FloatArray:
+    """Peak acceleration, or its length, of the ground, the floors and the rack levels (m/s2)."""
+    if isinstance(response, Response):
+        return at_nodes(response, "peak_floor_acceleration", "peak_rack_acceleration", ground)
     of_floors, of_levels = (response.peak_floor_acceleration, response.peak_rack_acceleration)
     return np.concatenate([[ground], of_floors[:, VECTOR], of_levels[:, VECTOR]])
 
 
-def _without_goods(scene: Scene | None, motions: PlaneMotion, nodes: NDArray[np.int64], ground: float) -> FloatArray:
+def _peaks(response: Response | PlaneResponse | None, nodes: NDArray[np.int64], ground: float) -> FloatArray:
     """Peak acceleration under each block in a model without sliding goods; NaN after a collapse."""
-    if scene is None:
+    if response is None:
         return np.full(len(nodes), ground)
-    response = simulate(scene, motions, events=False)
     if response.status == "collapsed":
         return np.where(nodes > 0, np.nan, ground)
     return _peaks_at_nodes(response, ground)[nodes]
@@ -278,7 +279,8 @@ def solve_motion(models: SlipModels, motion: Motion, other: Motion | None = None
     sliding = simulate(scene, motion, histories=True, events=False)
     ground = simulate(models.ground, motion, events=False)
     ground_velocity, _ = integrals(motion.acceleration, motion.dt)
-    base = _ground_base(motion, ground_velocity)
+    velocity = float(peak_velocity(motion.acceleration, motion.dt, ground_velocity))
+    base = Base(motion, motion.pga, velocity, _peak_vertical(motion))
     standing = histories_at_nodes(sliding, "floor_velocity", "rack_velocity", 0.0 * ground_velocity)
     rate = sliding.block_velocity - standing[:, nodes]
     plus, minus = signed_peaks(sliding.slip, rate, motion.dt, sliding.peak_slip)
@@ -290,7 +292,7 @@ def solve_motion(models: SlipModels, motion: Motion, other: Motion | None = None
     ]
     if alone is not None and alone.status == "completed":
         rows += _floor_estimates(scene, alone, motion, ground_velocity)
-    accelerations = at_nodes(sliding, "peak_floor_acceleration", "peak_rack_acceleration", base.acceleration)
+    accelerations = _peaks_at_nodes(sliding, base.acceleration)
     velocities = np.nanmax(np.abs(standing + ground_velocity[:, None]), axis=0)
     velocities[0] = base.velocity
     return SlipRuns(
@@ -333,6 +335,9 @@ def _solve_pair(models: SlipModels, motions: PlaneMotion) -> SlipRuns:
     each_alone = [
         simulate(one, motion, events=False).peak_slip for one, motion in zip(scene._directions(), motions, strict=True)
     ]
+    alone, full = (
+        None if model is None else simulate(model, motions, events=False) for model in (models.alone, models.full)
+    )
     ground_peak = float(np.hypot(x.acceleration, y.acceleration).max())
     accelerations = _peaks_at_nodes(sliding, ground_peak)
     speeds = np.nanmax(np.hypot(*np.moveaxis(standing + ground_velocity[:, None, :], -1, 0)), axis=0)
@@ -358,29 +363,14 @@ def _solve_pair(models: SlipModels, motions: PlaneMotion) -> SlipRuns:
         acceleration=accelerations[nodes],
         velocity=speeds[nodes],
         demand=_demands_plane_runs(sliding, motions, accelerations)[nodes],
-        alone_acceleration=_without_goods(models.alone, motions, nodes, ground_peak),
-        full_acceleration=_without_goods(models.full, motions, nodes, ground_peak),
+        alone_acceleration=_peaks(alone, nodes, ground_peak),
+        full_acceleration=_peaks(full, nodes, ground_peak),
         plane=slip,
-    )
-
-
-def _ground_base(motion: Motion, velocity: FloatArray) -> Base:
-    return Base(
-        motion, motion.pga, float(peak_velocity(motion.acceleration, motion.dt, velocity)), _peak_vertical(motion)
     )
 
 
 def _peak_vertical(motion: Motion) -> float:
     return 0.0 if motion.vertical is None else float(np.abs(motion.vertical).max())
-
-
-def _peaks(response: Response | None, nodes: NDArray[np.int64], ground: float) -> FloatArray:
-    """Peak acceleration under each block in a model without sliding goods; NaN after a collapse."""
-    if response is None:
-        return np.full(len(nodes), ground)
-    if response.status == "collapsed":
-        return np.where(nodes > 0, np.nan, ground)
-    return at_nodes(response, "peak_floor_acceleration", "peak_rack_acceleration", ground)[nodes]
 
 
 def _demands(response: Response, motion: Motion, peaks: FloatArray) -> FloatArray:
@@ -397,7 +387,7 @@ def _floor_estimates(scene: Scene, alone: Response, motion: Motion, ground_veloc
     """Estimates of the motion under goods in the building alone, and the exact slip of each block on it."""
     rows = []
     bases: dict[int, Base] = {}
-    peaks = at_nodes(alone, "peak_floor_acceleration", "peak_rack_acceleration", motion.pga)
+    peaks = _peaks_at_nodes(alone, motion.pga)
     accelerations = histories_at_nodes(alone, "floor_acceleration", "rack_acceleration", motion.acceleration)
     velocities = histories_at_nodes(alone, "floor_velocity", "rack_velocity", 0.0 * ground_velocity)
     for number, (block, place) in enumerate(zip(scene.goods, places_of(scene), strict=True)):

@@ -35,11 +35,6 @@ def block_table(
         pooled, low, high = _pooled_ratio(slips, ground, weights, confidence)
         ratios = amplification(slips, ground)
         both = ratios[np.isfinite(ratios)]
-        accelerations = {
-            "floor_acceleration_g": runs.acceleration[:, number],
-            "alone_acceleration_g": runs.alone_acceleration[:, number],
-            "attached_acceleration_g": runs.full_acceleration[:, number],
-        }
         rows.append(
             {
                 "block": number + 1,
@@ -63,14 +58,23 @@ def block_table(
                 "amplification_high": high,
                 **{f"amplification_{name}": value for name, value in _quantiles(both).items()},
                 "slides_on_floor_only": int(((slips > 0.0) & (ground == 0.0)).sum()),
-                **{name: _mean(values) / STANDARD_GRAVITY for name, values in accelerations.items()},
-                "mu_over_attached": _mean(block.mu_s * STANDARD_GRAVITY / accelerations["attached_acceleration_g"]),
+                **{name: _mean(each[:, number]) / STANDARD_GRAVITY for name, each in _accelerations(runs).items()},
+                "mu_over_attached": _mean(block.mu_s * STANDARD_GRAVITY / runs.full_acceleration[:, number]),
                 **_contact(scene, runs, number),
                 **_in_plane(runs, number),
             }
         )
     kinds = dict.fromkeys(("block", "slides_on_floor_only", *place_names(scene)), pl.UInt32)
     return _frame(rows, kinds)
+
+
+def _accelerations(runs: SlipRuns) -> dict[str, FloatArray]:
+    """Peak accelerations under the blocks (m/s2), by the columns that have them in g."""
+    return {
+        "floor_acceleration_g": runs.acceleration,
+        "alone_acceleration_g": runs.alone_acceleration,
+        "attached_acceleration_g": runs.full_acceleration,
+    }
 
 
 def has_stops(scene: Scene) -> bool:
@@ -100,23 +104,15 @@ def _in_plane(runs: SlipRuns, number: int) -> dict[str, float]:
     lost = runs.collapsed[:, None]
     valid = ~runs.collapsed
     pooled = float(alone[valid].sum())
-    by_axis = {
-        f"{axis}_{name}": value
-        for index, axis in enumerate("xy")
-        for name, value in zip(
-            ("mean", "largest"), _mean_and_largest(np.where(lost, np.inf, peaks)[:, index]), strict=True
-        )
-    }
+    by_axis: dict[str, float] = {}
+    for axis, values in zip("xy", np.where(lost, np.inf, peaks).T, strict=True):
+        by_axis |= {f"{axis}_mean": _mean(values), f"{axis}_largest": float(values.max())}
     return {
         **by_axis,
         "one_direction_mean": _mean(alone[valid].ravel()),
         "over_one_direction": float(peaks[valid].sum()) / pooled if pooled > 0.0 else np.nan,
         "length_over_one_direction": 2.0 * float(runs.peak[valid, number].sum()) / pooled if pooled > 0.0 else np.nan,
     }
-
-
-def _mean_and_largest(values: FloatArray) -> tuple[float, float]:
-    return _mean(values), float(values.max())
 
 
 def amplification(floor: FloatArray, ground: FloatArray) -> FloatArray:
@@ -135,11 +131,6 @@ def run_table(scene: Scene, motions: NamedMotions, runs: SlipRuns, sizes: tuple[
     )
     rocks = (sliding > uplift) & (runs.demand > uplift)
     reached = rocks & (runs.velocity > velocity)
-    accelerations = {
-        "floor_acceleration_g": runs.acceleration,
-        "alone_acceleration_g": runs.alone_acceleration,
-        "attached_acceleration_g": runs.full_acceleration,
-    }
     columns: dict[str, Any] = {
         "motion": np.repeat(np.arange(1, count + 1, dtype=np.uint32), blocks),
         "record": [name for name in motions.names for _ in range(blocks)],
@@ -157,7 +148,7 @@ def run_table(scene: Scene, motions: NamedMotions, runs: SlipRuns, sizes: tuple[
         "ground_residual": runs.ground_residual.ravel(),
         "amplification": pl.Series(amplification(runs.peak, runs.ground_peak).ravel(), nan_to_null=True),
     }
-    for name, values in accelerations.items():
+    for name, values in _accelerations(runs).items():
         columns[name] = pl.Series(values.ravel() / STANDARD_GRAVITY, nan_to_null=True)
     mu_over_attached = sliding * STANDARD_GRAVITY / runs.full_acceleration
     columns["mu_over_attached"] = pl.Series(mu_over_attached.ravel(), nan_to_null=True)

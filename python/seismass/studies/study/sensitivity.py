@@ -22,7 +22,7 @@ from seismass.motions.records import Suite
 from seismass.motions.spectra import TargetSpectrum
 from seismass.studies.study.parameters import MODELS, DampingBase, StudyParameters
 from seismass.studies.study.run import StudyResult, checked_study, run_study
-from seismass.studies.study.tables import TABLES, Drifts, collapsed_of, drifts_of
+from seismass.studies.study.tables import TABLES, Drifts, collapsed_of, drifts_of, geometric_mean
 
 AS_IS: Final = "as it is"
 """The first choice: the study with its own parameters."""
@@ -145,7 +145,7 @@ def study_sensitivity(
                 keys, mixed = keys.with_columns(of_own["collapses_code"]), {**loaded, "code": alone["code"]}
                 rows += _rows(DAMPING_BASE, "loaded, of the code model its own", keys, mixed, np.mean)
     rows += _rows("statistic", "median", summary, base_drifts, np.median)
-    rows += _rows("statistic", "geometric mean", summary, base_drifts, _geometric_mean)
+    rows += _rows("statistic", "geometric mean", summary, base_drifts, geometric_mean)
     for left_out in _heaviest(as_is):
         name = as_is.metadata["suite"]["motions"][left_out]["record"]
         others: Drifts = {model: np.delete(values, left_out, axis=1) for model, values in base_drifts.items()}
@@ -244,11 +244,6 @@ def _heaviest(result: StudyResult) -> list[int]:
         ["occupancy", "mu"], keep="first", maintain_order=True
     )
     return [int(number) - 1 for number in rows["leave_one_out_motion"].unique(maintain_order=True)]
-
-
-def _geometric_mean(values: Any, axis: int) -> Any:
-    with np.errstate(divide="ignore"):
-        return np.exp(np.log(values).mean(axis=axis))
 
 
 def _rows(

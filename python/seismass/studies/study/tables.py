@@ -18,11 +18,13 @@ from seismass.base.stored_results import NOTHING_STORED, StoredResults
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.base.values import FloatArray
 from seismass.effective_mass import effective_mass
+from seismass.effective_mass.models import building_of
 from seismass.effective_mass.rule import by_hand
-from seismass.media.result import stored_tables, table_schema
+from seismass.media.result import finite_values, stored_tables, table_schema
 from seismass.model.scene import Scene
 from seismass.motions.records import Record
 from seismass.motions.spectra import TargetSpectrum
+from seismass.runs.batch_tables import PER_BLOCK, PER_STOREY
 from seismass.studies.study.parameters import KEYS, MODELS, Model, StudyBuilding, StudyParameters
 
 TABLES: Final = {
@@ -34,17 +36,7 @@ TABLES: Final = {
 Drifts: TypeAlias = dict[Model, FloatArray]
 """Capped peak drifts (m) by model, shape (rows, motions), until a collapse; NaN where a run failed."""
 
-_PER_STOREY: Final = (
-    "peak_drift",
-    "peak_drift_time",
-    "peak_drift_ratio",
-    "residual_drift",
-    "peak_floor_acceleration",
-    "peak_storey_shear",
-    "peak_slip",
-    "residual_slip",
-    "slip_path",
-)
+_PER_STOREY: Final = tuple(name for name in (*PER_STOREY, *PER_BLOCK) if name != "peak_slip_time")
 """Columns of a batch that are lists per storey, or per block."""
 
 
@@ -92,9 +84,7 @@ def responses_table(
     return (
         frame.with_columns(pl.int_ranges(1, pl.col("storeys") + 1).alias("storey"))
         .explode("storey")
-        .with_columns(
-            *(per_storey(name) for name in _PER_STOREY),
-        )
+        .with_columns(per_storey(name) for name in _PER_STOREY)
         .with_columns(
             (pl.col("peak_storey_shear") / (STANDARD_GRAVITY * pl.col("storeys"))).alias("peak_shear_over_weight"),
         )
@@ -140,7 +130,7 @@ def summary_table(
         means = values.mean(axis=1)
         columns |= {
             f"mean_peak_drift_{model}": means,
-            f"geometric_mean_peak_drift_{model}": _geometric_mean(values),
+            f"geometric_mean_peak_drift_{model}": geometric_mean(values),
             **{f"{name}_peak_drift_{model}": quantile(values, share) for name, share in QUANTILES.items()},
             f"mean_peak_drift_ratio_{model}": means / parameters.height,
             f"collapses_{model}": fallen[model].sum(axis=1),
@@ -168,12 +158,13 @@ def _comparison(drifts: Drifts, names: list[str]) -> dict[str, Any]:
             "ratio_mass": means["attached"] / means["code"],
             "ratio_sliding": means["real"] / means["attached"],
             "underestimation_percent": 100.0 * (ratio - 1.0),
-            "geometric_mean_underestimation_percent": 100.0 * (_geometric_mean(sliding) / _geometric_mean(code) - 1.0),
+            "geometric_mean_underestimation_percent": 100.0 * (geometric_mean(sliding) / geometric_mean(code) - 1.0),
             "median_underestimation_percent": quantile(each, 0.5),
             "p16_underestimation_percent": quantile(each, 0.16),
             "p84_underestimation_percent": quantile(each, 0.84),
         }
-        left_out = 100.0 * ((_sum(sliding) - sliding) / (_sum(code) - code) - 1.0)
+        others = {model: values.sum(axis=1, keepdims=True) - values for model, values in drifts.items()}
+        left_out = 100.0 * (others["real"] / others["code"] - 1.0)
     change = np.abs(left_out - columns["underestimation_percent"][:, None])
     known = np.isfinite(change).all(axis=1) & (len(names) > 1)
     most = np.argmax(np.where(known[:, None], change, 0.0), axis=1)
@@ -185,14 +176,10 @@ def _comparison(drifts: Drifts, names: list[str]) -> dict[str, Any]:
     return columns
 
 
-def _sum(values: FloatArray) -> FloatArray:
-    total: FloatArray = values.sum(axis=1, keepdims=True)
-    return total
-
-
-def _geometric_mean(values: FloatArray) -> FloatArray:
+def geometric_mean(values: FloatArray, axis: int = 1) -> FloatArray:
+    """Return the geometric mean over an axis; 0 where a value is."""
     with np.errstate(divide="ignore"):
-        return np.asarray(np.exp(np.log(values).mean(axis=1)))
+        return np.asarray(np.exp(np.log(values).mean(axis=axis)))
 
 
 def designs_table(buildings: list[StudyBuilding], parameters: StudyParameters) -> pl.DataFrame:
@@ -200,24 +187,22 @@ def designs_table(buildings: list[StudyBuilding], parameters: StudyParameters) -
     storeys = np.array([building.labels["storeys"] for building in buildings])
     weight = np.repeat(STANDARD_GRAVITY * storeys, storeys)
 
-    def stacked(values: list[FloatArray]) -> FloatArray:
-        return np.concatenate(values)
-
     code = [building.scenes["code"] for building in buildings]
     sliding = [building.scenes["real"] for building in buildings]
-    strength = stacked([building.yield_shear for building in buildings]) / weight
+    strength = np.concatenate([building.yield_shear for building in buildings]) / weight
     columns: dict[str, Any] = {
         **key_columns(buildings, storeys),
-        "storey": stacked([np.arange(1, count + 1) for count in storeys]),
-        "design_mass_ratio": stacked([building.design_mass for building in buildings]),
-        "analysis_mass_ratio": stacked([scene.building.mass for scene in code if scene.building is not None]),
+        "storey": np.concatenate([np.arange(1, count + 1) for count in storeys]),
+        "design_mass_ratio": np.concatenate([building.design_mass for building in buildings]),
+        "analysis_mass_ratio": np.concatenate([building_of(scene).mass for scene in code]),
         "height": np.full(storeys.sum(), parameters.height),
-        "geometric_stiffness_ratio": stacked(
-            [scene.geometric_stiffness / scene.building.stiffness for scene in sliding if scene.building is not None]
+        "geometric_stiffness_ratio": np.concatenate(
+            [scene.geometric_stiffness / building_of(scene).stiffness for scene in sliding]
         ),
-        "design_period": stacked([building.analysis.modes.periods for building in buildings]),
-        "spectral_acceleration": stacked([building.analysis.ordinates for building in buildings]),
-        "elastic_shear_over_weight": stacked([building.analysis.storey_shear for building in buildings]) / weight,
+        "design_period": np.concatenate([building.analysis.modes.periods for building in buildings]),
+        "spectral_acceleration": np.concatenate([building.analysis.ordinates for building in buildings]),
+        "elastic_shear_over_weight": np.concatenate([building.analysis.storey_shear for building in buildings])
+        / weight,
         "yield_shear_over_weight": np.where(np.isfinite(strength), strength, np.nan),
     }
     return typed(columns, "designs")
@@ -251,7 +236,8 @@ def fractions_table(
     runs = run_of.reshape(len(buildings), len(MODELS), -1)[:, MODELS.index("attached")]
     completed = (table["status"] != "failed").to_numpy()[runs].all(axis=1)
     shear = table["peak_base_shear"].to_numpy()[runs].mean(axis=1)
-    weight = STANDARD_GRAVITY * np.array([_attached_mass(building.scenes["attached"]) for building in buildings])
+    mass = [building_of(building.scenes["attached"]).mass.sum() for building in buildings]
+    weight = STANDARD_GRAVITY * np.array(mass)
     coefficient = np.where(completed, shear / weight, np.nan)
     mu = np.array([building.labels["mu"] for building in buildings])
     with np.errstate(divide="ignore"):
@@ -273,10 +259,6 @@ def fractions_table(
         "excess": [None if one is None or one.kind != "one" else one.excess for one in fractions],
     }
     return typed(columns, "fractions")
-
-
-def _attached_mass(scene: Scene) -> float:
-    return 0.0 if scene.building is None else float(scene.building.mass.sum())
 
 
 def effective_fractions(
@@ -348,7 +330,9 @@ def findings(summary: pl.DataFrame, fractions: pl.DataFrame, code: str = "code")
         place = [*_PLACE, "mass_percent", "sliding_percent"]
         first = rows.filter(pl.col("storey") == 1)
         compared = ("underestimation_percent", "mass_percent", "sliding_percent", *keys[1:])
-        means = first.group_by("R", "alpha").agg(_mean_of_all(name) for name in compared).sort("R", "alpha")
+        # Null where one building has no number, so that no mean is of fewer buildings.
+        of_all = (pl.when(pl.col(name).null_count() == 0).then(pl.col(name).mean()).alias(name) for name in compared)
+        means = first.group_by("R", "alpha").agg(of_all).sort("R", "alpha")
         entries.append(
             {
                 "occupancy": occupancy,
@@ -361,29 +345,18 @@ def findings(summary: pl.DataFrame, fractions: pl.DataFrame, code: str = "code")
                 "collapses": {model: int(first[f"collapses_{model}"].sum()) for model in ("real", "code", "attached")},
                 "code_gives_more": below.height,
                 "code_gives_more_top": below.filter(pl.col("storey") == pl.col("storeys")).height,
-                "largest": _finite(ranked.select(place).row(0, named=True)) if known.height else None,
-                "smallest": _finite(ranked.select(place).row(-1, named=True)) if known.height else None,
+                "largest": finite_values(ranked.select(place).row(0, named=True)) if known.height else None,
+                "smallest": finite_values(ranked.select(place).row(-1, named=True)) if known.height else None,
                 "growth": {
                     "alpha": _growth(rows, "alpha", "R"),
                     "R": _growth(rows, "R", "alpha"),
                     "alpha_first_storey": _growth(first, "alpha", "R"),
                     "R_first_storey": _growth(first, "R", "alpha"),
                 },
-                "first_storey": [_finite(row) for row in means.to_dicts()],
+                "first_storey": [finite_values(row) for row in means.to_dicts()],
             }
         )
     return entries
-
-
-def _finite(row: dict[str, Any]) -> dict[str, Any]:
-    """The row with null for non-finite values, which JSON does not have."""
-    return {name: None if isinstance(value, float) and not np.isfinite(value) else value for name, value in row.items()}
-
-
-def _mean_of_all(name: str) -> pl.Expr:
-    """Mean over the buildings; null where one of them has no number, so that no mean is of fewer buildings."""
-    value = pl.col(name)
-    return pl.when(value.null_count() == 0).then(value.mean()).alias(name)
 
 
 def _growth(rows: pl.DataFrame, varied: str, fixed: str) -> dict[str, int]:

@@ -22,7 +22,6 @@ from seismass.base.views import Card
 from seismass.model.block import blocks_on_floors
 from seismass.model.building import Building
 from seismass.model.scene import Scene
-from seismass.motions.motion import Motion
 from seismass.motions.records import Record, Suite, builtin_record, read_suite
 from seismass.runs.batch import solve_many
 from seismass.runs.simulate import simulate
@@ -215,16 +214,12 @@ def _band(model: Record, mass_ratio: float) -> Band:
     return Band(
         component=label(model),
         mass_ratio=mass_ratio,
-        time=_time(motion),
+        time=motion.time,
         low=every.min(axis=0),
         high=every.max(axis=0),
         central=drift(mu, damping),
         attached=drift(ATTACHED_MU, damping),
     )
-
-
-def _time(motion: Motion) -> FloatArray:
-    return np.asarray(np.arange(motion.samples) * motion.dt, dtype=np.float64)
 
 
 def robust_numbers(runs: pl.DataFrame) -> dict[str, Any]:

@@ -228,23 +228,17 @@ def _scaled(record: Record) -> Motion:
     return record.scaled(PEAK_G / record.pga_g).motion
 
 
-def _times(motion: Motion) -> FloatArray:
-    return np.asarray(np.arange(motion.samples) * motion.dt, dtype=np.float64)
-
-
 def _exact(record: Record, second_slope: float) -> Histories:
     motion = _scaled(record)
     response = simulate(section4_scene(second_slope), motion, histories=True)
-    assert response.drift is not None
-    assert response.slip is not None
-    return Histories(EXACT, "", label(record), second_slope, 1, _times(motion), response.drift, response.slip)
+    return Histories(EXACT, "", label(record), second_slope, 1, motion.time, response.drift, response.slip)
 
 
 def _springs(record: Record, second_slope: float, ratio: float, substeps: int) -> Histories:
     """Histories with friction springs, without an instant where Newton's method did not converge."""
     motion = _scaled(record)
     scene = section4_scene(second_slope)
-    time, drift, slip = _times(motion), _NOTHING, _NOTHING
+    time, drift, slip = motion.time, _NOTHING, _NOTHING
     try:
         result = _kernel.integrate_reference(
             scene._kernel, motion._kernel, "friction_springs", substeps, stiffness_ratio=ratio
