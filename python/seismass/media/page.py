@@ -22,10 +22,10 @@ import base64
 import hashlib
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, Final, TypeAlias
+from typing import Any, Final
 
 import polars as pl
 from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -33,15 +33,11 @@ from markupsafe import Markup, escape
 
 from seismass.base.errors import InvalidOption
 from seismass.base.values import refusal, signed
-from seismass.media.result import stored_tables
+from seismass.media.result import Format, described
 from seismass.media.roles import SLIDE, css, isolated, lettered
 from seismass.media.svg import figure_html
 
 __all__ = ["Format", "Section", "facts_html", "figure_html", "page_html", "table_html", "templates", "text_html"]
-
-
-Format: TypeAlias = str | Callable[[Any], str]
-"""A format specification, such as ".3f", or a function from a value to its text or Markup."""
 
 MISSING: Final = "\N{EN DASH}"
 """What stands for a null; such rows are last in either order."""
@@ -51,27 +47,10 @@ LEAST_ROWS_TO_FILTER: Final = 8
 """A table of fewer rows is neither sorted nor filtered."""
 
 
-def described_html(
-    tables: str,
-    frame: pl.DataFrame,
-    caption: str,
-    *,
-    units: Mapping[str, tuple[str, Format]] | None = None,
-    headers: Mapping[str, str] | None = None,
-    formats: Mapping[str, Format] | None = None,
-) -> Markup:
-    """Return rows of tables of a result, as "study: summary", with the heads and forms of data/tables; `units` has for
-    a unit that in which it is shown (empty: not in heads), and how; `headers` and `formats` are of what is not there.
-    """
-    name, _, parts = tables.partition(": ")
-    rows = {column: row for part in parts.split() for column, row in stored_tables(name)[part][1].items()}
-    columns, in_units = [rows[column] for column in frame.columns if column in rows], units or {}
-    unit_of = {row["column"]: in_units[row["unit"]] for row in columns if row["unit"] in in_units}
-    words = {column: f" ({unit})" for column, (unit, _) in unit_of.items() if unit}
-    known: dict[str, Format] = {row["column"]: row["form"] for row in columns if row["form"]}
-    known |= {column: form for column, (_, form) in unit_of.items()}
-    heads = {row["column"]: (row["header"] or row["column"]) + words.get(row["column"], "") for row in columns}
-    return table_html(frame, caption, headers=heads | dict(headers or {}), formats=known | dict(formats or {}))
+def described_html(tables: str, frame: pl.DataFrame, caption: str, **given: Any) -> Markup:
+    """Return rows of tables of a result as `described` has them."""
+    shown, heads, forms = described(tables, frame, **given)
+    return table_html(shown, caption, headers={name: lettered(head) for name, head in heads.items()}, formats=forms)
 
 
 def table_html(

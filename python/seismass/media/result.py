@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from functools import cache
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, Self
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, Self, TypeAlias
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from seismass.base.folders import ReadFolder, as_written, read_folder, write_fol
 from seismass.base.values import FloatArray, as_path, brief, refusal
 from seismass.base.views import view
 from seismass.media.roles import CODE, SLIDE
+from seismass.media.text_table import number_text, text_table
 
 if TYPE_CHECKING:
     import polars as pl
@@ -30,6 +32,10 @@ PAGE: Final = "report.html"
 """File of the page of a folder."""
 ANIMATION: Final = "animation.json"
 """File of what the animation of a page shows."""
+
+
+Format: TypeAlias = str | Callable[[Any], str]
+"""A format specification, such as ".3f", or a function from a value to its text or Markup."""
 
 
 @cache
@@ -51,6 +57,42 @@ def table_schema(name: str, table: str) -> dict[str, pl.DataType | type[pl.DataT
 
     types = {"count": pl.UInt32, "text": pl.String, "flag": pl.Boolean, "number": pl.Float64}
     return {column: types[row["type"]] for column, row in stored_tables(name)[table][1].items()}
+
+
+def described(
+    tables: str,
+    frame: pl.DataFrame,
+    *,
+    units: Mapping[str, tuple[str, Format]] = MappingProxyType({}),
+    headers: Mapping[str, str] = MappingProxyType({}),
+    formats: Mapping[str, Format] = MappingProxyType({}),
+) -> tuple[pl.DataFrame, dict[str, str], dict[str, Format]]:
+    """Return what is shown of tables of a result, as "study: summary": columns with a head in data/tables or unknown
+    there, unless empty; heads; forms. `units` has for a unit that in which it is shown (empty: not in heads), and how.
+    """
+    name, _, parts = tables.partition(": ")
+    rows = {column: row for part in parts.split() for column, row in stored_tables(name)[part][1].items()}
+    heads, forms = {}, {}
+    for column in frame.columns:
+        row = rows.get(column, {"header": column, "unit": "", "form": ""})
+        head = headers.get(column, row["header"])
+        if not head or (frame.height and all(value is None or value == "" for value in frame[column])):
+            continue
+        unit, form = units.get(row["unit"], ("", row["form"]))
+        heads[column] = f"{head} ({unit})" if unit else head
+        forms[column] = formats.get(column, form)
+    return frame.select(*heads), heads, {column: form for column, form in forms.items() if form}
+
+
+def described_lines(tables: str, frame: pl.DataFrame, *, left: int = 1, **given: Any) -> list[str]:
+    """Return rows of tables of a result as `described` has them, as lines; the first `left` columns are texts."""
+    shown, heads, forms = described(tables, frame, **given)
+
+    def text(value: Any, form: Format) -> str:
+        return form(value) if callable(form) else number_text(value, form) if form else str(value or "")
+
+    columns = [[head, *(text(value, forms.get(name, "")) for value in shown[name])] for name, head in heads.items()]
+    return text_table(list(zip(*columns, strict=True)), left=left)
 
 
 def result_files(

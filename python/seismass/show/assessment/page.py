@@ -9,11 +9,9 @@ from typing import TYPE_CHECKING, Final
 import polars as pl
 from markupsafe import Markup
 
-from seismass.assessment.answer import ANALYSIS_UNITS
 from seismass.assessment.models import NAMES, SLIDING, SLIDING_HIGH, SLIDING_LOW
 from seismass.assessment.result import Assessment
 from seismass.base.arguments import ProgressLike
-from seismass.base.statistics import QUANTILES
 from seismass.effective_mass.result import KIND_TEXTS, EffectiveMass
 from seismass.effective_mass.rule import RULE_IN_WORDS
 from seismass.media.page import (
@@ -30,7 +28,8 @@ from seismass.media.page import (
 from seismass.media.roles import EFFECTIVE, LAMBDA, OMEGA, OVER_MODEL, lettered, sentence_html
 from seismass.media.text_table import number_text
 from seismass.show.assessment.page_input import Pictures, in_motion_html, input_html, motions_html, names_of
-from seismass.show.assessment.sheet import MOST_STOREYS, NOT_COVERED, running, sheet_html, storeys_html
+from seismass.show.assessment.sheet import MOST_STOREYS, NOT_COVERED, running, sheet_html, storeys_html, use_html
+from seismass.show.assessment.tables import analysis_table, slip_units
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -111,18 +110,17 @@ def _checks(result: Assessment) -> Markup:
                 "storey": row["storey"],
                 "value": None if row["value"] is None else f"{scale * row['value']:{form}}{unit}",
                 "limit": f"{scale * row['limit']:g}{unit}",
-                "use": f"{100.0 * row['value'] / row['limit']:.0f} %" if known else "\N{EN DASH}",
+                "use": row["value"] / row["limit"] if known else None,
                 "met": {True: "met", False: "not met", None: f"no value: {row['reason']}"}[row["met"]],
                 "source": row["source"],
             }
         )
-    table = pl.DataFrame(rows, schema_overrides={"storey": pl.UInt32, "value": pl.String, "source": pl.String})
+    table = pl.DataFrame(rows, schema_overrides={"storey": pl.UInt32, "value": pl.String, "use": pl.Float64})
     return described_html(
         "assessment: checks",
         table,
         "Largest value over the storeys beside its limit. Drift and stability are those of the means over the motions.",
-        headers={"use": "use of the limit"},
-        formats={"met": _verdict, "source": long_html},
+        formats={"use": use_html, "met": _verdict, "source": long_html},
     )
 
 
@@ -177,13 +175,7 @@ def _fractions(result: Assessment, pictures: Pictures) -> list[Markup]:
 def _drifts(result: Assessment, pictures: Pictures) -> list[Markup]:
     ratio = result.drift_limit is not None
     scale, unit = result.units.drifts(ratio=ratio)
-    names = ("mean", *QUANTILES, "max")
-    further = ["motions_above_limit", "theta"] if ratio else []
-    table = result.storeys.with_columns(
-        model=pl.col("model").replace_strict(NAMES, default=pl.col("model"), return_dtype=pl.String)
-    ).select("model", "storey", "name", *names, *further, "collapsed")
-    if not any(table["name"]):
-        table = table.drop("name")
+    called = pl.col("model").replace_strict(NAMES, default=pl.col("model"), return_dtype=pl.String)
     row = result.governing.sort("governing", descending=True).row(0, named=True)
     note = f"The largest is {scale * row['governing']:.2f} {unit}, storey {row['storey']}, {row['governed_by']}."
     is_tall = len(result.storey_names) > MOST_STOREYS  # the first sheet has not all of them
@@ -199,7 +191,7 @@ def _drifts(result: Assessment, pictures: Pictures) -> list[Markup]:
         ),
         described_html(
             "assessment: storeys",
-            table,
+            result.storeys.with_columns(model=called),
             f"Peak drift of each storey ({'% of the height' if ratio else unit}) by model over the motions.",
             units={"drift": (unit, lambda value: f"{scale * value:.2f}")},
         ),
@@ -210,46 +202,15 @@ def _analysis(result: Assessment) -> list[Markup]:
     """What to type into another program."""
     if not result.answer.analyses:
         return []
-    table, units = result.analysis, result.units
-    of_mass, of_weight = ANALYSIS_UNITS[units.name]
-    if not any(table["name"]):
-        table = table.drop("name")
-    headers: dict[str, str] = {}
-    formats: dict[str, str] = {}
-    numbers = ("2",) if len(result.called) == 1 else ("1", "2")
-    for number, called in zip(numbers, result.called.values(), strict=True):
-        names = [f"mass_{number}_{of_mass}", f"weight_{number}_{of_weight}", f"multiplier_{number}"]
-        words = (
-            f"{called}: mass ({units.unit('mass')})",
-            f"weight ({units.unit('force')})",
-            "multiplier of the live load",
-        )
-        headers |= dict(zip(names, words, strict=True))
-        formats |= dict(zip(names, (units.of("mass")[2], ".0f", ".2f"), strict=True))
-    return [
-        table_html(
-            table.select(name for name in table.columns if name in (*headers, "floor", "name")),
-            "Mass of each floor for another program, and the multiplier of the design live load in its mass source.",
-            headers=headers,
-            formats=formats,
-        )
-    ]
+    table, given = analysis_table(result)
+    caption = "Mass of each floor for another program, and the multiplier of the design live load in its mass source."
+    return [described_html("assessment: analysis", table, caption, **given)]
 
 
 def _slip(result: Assessment) -> list[Markup]:
-    names = [f"peak_{name}" for name in ("mean", "median", "p84", "p84_low", "p84_high", "max")]
-    names += ["residual_mean", "residual_p84"]
     confidence = 100.0 * result.metadata["confidence"]
-    table = result.slip.select("friction", "floor", "name", "goods", "mu_s", "mu_k", "motions_that_slide", *names)
-    table = table.drop([name for name in ("name", "goods") if not any(table[name])])
-    return [
-        described_html(
-            "assessment: slip",
-            table,
-            f"Peak and residual slip over the motions; the interval is that of {confidence:g} % of the peak at 84 %.",
-            units={"m": (result.units.unit("slip"), lambda value: result.units.number("slip", value, ".1f"))},
-        ),
-    ]
+    caption = f"Peak and residual slip over the motions; the interval is that of {confidence:g} % of the peak at 84 %."
+    return [described_html("assessment: slip", result.slip, caption, units=slip_units(result))]
 
 
 def _provenance(result: Assessment) -> list[Markup]:

@@ -22,7 +22,6 @@ from seismass.media.page import (
     facts_html,
     figure_html,
     long_html,
-    table_html,
     text_html,
     whole_html,
 )
@@ -171,8 +170,6 @@ def _storeys(result: Assessment) -> Markup:
         / pl.col("area").cast(pl.Float64),
     )
     names = {
-        "storey": "storey",
-        "name": "name",
         "height": f"height ({units.unit('height')})",
         "area": f"area ({units.unit('area')})",
         "dead_load": f"dead load ({units.unit('load')})",
@@ -184,9 +181,6 @@ def _storeys(result: Assessment) -> Markup:
         "code_fraction": "code's fraction",
         "code_exception": "why",
     }
-    unused = [name for name in ("name", "code_exception") if not any(table[name])]
-    unused += [name for name in ("height", "area", "dead_load", "load") if table[name].null_count() == table.height]
-    shown = [name for name in names if name not in unused]
     quantities = {name: name for name in ("height", "area", "mass", "stiffness")}
     quantities |= {"dead_load": "load", "load": "load", "yield_shear": "force"}
     formats = {name: partial(units.number, quantity) for name, quantity in quantities.items()}
@@ -198,12 +192,8 @@ def _storeys(result: Assessment) -> Markup:
         if notes
         else "Storeys, from the ground up."
     )
-    return table_html(
-        table.select(shown),
-        caption,
-        headers={name: names[name] for name in shown},
-        formats={name: form for name, form in formats.items() if name in shown},
-    )
+    shown = table.select("storey", "name", *names)
+    return described_html("assessment: storeys", shown, caption, headers=names, formats=formats)
 
 
 def _bolted_load(result: Assessment, storey: int) -> float:
@@ -224,9 +214,9 @@ def _goods(result: Assessment) -> list[Markup]:
         contact=pl.when("attached").then(pl.lit("bolted")).otherwise("contact"),
         size=pl.Series([_size(units, row.get("size")) for row in rows], dtype=pl.String),
     )
-    table_of_goods = table.select(
+    shown = table.select(
         "floor",
-        "name",
+        goods="name",
         load=STANDARD_GRAVITY * pl.col("live_load") / pl.col("area"),
         weight=STANDARD_GRAVITY * pl.col("live_load"),
         occupied="occupied",
@@ -236,16 +226,12 @@ def _goods(result: Assessment) -> list[Markup]:
         mu_k="mu_k",
         size="size",
     ).with_columns(pl.col("load").fill_nan(None))
-    unused = [name for name in ("name", "contact", "size") if not any(table_of_goods[name])]
-    unused += ["load"] if table_of_goods["load"].null_count() == table_of_goods.height else []
     headers = {
-        "name": "goods",
         "load": f"design live load ({units.unit('load')})",
         "weight": f"of the floor ({units.unit('force')})",
         "occupied": "present",
         "presence": "how that is known",
-        "mu_s": f"{MU}_s",
-        "mu_k": f"{MU}_k",
+        "contact": "contact",
         "size": f"size of one ({units.unit('height')})",
     }
     parts = "".join(
@@ -254,17 +240,16 @@ def _goods(result: Assessment) -> list[Markup]:
         if name in sources
     )
     return [
-        table_html(
-            table_of_goods.drop(unused),
+        described_html(
+            "assessment: slip",
+            shown,
             f"Goods, kind by kind. Bolted ones are part of the mass of their floor.{parts}",
-            headers={name: words for name, words in headers.items() if name not in unused},
+            headers=headers,
             formats={
-                **({} if "load" in unused else {"load": partial(units.number, "load")}),
+                "load": partial(units.number, "load"),
                 "weight": partial(units.number, "force"),
                 "occupied": ".2f",
                 "presence": long_html,
-                "mu_s": ".3g",
-                "mu_k": ".3g",
             },
         )
     ]

@@ -16,7 +16,7 @@ from seismass.assessment.result import Assessment
 from seismass.assessment.structure import slip_of_base
 from seismass.base.statistics import quantile
 from seismass.effective_mass.rule import RULE_UNKNOWN
-from seismass.media.page import facts_html, table_html, text_html
+from seismass.media.page import described_html, facts_html, table_html, text_html
 from seismass.media.roles import apart, isolated, sentence_html
 from seismass.model.codes import FROM_MEMORY, MARK, SECOND_HAND
 from seismass.show.assessment.drawing import ROOM, building_drawing
@@ -147,7 +147,7 @@ def _verdicts(result: Assessment) -> Markup:
     motions = len(result.suite["motions"])
     most = result.checks.filter(check="collapsed runs").sort("value", descending=True).row(0, named=True)
     where = _model_words(result, most["model"]) if most["value"] else "all models"
-    rows.append(("collapsed runs", f"{most['value']:.0f} of {motions}", "0", "", where, ""))
+    rows.append(("collapsed runs", f"{most['value']:.0f} of {motions}", "0", None, where, ""))
     for check, words in CHECKS.items():
         worst, why = worst_of(result, check)
         if worst is None:
@@ -155,26 +155,27 @@ def _verdicts(result: Assessment) -> Markup:
         scale, form, unit = (1e2, ".2f", " %") if check == CAPPED_DRIFT else (1.0, ".3f", "")
         limit, clause = f"{scale * worst['limit']:g}{unit}", references[check]
         if why:
-            rows.append((words, "no value", limit, "", why, clause))
+            rows.append((words, "no value", limit, None, why, clause))
             continue
         where = f"storey {worst['storey']}, {_model_words(result, worst['model'])}"
-        use = f"{100.0 * worst['value'] / worst['limit']:.0f} %"
+        use = worst["value"] / worst["limit"]
         rows.append((words, f"{scale * worst['value']:{form}}{unit}", limit, use, where, clause))
     clear = result.clearances
     slips = [row for row in most_slip(result.slip).values() if row["peak_max"]]
     for row in sorted(slips, key=lambda one: one["peak_p84"], reverse=True)[:1]:
         value = f"{units.number('slip', row['peak_p84'])}{slip_ends(row, units)} {units.unit('slip')}"
         limit = f"clearance {units.text('slip', clear[row['floor']], '.3g')}" if row["floor"] in clear else ""
-        rows.append(("slip, 84 % of the motions", value, limit, "", f"floor {row['floor']}, {NAMES[row['model']]}", ""))
+        where = f"floor {row['floor']}, {NAMES[row['model']]}"
+        rows.append(("slip, 84 % of the motions", value, limit, None, where, ""))
     base = slip_of_base(result.runs)
     if base is not None:
         where = f"largest {units.text('slip', base['most'])}, {NAMES[base['model']]}"
-        rows.append(("slip of the base, 84 %", units.text("slip", base["p84"]), "", "", where, ""))
-    names = ("check", "value", "limit", "use", "where", "clause")
-    return table_html(
-        pl.DataFrame([dict(zip(names, row, strict=True)) for row in rows]),
+        rows.append(("slip of the base, 84 %", units.text("slip", base["p84"]), "", None, where, ""))
+    return described_html(
+        "assessment: checks",
+        pl.DataFrame(rows, schema=["check", "value", "limit", "use", "where", "source"], orient="row"),
         "Largest value of the analyses and of goods that slide, at all frictions.",
-        formats={"use": _use, "where": sentence_html},
+        formats={"use": use_html, "where": sentence_html},
     )
 
 
@@ -203,10 +204,9 @@ def _cited(result: Assessment) -> dict[str, str]:
     return {name: f"[{number}]" for number, name in enumerate(_references(result), start=1)}
 
 
-def _use(text: str) -> Markup:
-    """A use of a limit in its colour."""
-    looks = "" if not text else "good" if float(text.removesuffix(" %")) <= 100.0 else "warn"
-    return Markup('<span class="whole {}">{}</span>').format(looks, text)
+def use_html(use: float) -> Markup:
+    """Return a use of a limit in its colour."""
+    return Markup('<span class="whole {}">{:.0f} %</span>').format("good" if use <= 1.0 else "warn", 100.0 * use)
 
 
 def _governs(model: str) -> Markup:
@@ -221,23 +221,23 @@ def _model_words(result: Assessment, model: str) -> str:
 def storeys_html(result: Assessment, most: int) -> list[Markup]:
     """Return what governs storeys and what they use of the limit, of a tall building those `most` that drift most."""
     table = result.governing
-    ratio = result.drift_limit is not None
-    scale, unit = result.units.drifts(ratio=ratio)
+    scale, unit = result.units.drifts(ratio=result.drift_limit is not None)
     caption = "What governs each storey: capped mean drift"
     if table.height > most:
         table = table.sort("governing", descending=True).head(most).sort("storey")
         caption = f"The {most} storeys that drift most, the others behind: capped mean drift"
-    rows = []
-    for row in table.sort("storey", descending=True).iter_rows(named=True):
-        cells: dict[str, Any] = {"storey": f"{row['storey']} {apart(row['name'] or '')}".rstrip()}
-        for name, words in (*result.called.items(), ("sliding", "goods slide, most")):
-            cells[words] = None if row.get(name) is None else f"{scale * row[name]:.2f}"
-        cells["governs"] = row["governed_by"]
-        if ratio:
-            cells["use"] = f"{100.0 * row['governing_over_limit']:.0f} %"
-        rows.append(cells)
-    formats = {"use": _use} if ratio else {}
-    return [table_html(pl.DataFrame(rows), f"{caption}, {unit}.", formats={**formats, "governs": _governs})]
+    table = table.sort("storey", descending=True)
+    names = [f"{storey} {apart(name or '')}".rstrip() for storey, name in table.select("storey", "name").iter_rows()]
+    return [
+        described_html(
+            "assessment: governing",
+            table.select(pl.Series("storey", names), *result.called, "sliding", "governed_by", "governing_over_limit"),
+            f"{caption}, {unit}.",
+            units={"drift": ("", lambda drift: f"{scale * drift:.2f}")},
+            headers=result.called,
+            formats={"governed_by": _governs, "governing_over_limit": use_html},
+        )
+    ]
 
 
 def _collapses(result: Assessment) -> list[Markup]:

@@ -11,6 +11,7 @@ import polars as pl
 from seismass.assessment.models import ADVISED, BARE, CODE, SLIDING, SLIDING_ALL
 from seismass.assessment.result import Assessment
 from seismass.base.units import STANDARD_GRAVITY, Units
+from seismass.media.result import Format, stored_tables
 
 
 class StoreyDrifts(NamedTuple):
@@ -66,6 +67,22 @@ def most_slip(slip: pl.DataFrame) -> dict[int, dict[str, Any]]:
     """Return of each floor the row of slips with the largest at 84 % of the motions, over kinds and frictions."""
     known = slip.drop_nulls("peak_p84").sort("peak_p84", descending=True)
     return {row["floor"]: row for row in reversed(known.to_dicts())}
+
+
+def slip_units(result: Assessment) -> dict[str, tuple[str, Format]]:
+    """Return the unit of slips in tables, and how they are written."""
+    return {"m": (result.units.unit("slip"), lambda value: result.units.number("slip", value, ".1f"))}
+
+
+def analysis_table(result: Assessment) -> tuple[pl.DataFrame, dict[str, Any]]:
+    """Return masses, weights and multipliers of the analyses, one or both, and what `described` takes with them."""
+    table, units, rows = result.analysis.clone(), result.units, stored_tables("assessment")["analysis"][1]
+    table.columns = list(rows)  # those of files in US units are called by other units
+    called = dict(zip((2,) if len(result.called) == 1 else (1, 2), result.called.values(), strict=True))
+    in_units = {"t": (units.unit("mass"), units.of("mass")[2]), "kN": (units.unit("force"), ".0f")}
+    headers = {f"mass_{number}_t": f"{words}: {rows['mass_1_t']['header']}" for number, words in called.items()}
+    names = [name for name in rows if 1 in called or "_1" not in name]
+    return table.select(names), {"units": in_units, "headers": headers}
 
 
 def animated(result: Assessment) -> Assessment:

@@ -21,10 +21,18 @@ from seismass.base.errors import InvalidOption
 from seismass.base.folders import check_out, write_folder
 from seismass.base.values import as_path
 from seismass.effective_mass.rule import RULE_UNKNOWN
-from seismass.media.result import ANIMATION, PAGE, result_files, stored_tables
+from seismass.media.result import ANIMATION, PAGE, described_lines, result_files, stored_tables
 from seismass.media.text_table import text_table
 from seismass.model.codes import FROM_MEMORY, MARK, NOT_CHECKED, SECOND_HAND
-from seismass.show.assessment.tables import animated, most_slip, quantity_text, short_words, storey_drifts
+from seismass.show.assessment.tables import (
+    analysis_table,
+    animated,
+    most_slip,
+    quantity_text,
+    short_words,
+    slip_units,
+    storey_drifts,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -133,10 +141,6 @@ def _models(result: Assessment) -> list[str]:
     return [model for model in _STABLE if model in known]
 
 
-def _storey_label(row: dict[str, Any]) -> str:
-    return _named(row["storey"], row["name"])
-
-
 def _named(*parts: Any) -> str:
     """A number with its names, cut between words where it is long."""
     return textwrap.shorten(" ".join(str(part) for part in parts if part), LONGEST_NAME, placeholder=" ...")
@@ -196,20 +200,20 @@ def _drifts(result: Assessment) -> list[str]:
     motions = len(result.suite["motions"])
     governed = bool(result.answer.analyses)
     lines = [f"Peak storey drift, {unit}: capped mean of {motions} motions{limit}"]
-    rows = [["storey", *(_label(result, model) for model in models), *(["governs"] if governed else [])]]
+    rows = []
     for row in result.governing.iter_rows(named=True):
         values = [_of(result, row["storey"], model) for model in models]
-        label = _storey_label(row)
-        cells = [_marked(one["mean"], one["mean_over_limit"], scale) for one in values]
+        cells = {one["model"]: _marked(one["mean"], one["mean_over_limit"], scale) for one in values}
         if governed:
             drift = _marked(row["governing"], row["governing_over_limit"], scale)
-            cells.append(f"{drift} {short_words(row['governed_by'])}".rstrip())
-        rows.append([label, *cells])
+            cells["governed_by"] = f"{drift} {short_words(row['governed_by'])}".rstrip()
+        rows.append({"storey": _named(row["storey"], row["name"]), **cells})
+    marks = "".join("".join(list(row.values())[1:]) for row in rows)
     if most is not None:
-        above = [f"{_above(result, model, most)} of {motions}" for model in models]
-        rows.append(["motions above limit", *above, *([""] if governed else [])])
-    lines += text_table(rows)
-    marks = "".join("".join(row[1:]) for row in rows[1:])
+        above = {model: f"{_above(result, model, most)} of {motions}" for model in models}
+        rows.append({"storey": "motions above limit", **above})
+    heads = {model: _label(result, model) for model in models}
+    lines += described_lines("assessment: governing", pl.DataFrame(rows), headers=heads)
     notes = [f"  * mean above the limit{limit.removeprefix('; limit')}"] * ("*" in marks)
     return [*lines, *notes]
 
@@ -220,21 +224,13 @@ def _marked(mean: float, over_limit: float | None, scale: float) -> str:
 
 def _slips(result: Assessment) -> list[str]:
     """Slip of each kind of goods, where a floor has several."""
-    units, motions = result.units, len(result.suite["motions"])
-    shown, columns = ("peak_median", "peak_p84", "peak_max"), stored_tables("assessment")["slip"][1]
-    rows = [["floor and goods", "mu_s/mu_k", "slides in", *(columns[name]["header"] for name in shown)]]
-    for row in result.slip.filter(pl.col("model").is_in([SLIDING, SLIDING_LOW])).iter_rows(named=True):
-        values = (units.text("slip", row[name]) for name in shown)
-        friction = f"{row['mu_s']:.3g}/{row['mu_k']:.3g}"
-        rows.append(
-            [
-                _named(row["floor"], row["name"], row["goods"]),
-                friction,
-                f"{row['motions_that_slide']} of {motions}",
-                *values,
-            ]
-        )
-    return ["Slip of each kind of goods, friction as stated and at its lower bound", *text_table(rows)]
+    rows = result.slip.filter(pl.col("model").is_in([SLIDING, SLIDING_LOW]))
+    shown = rows.select(
+        pl.Series("floor", [_named(*row) for row in rows.select("floor", "name", "goods").iter_rows()]),
+        *("mu_s", "mu_k", "motions_that_slide", "peak_median", "peak_p84", "peak_max"),
+    )
+    title = f"Slip of each kind of goods under {len(result.suite['motions'])} motions, friction as stated and at its"
+    return [f"{title} lower bound", *described_lines("assessment: slip", shown, units=slip_units(result))]
 
 
 def _analysis(result: Assessment) -> list[str]:
@@ -243,15 +239,9 @@ def _analysis(result: Assessment) -> list[str]:
         "For another program: mass of each floor, and multiplier of the design live load in the mass source",
         "  (--mass-source FILE.e2k or FILE.s2k writes both for ETABS or SAP2000)",
     ]
-    units = result.units
-    mass, force = units.unit("mass"), units.unit("force")
-    head = [f"analysis 1: {mass}", force, "multiplier", f"analysis 2: {mass}", force, "multiplier"]
-    forms, single = 2 * (units.of("mass")[2], ".0f", ".2f"), len(result.answer.pair) == 1
-    rows = [["floor", *([mass, *head[1:3]] if single else head)]]
-    for floor, name, *values in result.analysis.iter_rows():
-        texts = [f"{value:{form}}" for value, form in zip(values, forms, strict=True)]
-        rows.append([_named(floor, name), *texts[: len(rows[0]) - 1]])
-    return lines + text_table(rows)
+    table, given = analysis_table(result)
+    floors = pl.Series("floor", [_named(*row) for row in table.select("floor", "name").iter_rows()])
+    return lines + described_lines("assessment: analysis", table.drop("name").with_columns(floors), **given)
 
 
 def _above(result: Assessment, model: str, limit: float) -> int:
@@ -265,16 +255,17 @@ def _design(result: Assessment) -> list[str]:
     """W, T, C_s, V and V_y of each storey, each with its clause."""
     stated = result.input["design"] is None
     title = "Strengths as stated" if stated else f"Design of the strengths by {result.input['code_of_design']}"
-    rows = [["", "value", "clause", "what it is"]]
+    rows = []
     for row in result.tables["design"].iter_rows(named=True):
         mark = MARK if row["status"] in (SECOND_HAND, FROM_MEMORY) else ""
         name = " ".join(
             str(part) for part in (row["direction"], row["quantity"], row["storey"]) if part not in ("", None)
         )
         note = textwrap.shorten(row["note"], WIDTH - 60, placeholder=" ...")
-        rows.append([name, quantity_text(row["value"], row["unit"], result.units), row["clause"] + mark, note])
-    marked = any(MARK in row[2] for row in rows)
-    return [title, *text_table(rows, left=4), *([f"  {MARK} {NOT_CHECKED}"] if marked else [])]
+        value = quantity_text(row["value"], row["unit"], result.units)
+        rows.append({"quantity": name, "value": value, "clause": row["clause"] + mark, "note": note})
+    notes = [f"  {MARK} {NOT_CHECKED}"] * any(MARK in row["clause"] for row in rows)
+    return [title, *described_lines("assessment: design", pl.DataFrame(rows), left=4), *notes]
 
 
 def _collapses(result: Assessment) -> str:

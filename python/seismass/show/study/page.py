@@ -35,7 +35,7 @@ from seismass.show.study.answer import (
     span,
 )
 from seismass.show.study.figures import slip_demand
-from seismass.show.study.tables import fractions_table, slip_table, storeys_table, validations
+from seismass.show.study.tables import fractions_table, slip_table, storeys_table, validations, without_one_friction
 from seismass.studies.study.run import StudyResult, motions_text
 from seismass.studies.validation.three_storeys import PEAK_G
 
@@ -67,7 +67,6 @@ def validation_section(result: StudyResult, page: Pictures) -> Iterator[Section]
     if facts is None or made is None:
         return
     section4, platform = made
-    differences = section4.differences.rename({"second_slope": "r2"})
     parts = [
         text_html(
             f"The three-storey building of the paper's section 4, its record scaled to {PEAK_G:g} g; motion: "
@@ -90,7 +89,7 @@ def validation_section(result: StudyResult, page: Pictures) -> Iterator[Section]
     parts += [
         described_html(
             "study: section4_differences",
-            differences,
+            section4.differences,
             "Largest difference of histories from those of the exact kernel, and that over the largest drift or slip.",
             units={unit: (unit, ".2g") for unit in ("mm", "%")},
         ),
@@ -128,8 +127,6 @@ def sensitivity_section(result: StudyResult, page: Pictures) -> Iterator[Section
     table = result.sensitivity
     if not table.height:
         return
-    keys = ["choice", "setting", "occupancy", *(["mu"] if table["mu"].n_unique() > 1 else [])]
-    names = ("largest", "least_R", "most_R", "mass", "sliding")
     as_is = table.filter(choice=table["choice"][0])["largest_percent"].drop_nulls()
     low, high = (table["largest_percent"].drop_nulls().to_numpy() for _ in range(2))
     change = f"from {percent(low.min())} to {percent(high.max())}" if as_is.len() else "without a number"
@@ -144,7 +141,7 @@ def sensitivity_section(result: StudyResult, page: Pictures) -> Iterator[Section
             ),
             described_html(
                 "study: sensitivity",
-                table.select(*keys, *(f"{name}_percent" for name in names), "collapses"),
+                without_one_friction(table),
                 f"Underestimation of first storeys under each choice. Means are over those with the largest {ALPHA}; "
                 "that at the largest R is made of the mass that the code leaves out and of sliding.",
                 units={"%": ("", percent)},
@@ -190,7 +187,7 @@ def claims_section(result: StudyResult) -> Iterator[Section]:
             ),
             described_html(
                 "study: claims",
-                table.select("number", "claim", "verdict", "numbers", "depends_on", "source"),
+                table,
                 "Each claim: whether it holds here, our numbers, and what the verdict depends on.",
                 formats={
                     "verdict": _verdict,

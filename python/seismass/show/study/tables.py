@@ -11,7 +11,7 @@ from markupsafe import Markup
 
 from seismass.base.units import STANDARD_GRAVITY
 from seismass.effective_mass.rule import RULE, RULE_IN_WORDS
-from seismass.media.page import described_html, table_html
+from seismass.media.page import described_html
 from seismass.media.roles import CODE, ETA, MU, SLIDE, lettered
 from seismass.show.animation import animate
 from seismass.show.animation.html import element_content
@@ -73,22 +73,16 @@ def _animation(example: Example, code: str) -> dict[str, Any]:
     return content
 
 
-_KEYS: Final = ("occupancy", "storeys", "R", "alpha", "mu")
-
-
-def shown_keys(table: pl.DataFrame) -> list[str]:
-    """Key columns, without a friction coefficient that is the same throughout."""
-    return [name for name in _KEYS if name != "mu" or table["mu"].n_unique() > 1]
+def without_one_friction(table: pl.DataFrame) -> pl.DataFrame:
+    """Return a table without a friction coefficient that is the same throughout."""
+    return table if table["mu"].n_unique() > 1 else table.drop("mu")
 
 
 def storeys_table(result: StudyResult) -> Markup:
     """Return mean drifts of every storey by the three models, and the underestimation."""
-    models = ("real", "code", "attached")
-    percents = ("underestimation", "p16_underestimation", "median_underestimation", "p84_underestimation")
-    names = ["storey", *(f"mean_peak_drift_{model}" for model in models), *(f"{name}_percent" for name in percents)]
     return described_html(
         "study: summary",
-        result.summary.select(*shown_keys(result.summary), *names, "ratio_mass", "ratio_sliding"),
+        without_one_friction(result.summary),
         f"Capped mean drift of every storey, and ({SLIDE.name} \N{EN DASH} {CODE.name}) / {CODE.name}: of the means, "
         "and motion by motion.",
         units={"m": ("mm", lambda drift: f"{1e3 * drift:.1f}"), "%": ("", percent)},
@@ -97,15 +91,13 @@ def storeys_table(result: StudyResult) -> Markup:
 
 def fractions_table(fractions: pl.DataFrame) -> Markup:
     """Return base shear, eta, the rule by hand and the effective fraction of every building."""
-    names = ("base_shear_coefficient", "eta", "coefficient", "estimate", "effective", "low", "high", "kind")
-    known = [name for name in names if fractions[name].null_count() < fractions.height]
     return described_html(
         "study: fractions",
-        fractions.select(*shown_keys(fractions), *known),
+        without_one_friction(fractions),
         f"Every building: mean peak base shear V of the runs with all attached over the weight W of all, {ETA} = {MU} "
         f"W/V, and the rule by hand, {lettered(RULE_IN_WORDS)}"
-        + (", and the effective fraction with its interval." if "effective" in known else "."),
-        headers={"estimate": lettered(RULE)} if "estimate" in known else {},
+        + (", and the effective fraction with its interval." if fractions["effective"].count() else "."),
+        headers={"estimate": RULE},
     )
 
 
@@ -118,9 +110,10 @@ def slip_table(demand: pl.DataFrame) -> Markup:
         "largest": "largest (mm)",
         "residual": "residual, mean (mm)",
     }
-    return table_html(
-        demand.select(*shown_keys(demand), "slides", *names),
+    return described_html(
+        "study: summary",
+        without_one_friction(demand),
         "Slip demand of each building: of the floor on which goods slide farthest, under each motion.",
-        headers={**names, "slides": "motions in which goods slide"},
+        headers={**names, "slides": "motions with slip"},
         formats=dict.fromkeys(names, lambda slip: f"{1e3 * slip:.1f}"),
     )
