@@ -47,9 +47,9 @@ LEAST_ROWS_TO_FILTER: Final = 8
 """A table of fewer rows is neither sorted nor filtered."""
 
 
-def described_html(tables: str, frame: pl.DataFrame, caption: str, **given: Any) -> Markup:
+def described_html(tables: str, frame: pl.DataFrame, caption: str, **options: Any) -> Markup:
     """Return rows of tables of a result as `described` has them."""
-    shown, heads, forms = described(tables, frame, **given)
+    shown, heads, forms = described(tables, frame, **options)
     return table_html(shown, caption, headers={name: lettered(head) for name, head in heads.items()}, formats=forms)
 
 

@@ -84,12 +84,14 @@ def described(
     return frame.select(*heads), heads, {column: form for column, form in forms.items() if form}
 
 
-def described_lines(tables: str, frame: pl.DataFrame, *, left: int = 1, **given: Any) -> list[str]:
+def described_lines(tables: str, frame: pl.DataFrame, *, left: int = 1, **options: Any) -> list[str]:
     """Return rows of tables of a result as `described` has them, as lines; the first `left` columns are texts."""
-    shown, heads, forms = described(tables, frame, **given)
+    shown, heads, forms = described(tables, frame, **options)
 
     def text(value: Any, form: Format) -> str:
-        return form(value) if callable(form) else number_text(value, form) if form else str(value or "")
+        if callable(form):
+            return form(value)
+        return number_text(value, form) if form else "" if value is None else str(value)
 
     columns = [[head, *(text(value, forms.get(name, "")) for value in shown[name])] for name, head in heads.items()]
     return text_table(list(zip(*columns, strict=True)), left=left)

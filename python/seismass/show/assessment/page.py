@@ -202,9 +202,9 @@ def _analysis(result: Assessment) -> list[Markup]:
     """What to type into another program."""
     if not result.answer.analyses:
         return []
-    table, given = analysis_table(result)
+    table, options = analysis_table(result)
     caption = "Mass of each floor for another program, and the multiplier of the design live load in its mass source."
-    return [described_html("assessment: analysis", table, caption, **given)]
+    return [described_html("assessment: analysis", table, caption, **options)]
 
 
 def _slip(result: Assessment) -> list[Markup]:

@@ -239,9 +239,9 @@ def _analysis(result: Assessment) -> list[str]:
         "For another program: mass of each floor, and multiplier of the design live load in the mass source",
         "  (--mass-source FILE.e2k or FILE.s2k writes both for ETABS or SAP2000)",
     ]
-    table, given = analysis_table(result)
+    table, options = analysis_table(result)
     floors = pl.Series("floor", [_named(*row) for row in table.select("floor", "name").iter_rows()])
-    return lines + described_lines("assessment: analysis", table.drop("name").with_columns(floors), **given)
+    return lines + described_lines("assessment: analysis", table.drop("name").with_columns(floors), **options)
 
 
 def _above(result: Assessment, model: str, limit: float) -> int:
