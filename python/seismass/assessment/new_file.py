@@ -10,7 +10,7 @@ from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 
-from seismass.assessment.file_keys import NEEDS
+from seismass.assessment.file_keys import KEYS
 from seismass.assessment.pushover_file import PushoverCurves
 from seismass.assessment.storey_table import StoreyTable
 from seismass.assessment.table_words import is_roof, plain, word_list
@@ -129,6 +129,14 @@ class Question:
         return f"--{self.name.replace('_', '-')}"
 
 
+def _of_key(name: str, table: str, key: str, words: str, default: str = "", need: Need | None = None) -> Question:
+    """A question for the number of a key of building files: its unit, and its range where `need` is no narrower one."""
+    row = KEYS[table][key]
+    fits = need or row.need or POSITIVE
+    unit = "" if row.unit == "1" else f" ({row.unit})"
+    return Question(name, f"{words}{unit}?", fits.requirement, _number(fits), default)
+
+
 MASS_INCLUDES: Final = Question(
     "mass_includes",
     "Which share of the live load is in the masses of the table, by the mass source of the program (0: none)?",
@@ -139,18 +147,16 @@ MASS_INCLUDES: Final = Question(
 QUESTIONS: Final = (
     Question("name", "What is the building called?", "text", _text, "my building"),
     Question("storeys", "How many storeys?", "a whole number from 1 to 200", _count),
-    Question("height", "How high is a storey (m)?", "a positive number", _positive),
-    Question("area", "How large is a floor (m2)?", "a positive number", _positive),
-    Question(
-        "dead_load", "What does a floor weigh with its share of walls and frame (kPa)?", "a positive number", _positive
-    ),
+    _of_key("height", "building", "height_m", "How high is a storey"),
+    _of_key("area", "building", "area_m2", "How large is a floor"),
+    _of_key("dead_load", "building", "dead_load_kpa", "What does a floor weigh with its share of walls and frame"),
     MASS_INCLUDES,
-    Question("period", "What is the first period without goods (s)?", "a positive number", _positive),
-    Question("sds", "What is S_DS of the site (g)?", "a positive number", _positive),
-    Question("sd1", "What is S_D1 of the site (g)?", "a positive number", _positive),
-    Question("reduction", "By which R are strengths designed?", "a number from 1", _number(NEEDS["reduction"]), "3"),
-    Question("live_load", "What is the design live load of the loaded floors (kPa)?", "a positive number", _positive),
-    Question("occupied", "Which share of it is present (0 to 1)?", "a number from 0 to 1", _share, "1"),
+    _of_key("period", "building", "period_s", "What is the first period without goods"),
+    _of_key("sds", "site", "sds_g", "What is S_DS of the site"),
+    _of_key("sd1", "site", "sd1_g", "What is S_D1 of the site"),
+    _of_key("reduction", "building", "R", "By which R are strengths designed", "3"),
+    _of_key("live_load", "goods", "live_load_kpa", "What is the design live load of the loaded floors", need=POSITIVE),
+    _of_key("occupied", "storeys", "occupied", "Which share of it is present (0 to 1)", "1"),
     Question(
         "friction",
         "Which friction do the goods have: a number, or a contact of `seismass building --frictions`?",
