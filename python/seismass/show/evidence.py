@@ -147,8 +147,8 @@ def assumptions(result: Evidence) -> list[str]:
         "forces, period C_u T_a, I = 1.",
         f"Shares of the design live load: {definitions}; V base shear, F force of loaded floors "
         f"on their diaphragms, at the design level; drift limit "
-        f"{100.0 * setting['limit']:g} %, drifts capped at that of the collapse. A dash: too rare for "
-        f"{metadata['runs']} runs.",
+        f"{100.0 * setting['limit']:g} %, drifts capped at that of the collapse; round: the mean of (a) and "
+        f"(d), to the next 0.05. A dash: too rare for {metadata['runs']} runs.",
         f"Springs: first yield {setting['first_yield']:g} V_y (sigma {setting['first_yield_sigma']:g}), second slope "
         f"{setting['second_slope']:g} (sigma {setting['second_slope_sigma']:g}), ultimate {setting['overstrength']:g} "
         f"times, then flat; P-Delta{'' if setting['p_delta'] else ' left out'}.",
@@ -303,7 +303,7 @@ def _tornado(result: Evidence) -> Figure:
             axes.set_xlim(0.0, 1.0)
         for axes in panels[len(groups) :]:
             axes.set_visible(False)
-        figure.supxlabel("share (d); the tick is the lower end of the input", fontsize=7.0)
+        figure.supxlabel("share (d); the tick is the lower end; inputs with none are of a small sample", fontsize=7.0)
     return figure
 
 
