@@ -83,3 +83,28 @@ def test_a_frame_is_drawn_to_scale() -> None:
     path = next(line for line in lines if len(line) == 22)
     walked = np.vstack([animation.response.slip[:21, 1], slip[1]])
     np.testing.assert_allclose(path, floor.mean(axis=0) + factor * per_metre * walked * up, atol=1e-9)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 5, 13, 30])
+def test_goods_of_a_floor_are_drawn_on_it_beside_each_other(count: int) -> None:
+    """From above, at rest: no piece reaches over the edge of its floor or over another; rows are as many as needed."""
+    goods = [sm.Block(1, mass=9.0, mu=0.2)] * count
+    scene = sm.Scene(BUILDING, [*goods, sm.Block(2, mass=9.0, mu=0.2)], other_direction=True)
+    animation = sm.animation.animate_plane(scene, PAIR, floor=1, end=0.1)  # type: ignore[arg-type]
+    picture, boxes = PlanePicture(animation), []
+    picture._box = lambda draw, box, *colours: boxes.append(np.array(box, dtype=float))  # type: ignore[method-assign]
+    picture._line = picture._text = lambda *given, **options: None  # type: ignore[method-assign]
+    picture._from_above(None, np.zeros((2, 2)), np.zeros((count + 1, 2)), 0)  # type: ignore[arg-type]
+    _, floor, *pieces = boxes
+    assert len(pieces) == count
+    for number, piece in enumerate(pieces):
+        assert (piece[:2] >= floor[:2]).all()
+        assert (piece[2:] <= floor[2:]).all()
+        for other in pieces[:number]:
+            assert (piece[:2] >= other[2:]).any() or (other[:2] >= piece[2:]).any()
+    sides = {round(float(piece[2] - piece[0]), 9) for piece in pieces}
+    assert len(sides) == 1
+    centres = np.array(pieces)[:, :2]
+    across, along = (len(np.unique(centres[:, axis].round(9))) for axis in (0, 1))
+    assert (across - 1) ** 2 < count <= across**2
+    assert (along - 1) * across < count <= along * across

@@ -107,6 +107,32 @@ def test_shares_are_those_of_another_time_stepping() -> None:
     assert real.at(0, "slides").any()
 
 
+def test_other_models_of_an_archetype() -> None:
+    """Fixed goods, other designs, and the building of no live load without goods: as many runs as are told, and of the
+    last the drifts of that building alone.
+    """
+    archetype, suite = ARCHETYPES[1], replace(FORTY, records=FORTY.records[:3])
+    setting = replace(SETTING, samples=(2, 16), levels=(1.0, 1.5), shares=(0.0, 0.6, 1.0))
+    told: list[int] = []
+    table = runs.solved_archetype(archetype, setting, suite, report=told.append)
+    assert len(table) == told[-1] == runs.runs_of(archetype, setting, 3, True)
+    counts = {model: rows.height // (3 * 2 * 2) for (model,), rows in table.group_by("model")}
+    assert counts == {"real": 16, "model": 3, "fixed": 4, "design": 2 * len(runs.DESIGN_FRACTIONS), "reference": 1}
+    bare, rows = setting.designed(archetype, 0.0), table.filter(model="reference")
+    grid = runs._attached(archetype, setting, bare, 3, 0.0, {"attached": [0.0], "scale": setting.levels})
+    motions = runs.scaled(suite, setting, setting.designed(archetype).design.period)
+    alone = []
+    for number, (scale, motion) in enumerate(grid.table()["scale", "motion"].iter_rows(), start=1):
+        scene = grid.scene(number)
+        np.testing.assert_allclose(scene.building.mass, bare.building.mass, rtol=1e-12)
+        building = sm.Scene(scene.building, collapse_drift=scene.collapse_drift)
+        run = sm.simulate(building, motions[motion - 1].scaled(scale))
+        alone.append(float(run.peak_drift_ratio.max()))
+    most = archetype.system.collapse
+    np.testing.assert_allclose(rows["drift"], np.where(rows["collapsed"], most, np.minimum(alone, most)), rtol=1e-9)
+    assert set(rows["share"]) == {0.0}
+
+
 def test_tables(found: sm.evidence.Evidence) -> None:
     tables = found.tables
     assert set(tables) == TABLES

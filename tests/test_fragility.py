@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.optimize import minimize
+from scipy.special import expit, log_expit
 from scipy.stats import binom, norm
 
 import seismass as sm
 from seismass.studies.fragility import fit_capacities, fit_cloud, fit_counts
 from seismass.studies.fragility.fragility import probabilities
+from seismass.studies.fragility.likelihood import FITTED, capacity_fits, cloud_fits, logistic_fits, probit_fits
 
 # The example that is distributed with Baker (2015), Earthquake Spectra 31:579-599: 40 motions at each intensity.
 LEVELS = np.array([0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1.0])
@@ -344,3 +346,55 @@ def test_limits_may_be_names_as_in_commands() -> None:
     )
     assert by_name.limits == by_object.limits == tuple(limits)
     assert by_name.fragility().median == by_object.fragility().median
+
+
+@pytest.mark.parametrize("spread", [0.02, 0.4, 3.0])
+def test_no_neighbour_of_a_fit_is_more_likely(spread: float) -> None:
+    """Many samples at once, of weights of their own: counts, capacities up to a ceiling, and a logistic curve."""
+    generator = np.random.default_rng(3)
+    log = spread * generator.normal(size=25)
+    total, weight = (generator.integers(*bounds, (8, 25)).astype(float) for bounds in ((5, 12), (0, 4)))
+    hits = generator.binomial(total.astype(int), norm.cdf(log / (0.7 * spread))).astype(float)
+    seen, occurred = log < 0.5 * spread, generator.random(25) < expit(log / (0.3 * spread))
+    capacity = np.minimum(log, 0.5 * spread)
+
+    def of_counts(row: int, centre: float, width: float) -> float:
+        z = (log - centre) / width
+        return float(hits[row] @ norm.logcdf(z) + (total[row] - hits[row]) @ norm.logsf(z))
+
+    def of_capacities(row: int, centre: float, width: float) -> float:
+        whole, above = norm.logpdf(capacity, centre, width), norm.logsf(capacity, centre, width)
+        return float(weight[row] @ np.where(seen, whole, above))
+
+    def of_events(row: int, centre: float, width: float) -> float:
+        return float(weight[row] @ log_expit(np.where(occurred, 1.0, -1.0) * (log - centre) / width))
+
+    counted, capped = probit_fits(np.exp(log), hits, total), capacity_fits(np.exp(capacity), seen, weight)
+    happened = logistic_fits(log, occurred, weight)
+    for likelihood, centres, fits in (
+        (of_counts, np.log(counted.median), counted),
+        (of_capacities, np.log(capped.median), capped),
+        (of_events, happened.median, happened),
+    ):
+        assert (fits.kind == FITTED).all()
+        for row, (centre, width) in enumerate(zip(centres, fits.dispersion, strict=True)):
+            step = 1e-4 * width
+            most = likelihood(row, centre, width)
+            for along, across in ((step, 0.0), (-step, 0.0), (0.0, step), (0.0, -step)):
+                assert likelihood(row, centre + along, width + across) < most
+
+
+def test_a_cloud_of_weights_is_the_line_of_its_runs_repeated() -> None:
+    """A run of weight 3 stands for three, and one of weight 0 for none; lines by numpy.polyfit."""
+    generator = np.random.default_rng(9)
+    x, falls = np.exp(generator.normal(-0.5, 0.7, 30)), np.zeros(30, dtype=bool)
+    y = 0.03 * x**1.2 * np.exp(0.35 * generator.normal(size=30))
+    weight = generator.integers(0, 4, (6, 30))
+    curves, kind = cloud_fits(x, y, falls, 0.02, weight.astype(float))
+    assert (kind == FITTED).all()
+    for row, times in zip(curves, weight, strict=True):
+        log, demand = np.log(x).repeat(times), np.log(y).repeat(times)
+        slope, intercept = np.polyfit(log, demand, 1)
+        scatter = np.sqrt(np.sum((demand - intercept - slope * log) ** 2) / (times.sum() - 2))
+        assert row[0] == pytest.approx(np.exp((np.log(0.02) - intercept) / slope), rel=1e-9)
+        assert row[1] == pytest.approx(scatter / slope, rel=1e-9)

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import math
 import sys
+from itertools import permutations
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -27,6 +29,7 @@ from seismass.motions.pulses import (
     shahi_baker2014,
 )
 from seismass.motions.pulses.extraction import scale_range
+from seismass.motions.pulses.result import OrientationScan
 from seismass.motions.records import Pair
 
 DT, SAMPLES = 0.01, 6000
@@ -346,6 +349,16 @@ def test_orientations_are_single_components() -> None:
     assert 0 < scan.pulses < 12
     assert scan.strongest.is_pulse
     assert f"pulse-like in {scan.pulses} of 12" in scan.text
+
+
+@pytest.mark.parametrize("order", list(permutations(range(4)))[::5])
+@pytest.mark.parametrize("pulses", [True, False])
+def test_the_strongest_orientation_is_that_of_the_largest_indicator(order: tuple[int, ...], pulses: bool) -> None:
+    """Among pulses where there are some, though another has a larger one; of equal ones that of the larger PGV."""
+    listed = [(pulses, 0.91, 0.3), (pulses, 0.93, 0.2), (pulses, 0.93, 0.5), (False, 0.99 if pulses else 0.89, 0.9)]
+    results = [SimpleNamespace(is_pulse=pulse, indicator=value, pgv=pgv) for pulse, value, pgv in listed]
+    scan = OrientationScan(("a", "b"), tuple(results[place] for place in order), np.arange(4.0), ())  # type: ignore[arg-type]
+    assert scan.strongest is results[2]
 
 
 def test_tables_and_text_are_the_result() -> None:

@@ -250,5 +250,5 @@ def _buildings(table: Table) -> list[tuple[int, str]]:
     rows: list[Any] = table.values["buildings"]
     for row in rows:
         if not (isinstance(row, list) and len(row) == 2 and isinstance(row[0], int) and 1 <= row[0] <= MOST_STOREYS):
-            table.refuse("buildings", 'a list of [storeys, "system"]', str(row))
+            table.refuse("buildings", f'a list of [storeys, "system"], at most {MOST_STOREYS} storeys', str(row))
     return [(row[0], str(row[1])) for row in rows]
