@@ -108,3 +108,30 @@ def test_goods_of_a_floor_are_drawn_on_it_beside_each_other(count: int) -> None:
     across, along = (len(np.unique(centres[:, axis].round(9))) for axis in (0, 1))
     assert (across - 1) ** 2 < count <= across**2
     assert (along - 1) * across < count <= along * across
+
+
+def test_histories_stand_in_their_panels() -> None:
+    """Below the scenes, each in 84 pixels, the axis of time in the last 26: curves from zero to the largest length."""
+    scene = sm.Scene(BUILDING, [sm.Block(1, mass=90.0, mu=0.1)] * 5, other_direction=True)
+    animation = sm.animation.animate_plane(scene, PAIR)  # type: ignore[arg-type]
+    picture, lines, words = PlanePicture(animation), [], {}
+    assert picture.size == (720, 330 + 2 * 84 + 26)
+    picture._line = lambda draw, points, colour, width: lines.append(np.array(points))  # type: ignore[method-assign]
+    picture._text = lambda draw, place, text, *style: words.setdefault(text, []).append(place)  # type: ignore[method-assign]
+    picture._histories()
+    run = animation.response
+    curves = [line for line in lines if len(line) == animation.rows]
+    assert (len(curves), len(lines)) == (2 + 4, 2 + 4 + 2 * 2)  # four of five blocks, and two lines across each panel
+    for place, (values, title) in enumerate(((run.drift, "length of drift (mm)"), (run.slip, "length of slip (mm)"))):
+        top, low = 330 + 84 * place + 18, 330 + 84 * (place + 1) - 6
+        lengths = np.hypot(values[..., 0], values[..., 1])[: animation.rows, :4]
+        zero, highest = [line for line in lines if len(line) == 2][2 * place : 2 * place + 2]
+        assert (zero[:, 1].tolist(), highest[:, 1].tolist()) == ([low] * 2, [top] * 2)
+        assert words[title] == [(52, top - 14)]
+        assert (46, top) in words[f"{1e3 * lengths.max():.3g}"]
+        for number, curve in enumerate(curves[2 * place :][: lengths.shape[1]]):
+            np.testing.assert_allclose(curve[:, 0], np.linspace(52, 708, animation.rows), rtol=1e-12)
+            np.testing.assert_allclose(low - curve[:, 1], (low - top) * lengths[:, number] / lengths.max(), atol=1e-9)
+    assert words["0"][:2] == [(46, 330 + 84 - 6), (46, 330 + 168 - 6)]
+    assert [words[f"block {number}"] for number in (1, 2, 3, 4)] == [[(190 + 80 * n, 418)] for n in range(4)]
+    assert "block 5" not in words

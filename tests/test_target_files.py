@@ -219,6 +219,22 @@ def test_answers_of_the_usgs_services(tmp_path: Path) -> None:
         read(tmp_path, "{1")
 
 
+def test_rows_of_several_motions_are_spectra_of_their_own(tmp_path: Path) -> None:
+    """By motion, record and damping, in any order of columns; the units of what is printed are those of its heads."""
+    keys = [("1", "hall", "0.02", 1.0), ("1", "hall", "0.05", 0.7), ("2", "roof", "0.05", 0.4)]
+    for order in ([0, 1, 2, 3, 4], [3, 4, 0, 1, 2], [0, 3, 1, 4, 2]):
+        rows = [["motion", "record", "damping", "period", "psa (m/s2)"]]
+        for period, sa in zip(PERIODS, SA_G, strict=True):
+            rows += [[*key, f"{period}", f"{share * sa * STANDARD_GRAVITY:.9g}"] for *key, share in keys]
+        text = "\n".join(",".join(row[place] for place in order) for row in rows)
+        with pytest.raises(RecordFormatError, match=r"got hall, 2 %, hall, 5 %, roof, 5 %"):
+            read(tmp_path, text)
+        for _, record, damping, share in keys:
+            assert is_right(read(tmp_path, text, f":{record}, {100.0 * float(damping):g} %"), share)
+        alone = "\n".join(line for line in text.splitlines() if "roof" in line or "record" in line)
+        assert is_right(read(tmp_path, alone), 0.4)
+
+
 def test_search_results_of_peer(tmp_path: Path) -> None:
     head = "PEER Ground Motion Database\n\n -- Summary of Metadata of Selected Records --\n"
     head += "Result ID, Spectral Ordinate, Tp-Pulse Period (sec), Magnitude\n1, SRSS, -, 6.7\n\n"
