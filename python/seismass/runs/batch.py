@@ -316,8 +316,8 @@ def _stretch(runs: Any, total: int) -> range:
     if runs is None:
         return range(total)
     limits = f"a range of numbers of runs, from 1 to {total}, without steps"
-    outside = isinstance(runs, range) and len(runs) > 0 and not (runs[0] >= 1 and runs[-1] <= total)
-    if not isinstance(runs, range) or (len(runs) > 1 and runs.step != 1) or outside:
+    is_stretch = isinstance(runs, range) and (len(runs) < 2 or runs.step == 1)
+    if not is_stretch or (len(runs) and not 1 <= runs[0] <= runs[-1] <= total):
         raise refusal(InvalidOption, "runs", "batch", limits, brief(runs))
     return range(runs[0] - 1, runs[-1]) if len(runs) else range(0)
 

@@ -90,9 +90,9 @@ def rack_columns(table: pl.DataFrame, batch: _kernel.Batch, racks: _kernel.RackC
         of_bases = {name: np.full(len(batch.status), np.nan) for name in OF_BASES}
     else:
         levels = racks.levels
-        of_levels, of_contacts, of_bases = (
-            {name: getattr(racks, name) for name in names} for names in (OF_LEVELS, OF_CONTACTS, OF_BASES)
-        )
+        of_levels = {name: getattr(racks, name) for name in OF_LEVELS}
+        of_contacts = {name: getattr(racks, name) for name in OF_CONTACTS}
+        of_bases = {name: getattr(racks, name) for name in OF_BASES}
         shear = pl.Series(racks.peak_base_shear).fill_nan(None)
         table = table.with_columns(peak_base_shear=pl.when(pl.col("status") != "failed").then(shear))
     columns = {**_lists(of_levels, levels, failed), **_lists(of_contacts, batch.blocks, failed)}

@@ -41,9 +41,8 @@ def draws_of(cluster_of: NDArray[np.int64], options: Bootstrap, number: int = 0)
 
 def of_capacities(capacity: FloatArray, exceeded: NDArray[np.bool_], draws: Draws) -> Fragility:
     """Return the fragility of capacities, or of the intensities up to which motions did not exceed the limit."""
-    fits, drawn = (
-        capacity_fits(capacity, exceeded, weights) for weights in (np.ones((1, len(capacity))), draws.weights)
-    )
+    fits = capacity_fits(capacity, exceeded, np.ones((1, len(capacity))))
+    drawn = capacity_fits(capacity, exceeded, draws.weights)
     number, above = len(capacity), int(exceeded.sum())
     return _of_fits(fits, drawn, "capacities", draws.confidence, number, above, capacity)
 

@@ -155,12 +155,9 @@ class RiskSearch:
         self, capacities: FloatArray, hazard: HazardCurve | None = None, estimator: Estimator | None = None
     ) -> RateCurve:
         """Return rates by share for capacities, and where given for another hazard curve or estimator."""
-        whole, drawn = (
-            rate_parts(capacities, hazard or self.hazard, estimator or self.options.estimator, weights).total(
-                self.options.extrapolate
-            )
-            for weights in (np.ones((1, capacities.shape[1])), self.weights)
-        )
+        curve, how = hazard or self.hazard, estimator or self.options.estimator
+        parts = [rate_parts(capacities, curve, how, each) for each in (np.ones((1, capacities.shape[1])), self.weights)]
+        whole, drawn = (part.total(self.options.extrapolate) for part in parts)
         return RateCurve(self.grid, float(whole[0, 0]), whole[0, 1:], drawn[:, 0], drawn[:, 1:])
 
     def answer(self) -> FoundShare:
