@@ -93,7 +93,7 @@ def fractions_table(fractions: pl.DataFrame) -> Markup:
     """Return base shear, eta, the rule by hand and the effective fraction of every building."""
     return described_html(
         "study: fractions",
-        without_one_friction(fractions),
+        without_one_friction(fractions).select(pl.exclude("kind"), "kind"),  # beside the fraction its interval
         f"Every building: mean peak base shear V of the runs with all attached over the weight W of all, {ETA} = {MU} "
         f"W/V, and the rule by hand, {lettered(RULE_IN_WORDS)}"
         + (", and the effective fraction with its interval." if fractions["effective"].count() else "."),
