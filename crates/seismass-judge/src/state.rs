@@ -36,6 +36,19 @@ pub(crate) struct BlockState<R> {
 }
 
 impl<R: Real> BlockState<R> {
+    /// Whether it slides without friction: its direction then changes no force, and it sticks no more.
+    pub(crate) fn slides_freely(&self) -> bool {
+        self.mu_s == R::zero() && matches!(self.contact, Contact::Sliding(_))
+    }
+
+    /// Slides the other way from rest; returns the sign, and whether it has moved at any time.
+    pub(crate) fn turn_back(&mut self) -> (Sign, bool) {
+        let sign = if self.contact == Contact::Sliding(Sign::Positive) { Sign::Negative } else { Sign::Positive };
+        let had_moved = self.moved || self.slip != R::zero();
+        (self.velocity, self.moved, self.contact) = (R::zero(), false, Contact::Sliding(sign));
+        (sign, had_moved)
+    }
+
     /// Sign of the relative velocity, 0 for none, as in event logs.
     pub(crate) fn velocity_sign(&self) -> i8 {
         if self.velocity == R::zero() { 0 } else { Sign::of(self.velocity).as_i8() }

@@ -184,6 +184,55 @@ fn a_base_that_never_slides_is_the_ground() {
     }
 }
 
+/// A slab without friction, and goods without friction on it and on a light storey, far below goods that are thrown: what
+/// moves them at t = 0 begins with a high power of time, and every force is zero at first. They break away once and never
+/// stick again, and those on the slab stay where they are in space, whatever the mass of each.
+#[test]
+fn nothing_without_friction_sticks_again() {
+    let motion = Motion::new(&waves().acceleration()[..300], 0.01, None).unwrap();
+    let (mut ground, mut velocity, mut largest) = (0.0, 0.0, 0.0);
+    for pair in motion.acceleration().windows(2) {
+        ground += motion.dt() * velocity + motion.dt().powi(2) * (2.0 * pair[0] + pair[1]) / 6.0;
+        velocity += 0.5 * motion.dt() * (pair[0] + pair[1]);
+        largest = larger(largest, f64::abs(ground));
+    }
+    let mut turns = 0;
+    for seed in 0..200u64 {
+        let of = |salt: u64, from: f64, to: f64| {
+            let bits =
+                (seed + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(salt).wrapping_mul(0xd134_2543_de82_ef95);
+            from * (to / from).powf((bits >> 11) as f64 / (1u64 << 53) as f64)
+        };
+        let storeys = 1 + (seed % 4) as usize;
+        let springs = (0..storeys).map(|i| Storey::elastic(of(i as u64, 1e4, 1e7))).collect();
+        let damping = Damping::Modal { ratio: 0.02 * (seed % 3) as f64 };
+        let masses = vec![of(9, 10.0, 1000.0); storeys];
+        let building = GeneralBuilding::new(masses, springs, None, &damping, GravityEffect::None).unwrap();
+        let thrown = Block { velocity: Some(-0.1), ..Block::new(storeys, of(10, 10.0, 1000.0), 0.05) };
+        let mut goods = vec![Block::new(0, of(11, 10.0, 1e4), 0.0).into(), thrown.into()];
+        goods.extend((0..seed % 3).map(|i| Block::new(1 + i as usize % storeys, of(12 + i, 1.0, 1e4), 0.0).into()));
+        let mu_s = if seed % 5 == 0 { 0.02 } else { 0.0 };
+        let base = SlidingBase { mass: of(20, 30.0, 3000.0), mu_s, mu_k: mu_s, radius: f64::INFINITY };
+        let scene = GeneralScene::on_base(Some(Arc::new(building)), goods, Vec::new(), Some(base)).unwrap();
+        let response = solve(&scene, &motion);
+        let of_number = |number: usize, kind: EventKind| {
+            let events = response.events.as_ref().unwrap().iter().map(|entry| entry.event);
+            events.filter(|event| event.number == number && event.kind == kind).count()
+        };
+        for (j, goods) in scene.goods().iter().enumerate().filter(|(_, goods)| goods.block.mu_s == 0.0) {
+            assert_eq!(of_number(j + 1, EventKind::Slip), 1, "seed {seed}, block {j} on {}", goods.block.floor);
+            assert_eq!(of_number(j + 1, EventKind::Stick), 0, "seed {seed}, block {j}");
+            turns += of_number(j + 1, EventKind::Reverse);
+        }
+        if mu_s == 0.0 {
+            assert_eq!((of_number(0, EventKind::Slip), of_number(0, EventKind::Stick)), (1, 0), "seed {seed}");
+        }
+        let in_space = ground + response.base.as_ref().unwrap().residual_slip + response.residual_slip[0];
+        assert!(in_space.abs() < 1e-12 * largest, "seed {seed}: {in_space:e}");
+    }
+    assert!(turns > 500, "{turns}");
+}
+
 /// A random scene on a base: flat or a pendulum, weak or strong.
 fn random_on_base(seed: u64) -> (GeneralScene, Motion) {
     let (scene, motion) = random_general(seed);

@@ -1,6 +1,6 @@
 //! What follows from a guard that has fallen (`numerics`, sections 2, 5 and 9.3).
 
-use seismass::EventKind;
+use seismass::{Event, EventKind, GeneralEvent};
 
 use super::arrangement::Machines;
 use super::base::contact_after;
@@ -33,14 +33,19 @@ impl<R: Real> Machines<'_, R> {
                 self.settle(self.model.goods[block].node, tau, Cause::Breakaway(block, sign));
             }
             Guard::Arrival { block } => {
-                self.arrive_together(block, series, tau);
-                self.settle(self.model.goods[block].node, tau, Cause::Arrival);
+                if self.arrive_together(block, series, tau) {
+                    self.settle(self.model.goods[block].node, tau, Cause::Arrival);
+                }
             }
             Guard::BaseBreakaway { sign } => self.settle(None, tau, Cause::Base(sign)),
             Guard::BaseArrival => {
-                if let Some(base) = &mut self.state.base {
-                    (base.velocity, base.moved) = (R::zero(), true);
+                let Some(base) = &mut self.state.base else { return };
+                if base.slides_freely() {
+                    let turned = base.turn_back();
+                    self.note_turn(0, tau, turned);
+                    return;
                 }
+                (base.velocity, base.moved) = (R::zero(), true);
                 self.settle(None, tau, Cause::Arrival);
             }
             Guard::Wear { block } => self.wear(block, tau),
@@ -111,13 +116,29 @@ impl<R: Real> Machines<'_, R> {
         self.settle(node, tau, Cause::Wear(block));
     }
 
-    /// Sets the relative velocity to exactly zero: of `block`, and of all on its node that arrive at this instant.
-    fn arrive_together(&mut self, block: usize, series: &Series<R>, tau: R) {
+    /// What slides without friction has turned to this sign. If it has never moved, its release was in this direction.
+    fn note_turn(&mut self, number: usize, tau: R, (sign, had_moved): (Sign, bool)) {
+        let (time, sign) = ((self.start + tau).to_f64(), sign.as_i8());
+        if had_moved {
+            let event = Event { time, kind: EventKind::Reverse, number, sign, element: 0 };
+            self.log.push(GeneralEvent { event, velocity: 0.0 });
+            return;
+        }
+        let mut events = self.log.iter_mut().rev().map(|entry| &mut entry.event);
+        if let Some(release) = events.find(|event| event.number == number && event.kind == EventKind::Slip) {
+            release.sign = sign;
+        }
+    }
+
+    /// Sets the relative velocity to exactly zero: of `block`, and of all on its node that arrive at this instant. Those
+    /// without friction turn. Whether another is among them, so that the node has to decide.
+    fn arrive_together(&mut self, block: usize, series: &Series<R>, tau: R) -> bool {
         let node = self.model.goods[block].node;
         let size = self.state.acceleration(self.model, node, &self.drive, tau, Terms::Sizes);
         let BlockState { velocity, mu_k, .. } = self.state.blocks[block];
         let on_stop = |state: &State<R>, j: usize| state.push(self.model, j) / self.model.goods[j].mass;
         let pushed = on_stop(self.state, block);
+        let mut decides = false;
         for j in self.on_node(node) {
             let Contact::Sliding(sign) = self.state.blocks[j].contact else { continue };
             let own = on_stop(self.state, j);
@@ -128,11 +149,19 @@ impl<R: Real> Machines<'_, R> {
             let moves_alike =
                 self.state.blocks[j].mu_k == mu_k && self.state.blocks[j].velocity == velocity && own == pushed;
             let state = &mut self.state.blocks[j];
-            if j == block || state.moved && (moves_alike || approaching && state.velocity.abs() <= rounding) {
+            if !(j == block || state.moved && (moves_alike || approaching && state.velocity.abs() <= rounding)) {
+                continue;
+            }
+            if state.slides_freely() {
+                let turned = state.turn_back();
+                self.note_turn(j + 1, tau, turned);
+            } else {
                 state.velocity = R::zero();
                 state.moved = true;
+                decides = true;
             }
         }
+        decides
     }
 
     /// All blocks leave the ground and the nodes, or come back.

@@ -85,7 +85,7 @@ impl<R: Real> Machines<'_, R> {
         still.retain(|&j| {
             let block = &self.state.blocks[j];
             let goes_on = cause.follows() && !block.moved && matches!(block.contact, Contact::Sliding(_));
-            block.velocity == R::zero() && !goes_on && cause != Cause::Wear(j)
+            block.velocity == R::zero() && !goes_on && !block.slides_freely() && cause != Cause::Wear(j)
         });
         still
     }

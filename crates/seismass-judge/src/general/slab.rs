@@ -122,7 +122,7 @@ impl<R: Real> Machines<'_, R> {
     pub(super) fn base_decides(&self, follows: bool) -> bool {
         self.state.base.is_some_and(|base| {
             let goes_on = follows && !base.moved && base.contact != Contact::Stuck;
-            base.velocity == R::zero() && base.contact != Contact::Airborne && !goes_on
+            base.velocity == R::zero() && base.contact != Contact::Airborne && !goes_on && !base.slides_freely()
         })
     }
 

@@ -54,7 +54,8 @@ impl GeneralState<'_> {
     pub(super) fn base_decides(&self, cause: SettleCause) -> bool {
         let follows = cause != SettleCause::Other;
         self.base.is_some_and(|motion| {
-            motion.velocity == 0.0 && motion.state != BlockState::Airborne && (motion.is_stuck() || !follows)
+            let may_stick = !follows && !motion.is_frictionless();
+            motion.velocity == 0.0 && motion.state != BlockState::Airborne && (motion.is_stuck() || may_stick)
         })
     }
 

@@ -1,6 +1,8 @@
 //! The decision of a node whose blocks press on their stops (`numerics`, section 9.3). Where none of those that decide does,
 //! the decision is that of [`settle`](crate::machines::settle::settle).
 
+use std::borrow::Cow;
+
 use crate::general::state::GeneralState;
 use crate::machines::block::BlockState;
 use crate::machines::settle::{SettleCause, Transition, settle};
@@ -166,7 +168,8 @@ impl GeneralState<'_> {
         let follows = cause != SettleCause::Other;
         let decides = |j: &usize| {
             let motion = &self.motions[*j];
-            motion.velocity == 0.0 && motion.state != BlockState::Airborne && (motion.is_stuck() || !follows)
+            let may_stick = !follows && !motion.is_frictionless();
+            motion.velocity == 0.0 && motion.state != BlockState::Airborne && (motion.is_stuck() || may_stick)
         };
         self.system.on_node[node].iter().copied().filter(decides).collect()
     }
@@ -179,8 +182,11 @@ impl GeneralState<'_> {
             self.decide_at_stops(node, tau, cause, &blocks, &mut transitions)
         } else {
             let (demand, contact) = (self.demand(node, tau), self.contact_at(tau));
-            let on_node = &self.system.on_node[node];
-            settle(demand, &self.system.blocks, &mut self.motions, on_node, contact, cause, &mut transitions);
+            let mut on_node = Cow::from(&self.system.on_node[node]);
+            if on_node.iter().any(|&j| self.motions[j].is_frictionless()) {
+                on_node.to_mut().retain(|&j| !self.motions[j].is_frictionless());
+            }
+            settle(demand, &self.system.blocks, &mut self.motions, &on_node, contact, cause, &mut transitions);
             true
         };
         self.log_transitions(tau, &transitions, log);

@@ -61,16 +61,11 @@ impl Happening<'_, '_> {
                 outcome = self.decide(self.state.system.blocks[block].floor, SettleCause::Breakaway(block, sign));
             }
             Guard::BaseBreakaway { sign } => outcome = self.release_base(sign),
-            Guard::BaseArrival => {
-                self.state.v[0] = 0.0;
-                if let Some(base) = &mut self.state.base {
-                    base.velocity = 0.0;
-                }
-                outcome = self.decide(0, SettleCause::Other);
-            }
+            Guard::BaseArrival => outcome = self.base_arrives(),
             Guard::Arrival { block } => {
-                self.arrive_with(block);
-                outcome = self.decide(self.state.system.blocks[block].floor, SettleCause::Other);
+                if self.arrive_with(block) {
+                    outcome = self.decide(self.state.system.blocks[block].floor, SettleCause::Other);
+                }
             }
             Guard::Wear { block } => {
                 self.wear_with(block);
@@ -118,14 +113,42 @@ impl Happening<'_, '_> {
         self.note_decision(0, is_found, events)
     }
 
+    /// Brings the base to rest.
+    fn base_arrives(&mut self) -> Outcome {
+        self.state.v[0] = 0.0;
+        let Some(base) = &mut self.state.base else { return Outcome::Continue };
+        if base.is_frictionless() {
+            let turned = base.turn();
+            self.note_turn(0, turned);
+            return Outcome::Continue;
+        }
+        base.velocity = 0.0;
+        self.decide(0, SettleCause::Other)
+    }
+
+    /// Logs that what slides without friction has turned, to this sign. What has not moved yet broke away at this very
+    /// instant: it did so with this sign, and has not slid the other way.
+    fn note_turn(&mut self, number: usize, (sign, has_moved): (Sign, bool)) {
+        let event = Event { time: self.time(), kind: EventKind::Reverse, number, sign: sign.as_i8(), element: 0 };
+        if has_moved {
+            self.log.push(GeneralEvent { event, velocity: 0.0 });
+            return;
+        }
+        let slips = |entry: &&mut GeneralEvent| entry.event.number == number && entry.event.kind == EventKind::Slip;
+        if let Some(entry) = self.log.iter_mut().rev().find(slips) {
+            entry.event.sign = event.sign;
+        }
+    }
+
     /// Brings a block to rest, and those on its node that arrive at the same instant: within rounding, or because they have
-    /// moved as it does.
-    fn arrive_with(&mut self, block: usize) {
+    /// moved as it does. True if one of them has friction. The others turn, which changes no force.
+    fn arrive_with(&mut self, block: usize) -> bool {
         let state = &mut *self.state;
         let (arriving, is_free) = (state.motions[block], state.stops[block].touching().is_none());
         let node = state.system.blocks[block].floor;
         let contact = state.contact_at(self.tau);
         let a = state.accelerations(self.tau)[node];
+        let (mut turned, mut decides) = (Vec::new(), false);
         for &j in &state.system.on_node[node] {
             let BlockMotion { state: motion, velocity, mu_k: friction, .. } = state.motions[j];
             let BlockState::Sliding(sign) = motion else { continue };
@@ -138,10 +161,18 @@ impl Happening<'_, '_> {
             let slowing = sign.factor() * (a - drive) + friction * contact;
             let size = a.abs() + drive.abs() + friction * contact.max(STANDARD_GRAVITY);
             let arrives = slowing >= -ARRIVED * size && velocity.abs() <= ARRIVED * size * state.interval.h;
-            if j == block || alike || velocity != 0.0 && arrives {
+            if !(j == block || alike || velocity != 0.0 && arrives) {
+                continue;
+            }
+            if state.motions[j].is_frictionless() {
+                turned.push((j + 1, state.motions[j].turn()));
+            } else {
                 state.motions[j].velocity = 0.0;
+                decides = true;
             }
         }
+        turned.into_iter().for_each(|(number, turned)| self.note_turn(number, turned));
+        decides
     }
 
     /// Changes the friction coefficients of a block, and of those on its node that come to a change at the same instant,

@@ -70,6 +70,20 @@ impl BlockMotion {
         self.state == BlockState::Stuck
     }
 
+    /// Whether the block slides without friction, in whichever direction: it takes part in no decision.
+    pub(crate) fn is_frictionless(&self) -> bool {
+        self.mu_s == 0.0 && self.sliding().is_some()
+    }
+
+    /// Turns what slides without friction and has come to rest; returns the new sign, and whether it has ever moved.
+    pub(crate) fn turn(&mut self) -> (Sign, bool) {
+        let has_moved = self.velocity != 0.0 || self.slip != 0.0;
+        let sign = self.sliding().map_or(Sign::Positive, Sign::opposite);
+        self.end_stretch();
+        (self.velocity, self.state) = (0.0, BlockState::Sliding(sign));
+        (sign, has_moved)
+    }
+
     /// Sign of the relative velocity while sliding.
     #[inline]
     pub(crate) fn sliding(&self) -> Option<Sign> {
