@@ -20,6 +20,7 @@ from seismass.assessment.models import with_mass
 from seismass.assessment.structure import force_ratios
 from seismass.cli import main
 from seismass.media.result import stored_tables
+from seismass.runs.batch import solve_engine
 from seismass.show.assessment.page import building_page
 
 TWO_STOREYS = Path(__file__).with_name("data") / "two_storeys.json"
@@ -706,3 +707,35 @@ def test_command_takes_recordings(shared: Path, tmp_path: Path, capsys: pytest.C
     assert document["suite"]["synthetic"] == 0
     assert not any("synthetic" in remark for remark in document["remarks"])
     assert 0.0 < document["effective"]["real"]["value"] < document["answer"]["advised_share_of_goods_present"] <= 1.0
+
+
+@pytest.mark.parametrize("kind", ["racks", "base", "two directions"])
+def test_what_takes_long_is_solved_once(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No scene with goods that slide is solved twice under a motion, but those that say how many digits stand."""
+    extra: dict[str, dict[str, Any]] = {
+        "racks": {"goods": {"on_racks": {"period_s": 0.8}}},
+        "base": {"base": {"mu": 0.05}},
+        "two directions": {"other_direction": {"period_s": 0.5}},
+    }
+    stated = tables(**extra[kind])
+    motions = list(sm.records.builtin_pairs() if kind == "two directions" else sm.builtin_suite("seven"))[:3]
+    seen: list[tuple[sm.Scene, int]] = []
+
+    def noted(scenes: Any, motions: Any, rows: Any, **how: Any) -> Any:
+        seen.extend((scenes[scene], motion) for scene, motion in rows.tolist() if scenes[scene].goods)
+        return solve_engine(scenes, motions, rows, **how)
+
+    for module in ("runs.batch", "runs.peaks"):
+        monkeypatch.setattr(f"seismass.{module}.solve_engine", noted)
+    calls: list[tuple[int, int]] = []
+    result = sm.assess(stated, motions, resamples=20, progress=lambda done, total: calls.append((done, total)))
+    assert len(seen) >= 3 * len(motions)  # at three frictions
+    assert not [one for place, one in enumerate(seen) if one in seen[:place]]
+    assert calls[-1][0] == calls[-1][1]
+    monkeypatch.undo()
+    scene = sm.read_building(stated).scene()
+    factors = [1.0] * len(motions) if result.scaling is None else result.scaling.factors
+    peaks = sm.simulate_many(scene, [motion.scaled(float(f)) for motion, f in zip(motions, factors, strict=True)])
+    real = result.runs.filter(model="real", storey=1)
+    assert real["peak_floor_acceleration"].to_list() == [row[0] for row in peaks["peak_floor_acceleration"]]
+    assert real["residual_drift"].to_list() == [row[0] for row in peaks["residual_drift"]]

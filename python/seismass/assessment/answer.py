@@ -36,6 +36,7 @@ from seismass.effective_mass.answer import Designed, solved_designs, solved_fric
 from seismass.effective_mass.models import DEFAULT_FRACTIONS, SAME_DAMPING
 from seismass.effective_mass.search import OWNER, checked_options
 from seismass.motions.spectra import TargetSpectrum
+from seismass.runs.batch import EngineRuns
 from seismass.runs.peaks import named_motions
 
 ROUNDING_STEP: Final = 0.01
@@ -477,8 +478,9 @@ def fractions_by_friction(
     bootstrap: dict[str, Any],
     threads: int | None,
     progress: ProgressLike,
+    keep: list[EngineRuns] | None = None,
 ) -> dict[str, EffectiveMass]:
-    """Return the effective fraction at each friction, a factor for each model; the attached models are the same."""
+    """Return the effective fraction at each friction, by model; whole runs of goods that slide are added to `keep`."""
     if not frictions:
         return {}
     scenes = [building.scene(target, mu_factor=factor) for factor in frictions.values()]
@@ -487,7 +489,7 @@ def fractions_by_friction(
     level = None if target is None else building.motion_target(target)  # of the rule by hand
     options = checked_options(*values, drift_cap=building.drift_cap, target=level)
     named = named_motions(motions, OWNER, scenes[0])
-    solved = solved_frictions(scenes, named, options)
+    solved = solved_frictions(scenes, named, options, keep)
     return {name: one.answer() for name, one in zip(frictions, solved, strict=True)}
 
 

@@ -27,7 +27,7 @@ from seismass.model.codes import NOT_CHECKED, VERIFIED
 from seismass.model.scene import Scene
 from seismass.motions.motion import MotionLike
 from seismass.motions.spectra import TargetSpectrum
-from seismass.runs.batch import solve_many
+from seismass.runs.batch import EngineRuns, solve_many
 from seismass.runs.peaks import named_motions, solve
 from seismass.runs.plane import MotionPair
 
@@ -104,11 +104,12 @@ def solve_models(
     *,
     threads: int | None = None,
     progress: ProgressLike = None,
+    known: EngineRuns | None = None,
 ) -> tuple[pl.DataFrame, pl.DataFrame]:
-    """Solve all models under all motions. Return one row per model, motion and storey, and one per model with goods
-    that slide, motion and kind of loose goods. In two directions drift and shear are the larger of both.
+    """Solve all models, of which the first may be `known`, under all motions: a row per model, motion and storey, and
+    one per model with goods that slide, motion and kind. In two directions drift and shear are the larger of both.
     """
-    table = solve_many(list(scenes.values()), list(motions), threads=threads, progress=progress)
+    table = solve_many(list(scenes.values()), list(motions), threads=threads, progress=progress, known=known)
     runs, in_plane, factors = table.to_dicts(), "peak_drift_x" in table.columns, friction_factors(building.mu_factors)
     rows: list[dict[str, Any]] = []
     slides: list[dict[str, Any]] = []

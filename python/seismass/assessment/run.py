@@ -61,6 +61,7 @@ from seismass.model.friction import bound_factors
 from seismass.motions.motion import motion_names, scaled_motions
 from seismass.motions.records import Pair, Pairs, Record, Suite, builtin_pairs, builtin_suite
 from seismass.motions.spectra import TargetSpectrum
+from seismass.runs.batch import EngineRuns
 from seismass.runs.peak_digits import chaos_remarks
 from seismass.runs.peaks import named_motions
 
@@ -163,9 +164,9 @@ def assess(
     runs_of_motion = models + fractions + larger + designs + (len(others) + len(models_of_tipping)) * of_amount
     stages = Progress(progress, runs_of_motion * len(suite), "assessment")
     bootstrap = {"confidence": confidence, "resamples": resamples, "seed": seed}
-    effective = fractions_by_friction(
-        stated, spectrum, frictions, scaled, bootstrap, threads, stages.part((fractions + larger) * len(suite))
-    )
+    whole_runs: list[EngineRuns] = []
+    tell = stages.part((fractions + larger) * len(suite))
+    effective = fractions_by_friction(stated, spectrum, frictions, scaled, bootstrap, threads, tell, whole_runs)
     advised = advised_share(effective)
     design = None
     if designs and advised is not None:
@@ -195,9 +196,8 @@ def assess(
     names = motion_names(suite)
     components = [record for motion in scaled for record in (tuple(motion) if in_plane else (motion,))]
     horizontal = [record for motion in scaled for record in (tuple(motion)[:2] if in_plane else (motion,))]
-    runs, slips = solve_models(
-        stated, scenes, scaled, names, threads=threads, progress=stages.part(models * len(suite))
-    )
+    known, tell = whole_runs[0] if whole_runs else None, stages.part(models * len(suite))
+    runs, slips = solve_models(stated, scenes, scaled, names, threads=threads, progress=tell, known=known)
     sliding_scene = stated.scene(spectrum)
     drawn = named_motions(scaled, "assessment", sliding_scene)
     counts = bootstrap_counts(drawn.cluster_of, resamples, seed) if loaded and drawn.clusters > 1 else None

@@ -44,7 +44,7 @@ from seismass.model.rack import Rack
 from seismass.model.scene import Scene
 from seismass.motions.motion import MotionLike
 from seismass.motions.spectra import TargetSpectrum
-from seismass.runs.batch import MotionsLike
+from seismass.runs.batch import EngineRuns, MotionsLike
 from seismass.runs.grid.grid import Grid
 from seismass.runs.peaks import LARGER, DriftMeasure, NamedMotions, Peaks, named_motions, solve
 
@@ -66,9 +66,11 @@ class Solved:
         return self.search.answer(self.sliding, self.model, {"question": self.question})
 
 
-def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Options) -> list[Solved]:
+def solved_frictions(
+    scenes: Sequence[Scene], motions: NamedMotions, options: Options, keep: list[EngineRuns] | None = None
+) -> list[Solved]:
     """Solve a building with its goods at several frictions; its models, which have none, are solved once. The scenes
-    differ in friction alone and have goods on their floors.
+    differ in friction alone and have goods on their floors. Whole runs of theirs are added to `keep`.
     """
     checked = [check_any_load(scene) for scene in scenes]
     first, shares = checked[0], options.fractions
@@ -79,19 +81,17 @@ def solved_frictions(scenes: Sequence[Scene], motions: NamedMotions, options: Op
             raise refusal(InvalidScene, f"scene {number}", OWNER, requirement, "others")
     larger = SHARES_BEYOND if any(goes_beyond(scene) for scene in checked) else SHARES_BEYOND[:0]
     stages = Progress(options.progress, (len(checked) + len(shares) + len(larger)) * len(motions), OWNER)
-    sliding_models = solve(checked, motions, **how, progress=stages.part(len(checked) * len(motions)))
+    sliding_models = solve(checked, motions, **how, progress=stages.part(len(checked) * len(motions)), keep=keep)
     models = [attached(first, share, options.damping) for share in shares]
     model = solve(models, motions, **how, progress=stages.part(len(models) * len(motions)))
     above_one = None
     if len(larger):
         models = [attached(first, share, options.damping) for share in larger]
         above_one = solve(models, motions, **how, progress=stages.part(len(models) * len(motions)))
-    peaks_by_share: dict[float, Peaks] = {}
 
+    @cache
     def model_at(share: float) -> Peaks:
-        if share not in peaks_by_share:
-            peaks_by_share[share] = solve([attached(first, share, options.damping)], motions, **how)
-        return peaks_by_share[share]
+        return solve([attached(first, share, options.damping)], motions, **how)
 
     def of(number: int, scene: Scene) -> Solved:
         sliding = sliding_models.one(number)
@@ -139,13 +139,11 @@ def solved_designs(
     models = [attached(scene, share, options.damping) for scene, share in zip(scenes, shares, strict=True)]
     model = solve(models, motions, **how, progress=stages.part(runs))
 
+    @cache
     def at(share: float) -> tuple[Peaks, Peaks]:
         scene = designed(share)
-        both = (
-            solve([scene], motions, **how),
-            solve([attached(scene, share, options.damping)], motions, **how),
-        )
-        return both
+        model = attached(scene, share, options.damping)
+        return solve([scene], motions, **how), solve([model], motions, **how)
 
     return Solved(Search(motions, options, at, designed), sliding, model, "design rule")
 

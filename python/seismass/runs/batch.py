@@ -150,9 +150,10 @@ def solve_many(
     floor_force: bool = False,
     threads: int | None = None,
     progress: ProgressLike = None,
+    known: EngineRuns | None = None,
 ) -> pl.DataFrame:
-    """Return what `simulate_many` does without its warnings, for studies that say what is unlikely themselves."""
-    batch, options = _batch(scenes, motions, pairs), _options(peaks_only, floor_force, threads)
+    """Return what `simulate_many` does without its warnings. The first runs, all of one engine, may be `known`."""
+    batch, options = _batch(scenes, motions, pairs, known), _options(peaks_only, floor_force, threads)
     # Objects are there already, so that all runs may look for equal ones; those of a grid exist a chunk at a time.
     stretch = _one_table(_stretch(runs, batch.total))
     chunk = DEFAULT_CHUNK if isinstance(scenes, Grid) else max(len(stretch), 1)
@@ -353,7 +354,7 @@ def _in_any_plane(motions: list[Any]) -> list[Motion | PlaneMotion]:
     ]
 
 
-def _batch(scenes: Any, motions: Any, pairs: ArrayLike | None) -> _Batch:
+def _batch(scenes: Any, motions: Any, pairs: ArrayLike | None, known: EngineRuns | None = None) -> _Batch:
     require_polars("simulate")
     if isinstance(scenes, Grid):
         if pairs is not None:
@@ -365,14 +366,15 @@ def _batch(scenes: Any, motions: Any, pairs: ArrayLike | None) -> _Batch:
     else:
         listed, listed_motions = listed_scenes(scenes, "batch"), _listed_motions(motions)
         wanted = None if pairs is None else _pairs(pairs, len(listed), len(listed_motions))
-        batch = _SceneBatch(SceneRuns.of(listed, _in_any_plane(listed_motions), motion_names(listed_motions)), wanted)
+        scene_runs = SceneRuns.of(listed, _in_any_plane(listed_motions), motion_names(listed_motions))
+        batch = _SceneBatch(scene_runs, wanted, known)
         batch.check()
     if batch.total > MAX_RUNS:
         raise refusal(InvalidOption, "runs", "batch", f"at most {MAX_RUNS}", str(batch.total))
     return batch
 
 
-Solved: TypeAlias = list[tuple[_kernel.Batch, _kernel.RackColumns | None]]
+EngineRuns: TypeAlias = list[tuple[_kernel.Batch, _kernel.RackColumns | None]]
 
 
 def solve_engine(
@@ -384,7 +386,7 @@ def solve_engine(
     threads: int | None,
     progress: ProgressLike,
     floor_force: bool = False,
-) -> Solved:
+) -> EngineRuns:
     """What the kernel gives back of runs, rows of scene and motion, of scenes of one engine: one batch, or in two
     directions those of the vectors, of x and of y; each with columns of racks and bases, but that of the chain.
     """
@@ -449,20 +451,25 @@ class SceneRuns:
             )
             raise refusal(InvalidMotion, f"motion {motion + 1}", "batch", requirement, brief(self.motions[motion]))
 
-    def table(self, rows: IndexArray, *, progress: ProgressLike, **options: Any) -> pl.DataFrame:
-        """Return the table of runs, rows of scene and motion (runs, 2); other arguments as in `simulate_many`."""
+    def table(self, rows: IndexArray, *, progress: ProgressLike, known: EngineRuns | None, **how: Any) -> pl.DataFrame:
+        """Return the table of runs, rows of scene and motion, the first ones `known`; options as in `simulate_many`."""
         engine = np.array([scene.engine for scene in self.scenes], dtype=object)[rows[:, 0]]
         parts, numbers, whole = [], [], Progress(progress, len(rows), "batch")
+        if known is not None:
+            first = np.arange(len(known[0][0].status))
+            parts, numbers = [self._engine_table(engine[0], rows[first], known)], [first]
+            engine[first] = ""
+            whole.tell(len(first))
         for name in ("chain", "general", "plane"):
             of_engine = np.flatnonzero(engine == name)
             if len(of_engine) or (name == "chain" and not len(rows)):
                 tell = whole.part(len(of_engine))
-                solved = solve_engine(self.scenes, self.motions, rows[of_engine], **options, progress=tell)
+                solved = solve_engine(self.scenes, self.motions, rows[of_engine], **how, progress=tell)
                 parts.append(self._engine_table(name, rows[of_engine], solved))
                 numbers.append(of_engine)
         return parts[0] if len(parts) == 1 else pl.concat(parts)[np.argsort(np.concatenate(numbers))]
 
-    def _engine_table(self, engine: str, rows: IndexArray, solved: Solved) -> pl.DataFrame:
+    def _engine_table(self, engine: str, rows: IndexArray, solved: EngineRuns) -> pl.DataFrame:
         """The table of the runs of one engine, with the columns that those of others have; the base shear has the
         share of matrices.
         """
@@ -484,6 +491,7 @@ class _SceneBatch:
 
     scene_runs: SceneRuns
     pairs: IndexArray | None
+    known: EngineRuns | None
 
     @property
     def total(self) -> int:
@@ -501,7 +509,7 @@ class _SceneBatch:
         return np.stack(np.divmod(np.arange(runs.start, runs.stop), max(len(self.scene_runs.motions), 1)), axis=1)
 
     def solve(self, runs: range, options: _Options, progress: ProgressLike) -> pl.DataFrame:
-        return self.scene_runs.table(self._rows(runs), **options, progress=progress)
+        return self.scene_runs.table(self._rows(runs), **options, progress=progress, known=self.known)
 
 
 @dataclass(frozen=True, slots=True)

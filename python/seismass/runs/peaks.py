@@ -17,7 +17,7 @@ from seismass.base.values import FloatArray, as_list, refusal
 from seismass.model.scene import Scene
 from seismass.motions.motion import HasMotion, Motion, as_motion, motion_names
 from seismass.motions.records.pair import Pair
-from seismass.runs.batch import Solved, solve_engine
+from seismass.runs.batch import EngineRuns, solve_engine
 from seismass.runs.plane import PlaneMotion, motions_in_plane
 
 DriftMeasure: TypeAlias = Literal["larger", "vector", "x", "y"]
@@ -150,9 +150,10 @@ def solve(
     drift_cap: float = DRIFT_CAP,
     threads: int | None = None,
     progress: ProgressLike = None,
+    keep: list[EngineRuns] | None = None,
 ) -> Peaks:
-    """Solve scenes of equal number of storeys, all of one engine, under all motions. Scenes in two directions take
-    pairs, and `drift` says which counts; without goods each is solved alone. There is no cap without heights.
+    """Solve scenes of equal number of storeys, all of one engine, under all motions; in two directions under pairs, each
+    alone without goods, `drift` says which counts. Without heights no cap. Runs that do not end early go to `keep`.
     """
     threads, progress = as_threads(threads, "runs"), as_progress(progress, "runs")
     if scenes[0].engine == "plane" and drift != "vector" and not any(scene.goods for scene in scenes):
@@ -160,6 +161,8 @@ def solve(
     count, storeys = len(motions), scenes[0].storeys
     rows = np.stack(np.divmod(np.arange(len(scenes) * count), count), axis=1)
     solved = solve_engine(scenes, motions.of_runs, rows, peaks_only=True, threads=threads, progress=progress)
+    if keep is not None and scenes[0].engine != "chain":
+        keep.append(solved)
     batch, peak_drift, base_shear = solved[0][0], *_of_measure(solved, drift)
     for run, reason in batch.failures:
         name = motions.names[run % count]
@@ -214,7 +217,7 @@ def _directions_apart(
     )
 
 
-def _of_measure(solved: Solved, measure: DriftMeasure) -> tuple[FloatArray, FloatArray]:
+def _of_measure(solved: EngineRuns, measure: DriftMeasure) -> tuple[FloatArray, FloatArray]:
     """Peak drifts and base shears of runs. In two directions the base shear is that of the direction `measure`; of
     "larger" and "vector" the mean of both.
     """
