@@ -152,8 +152,8 @@ def solve(
     progress: ProgressLike = None,
     keep: list[EngineRuns] | None = None,
 ) -> Peaks:
-    """Solve scenes of equal number of storeys, all of one engine, under all motions; in two directions under pairs, each
-    alone without goods, `drift` says which counts. Without heights no cap. Runs that do not end early go to `keep`.
+    """Solve scenes of equal number of storeys, all of one engine, under all motions; in two directions `drift` says
+    which counts, and without goods each is solved alone. Runs that do not end early go to `keep`. No heights, no cap.
     """
     threads, progress = as_threads(threads, "runs"), as_progress(progress, "runs")
     if scenes[0].engine == "plane" and drift != "vector" and not any(scene.goods for scene in scenes):

@@ -25,6 +25,8 @@ pub(super) enum Cause {
     Wear(usize),
     /// The force of a stop has jumped.
     Jump,
+    /// Blocks that began to slide in the plane have not moved yet.
+    Young,
     /// Contact begins: the start of a run, or a landing.
     Contact,
     /// The slab has reached its limit, with this sign of the force that holds it.

@@ -73,7 +73,7 @@ impl<R: Real> Plane<R> {
             first.is_some_and(|i| state(i).mu_s == state(j).mu_s && !goes_on(j) && self.offset(i) == self.offset(j))
         };
         let candidates = still.iter().map(|&j| {
-            let gone = alike(j) || goes_on(j) || self.young[j];
+            let gone = alike(j) || goes_on(j) || cause == Cause::Young && self.young[j];
             Candidate {
                 block: j,
                 mass: self.directions[0].model.goods[j].mass,
@@ -133,7 +133,7 @@ impl<R: Real> Plane<R> {
     pub(super) fn settle_young(&mut self, tau: R) {
         for node in std::iter::once(None).chain((0..self.directions[0].model.mass.len()).map(Some)) {
             if (0..self.young.len()).any(|j| self.young[j] && self.directions[0].model.goods[j].node == node) {
-                self.settle(node, tau, Cause::Jump);
+                self.settle(node, tau, Cause::Young);
             }
         }
     }

@@ -140,7 +140,9 @@ impl Decision {
 pub(super) enum Cause {
     /// This stuck block has reached its limit.
     Breakaway(usize),
-    /// Something else.
+    /// Blocks that have started have not moved yet, as far as is seen: they go on.
+    Young,
+    /// Something else: a force may have jumped at the instant at which they started, and all decide anew.
     Other,
 }
 
@@ -188,6 +190,7 @@ impl PlaneState<'_> {
                     || j == fired
                     || is_free(j) && is_free(fired) && self.friction(j).0 == self.friction(fired).0
             }
+            Cause::Young => self.slides[j].is_young,
             Cause::Other => false,
         };
         let candidates = on_node.iter().copied().filter(|&j| is_candidate(j)).map(|j| Candidate {
@@ -197,7 +200,7 @@ impl PlaneState<'_> {
             sticks_to: self.friction(j).0 * contact,
             slides_from: self.friction(j).1 * contact,
             least_size: self.friction(j).0 * STANDARD_GRAVITY,
-            is_released: self.slides[j].is_young || fires(j),
+            is_released: fires(j),
         });
         let candidates = candidates.collect();
         let (mut force, mut size) = self.node_force(node);

@@ -67,7 +67,7 @@ impl PlaneHappening<'_, '_> {
     /// Lets a node decide at which blocks have started that are at rest still: they go on together, each in the direction of
     /// this instant.
     pub(super) fn renew_starts(&mut self, node: usize) -> Outcome {
-        let outcome = self.decide(node, Cause::Other, &[]);
+        let outcome = self.decide(node, Cause::Young, &[]);
         self.state.follow();
         outcome
     }
