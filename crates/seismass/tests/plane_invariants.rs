@@ -2,11 +2,14 @@
 
 #![allow(clippy::unwrap_used)]
 
+#[allow(dead_code)] // Its scenes are of one direction.
+mod general_random;
 mod maximum;
 
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
+use general_random::Draw;
 use maximum::larger;
 use seismass::{
     Block, Damping, EventKind, GeneralBuilding, GeneralScene, Goods, GravityEffect, Motion, Options, Peak, PlaneMotion,
@@ -150,34 +153,31 @@ fn along_a_diagonal_it_is_the_run_in_one_direction() {
 fn what_starts_where_a_force_jumps_starts_as_in_one_direction() {
     let (mut slips, mut touches) = (0, 0);
     for seed in 0..300u64 {
-        let of = |salt: u64, from: f64, to: f64| {
-            let bits =
-                (seed + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(salt).wrapping_mul(0xd134_2543_de82_ef95);
-            from * (to / from).powf((bits >> 11) as f64 / (1u64 << 53) as f64)
-        };
-        let (mass, stiffness) = (of(2, 100.0, 3000.0), of(1, 1e4, 1e6));
+        let draw = &mut Draw(seed);
+        let (mass, stiffness) = (draw.scale(100.0, 3000.0), draw.scale(1e4, 1e6));
         let damping = Damping::Modal { ratio: 0.05 };
         let storeys = vec![Storey::elastic(stiffness)];
         let building = GeneralBuilding::new(vec![mass], storeys, None, &damping, GravityEffect::None).unwrap();
         let building = Arc::new(building);
-        let others = (0..1 + seed % 3).map(|i| {
-            let mu_s = of(10 + i, 0.02, 0.5);
-            let mu_k = mu_s * if seed % 2 == 0 { 1.0 } else { of(30 + i, 0.3, 1.0) };
-            Goods::from(Block { mu_k, ..Block::new(1, mass * of(20 + i, 0.1, 10.0), mu_s) })
+        let others = (0..1 + seed % 3).map(|_| {
+            let mu_s = draw.scale(0.02, 0.5);
+            let mu_k = mu_s * if seed % 2 == 0 { 1.0 } else { draw.scale(0.3, 1.0) };
+            Goods::from(Block { mu_k, ..Block::new(1, mass * draw.scale(0.1, 10.0), mu_s) })
         });
+        let others: Vec<Goods> = others.collect();
         // The spring exceeds what all of them stick to, and the damper pushes back by about as much.
-        let held: f64 = others.clone().map(|goods| goods.block.mass * goods.block.mu_s * STANDARD_GRAVITY).sum();
-        let (pull, velocity) = (held * of(40, 1.0, 5.0), of(6, 0.1, 1.0) * if seed % 4 < 2 { 1.0 } else { -1.0 });
+        let held: f64 = others.iter().map(|goods| goods.block.mass * goods.block.mu_s * STANDARD_GRAVITY).sum();
+        let (pull, velocity) =
+            (held * draw.scale(1.0, 5.0), draw.scale(0.1, 1.0) * if seed % 4 < 2 { 1.0 } else { -1.0 });
         let drift = velocity.signum() * pull / stiffness;
-        let stops = Stops { damping: pull * of(3, 0.5, 1.5) / velocity.abs(), ..Stops::new(0.0, of(4, 1e5, 1e6)) };
+        let stops =
+            Stops { damping: pull * draw.scale(0.5, 1.5) / velocity.abs(), ..Stops::new(0.0, draw.scale(1e5, 1e6)) };
+        let block = Block::new(1, draw.scale(100.0, 3000.0), draw.scale(0.02, 0.3));
         let thrown = |moves: bool| Goods {
-            block: Block {
-                velocity: moves.then_some(velocity),
-                ..Block::new(1, of(7, 100.0, 3000.0), of(8, 0.02, 0.3))
-            },
+            block: Block { velocity: moves.then_some(velocity), ..block.clone() },
             stops: moves.then_some(stops),
         };
-        let goods = |moves: bool| std::iter::once(thrown(moves)).chain(others.clone()).collect::<Vec<_>>();
+        let goods = |moves: bool| std::iter::once(thrown(moves)).chain(others.iter().cloned()).collect::<Vec<_>>();
         let still = GeneralScene::new(Some(building.clone()), goods(false), Vec::new()).unwrap();
         let moving = GeneralScene::new(Some(building), goods(true), Vec::new()).unwrap();
         let moving = moving.with_initial(vec![drift], vec![0.0]).unwrap();

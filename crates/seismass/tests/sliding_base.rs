@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use general_compare::{ENERGY, OPTIONS, compare_events, deviation, events, values};
-use general_random::random_general;
+use general_random::{Draw, random_general};
 use maximum::larger;
 use seismass::{
     Block, Damping, EventKind, GeneralBuilding, GeneralResponse, GeneralScene, GravityEffect, Motion, STANDARD_GRAVITY,
@@ -198,21 +198,17 @@ fn nothing_without_friction_sticks_again() {
     }
     let mut turns = 0;
     for seed in 0..200u64 {
-        let of = |salt: u64, from: f64, to: f64| {
-            let bits =
-                (seed + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(salt).wrapping_mul(0xd134_2543_de82_ef95);
-            from * (to / from).powf((bits >> 11) as f64 / (1u64 << 53) as f64)
-        };
+        let draw = &mut Draw(seed);
         let storeys = 1 + (seed % 4) as usize;
-        let springs = (0..storeys).map(|i| Storey::elastic(of(i as u64, 1e4, 1e7))).collect();
+        let springs = (0..storeys).map(|_| Storey::elastic(draw.scale(1e4, 1e7))).collect();
         let damping = Damping::Modal { ratio: 0.02 * (seed % 3) as f64 };
-        let masses = vec![of(9, 10.0, 1000.0); storeys];
+        let masses = vec![draw.scale(10.0, 1000.0); storeys];
         let building = GeneralBuilding::new(masses, springs, None, &damping, GravityEffect::None).unwrap();
-        let thrown = Block { velocity: Some(-0.1), ..Block::new(storeys, of(10, 10.0, 1000.0), 0.05) };
-        let mut goods = vec![Block::new(0, of(11, 10.0, 1e4), 0.0).into(), thrown.into()];
-        goods.extend((0..seed % 3).map(|i| Block::new(1 + i as usize % storeys, of(12 + i, 1.0, 1e4), 0.0).into()));
+        let thrown = Block { velocity: Some(-0.1), ..Block::new(storeys, draw.scale(10.0, 1000.0), 0.05) };
+        let mut goods = vec![Block::new(0, draw.scale(10.0, 1e4), 0.0).into(), thrown.into()];
+        goods.extend((0..seed % 3).map(|i| Block::new(1 + i as usize % storeys, draw.scale(1.0, 1e4), 0.0).into()));
         let mu_s = if seed % 5 == 0 { 0.02 } else { 0.0 };
-        let base = SlidingBase { mass: of(20, 30.0, 3000.0), mu_s, mu_k: mu_s, radius: f64::INFINITY };
+        let base = SlidingBase { mass: draw.scale(30.0, 3000.0), mu_s, mu_k: mu_s, radius: f64::INFINITY };
         let scene = GeneralScene::on_base(Some(Arc::new(building)), goods, Vec::new(), Some(base)).unwrap();
         let response = solve(&scene, &motion);
         let of_number = |number: usize, kind: EventKind| {

@@ -52,11 +52,7 @@ impl GeneralState<'_> {
 
     /// Whether the base takes part in the next decision: it has no velocity and does not follow from another release.
     pub(super) fn base_decides(&self, cause: SettleCause) -> bool {
-        let follows = cause != SettleCause::Other;
-        self.base.is_some_and(|motion| {
-            let may_stick = !follows && !motion.is_frictionless();
-            motion.velocity == 0.0 && motion.state != BlockState::Airborne && (motion.is_stuck() || may_stick)
-        })
+        self.base.is_some_and(|motion| motion.decides(cause != SettleCause::Other))
     }
 
     /// Force of the ground that holds the slab at the ground's acceleration, and the size of its terms (N).

@@ -166,12 +166,7 @@ impl GeneralState<'_> {
     /// The goods of a node that take part in its decision.
     pub(super) fn deciding(&self, node: usize, cause: SettleCause) -> Vec<usize> {
         let follows = cause != SettleCause::Other;
-        let decides = |j: &usize| {
-            let motion = &self.motions[*j];
-            let may_stick = !follows && !motion.is_frictionless();
-            motion.velocity == 0.0 && motion.state != BlockState::Airborne && (motion.is_stuck() || may_stick)
-        };
-        self.system.on_node[node].iter().copied().filter(decides).collect()
+        self.system.on_node[node].iter().copied().filter(|&j| self.motions[j].decides(follows)).collect()
     }
 
     /// Lets the goods of a node decide.
@@ -183,8 +178,8 @@ impl GeneralState<'_> {
         } else {
             let (demand, contact) = (self.demand(node, tau), self.contact_at(tau));
             let mut on_node = Cow::from(&self.system.on_node[node]);
-            if on_node.iter().any(|&j| self.motions[j].is_frictionless()) {
-                on_node.to_mut().retain(|&j| !self.motions[j].is_frictionless());
+            if on_node.iter().any(|&j| self.motions[j].slides_freely()) {
+                on_node.to_mut().retain(|&j| !self.motions[j].slides_freely());
             }
             settle(demand, &self.system.blocks, &mut self.motions, &on_node, contact, cause, &mut transitions);
             true

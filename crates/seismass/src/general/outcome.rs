@@ -117,7 +117,7 @@ impl Happening<'_, '_> {
     fn base_arrives(&mut self) -> Outcome {
         self.state.v[0] = 0.0;
         let Some(base) = &mut self.state.base else { return Outcome::Continue };
-        if base.is_frictionless() {
+        if base.slides_freely() {
             let turned = base.turn();
             self.note_turn(0, turned);
             return Outcome::Continue;
@@ -164,7 +164,7 @@ impl Happening<'_, '_> {
             if !(j == block || alike || velocity != 0.0 && arrives) {
                 continue;
             }
-            if state.motions[j].is_frictionless() {
+            if state.motions[j].slides_freely() {
                 turned.push((j + 1, state.motions[j].turn()));
             } else {
                 state.motions[j].velocity = 0.0;

@@ -71,8 +71,14 @@ impl BlockMotion {
     }
 
     /// Whether the block slides without friction, in whichever direction: it takes part in no decision.
-    pub(crate) fn is_frictionless(&self) -> bool {
+    pub(crate) fn slides_freely(&self) -> bool {
         self.mu_s == 0.0 && self.sliding().is_some()
+    }
+
+    /// Whether it takes part in a decision of its node, or only if it sticks, where that `follows` from another release.
+    pub(crate) fn decides(&self, follows: bool) -> bool {
+        let is_at_rest = self.velocity == 0.0 && self.state != BlockState::Airborne;
+        is_at_rest && (self.is_stuck() || !follows && !self.slides_freely())
     }
 
     /// Turns what slides without friction and has come to rest; returns the new sign, and whether it has ever moved.

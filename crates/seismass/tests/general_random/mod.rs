@@ -24,6 +24,12 @@ impl Draw {
         low + (high - low) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 
+    /// A number of a range, all ratios alike.
+    #[allow(dead_code)] // Not all tests draw so.
+    pub fn scale(&mut self, low: f64, high: f64) -> f64 {
+        low * (high / low).powf(self.between(0.0, 1.0))
+    }
+
     fn one_in(&mut self, n: u64) -> bool {
         self.bits().is_multiple_of(n)
     }
