@@ -2,9 +2,13 @@
 
 #![allow(clippy::unwrap_used)]
 
+#[allow(dead_code)] // Only numbers are drawn.
+mod general_random;
+
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+use general_random::Draw;
 use nalgebra::DMatrix;
 use seismass::{
     Block, Damping, EventKind, GeneralBuilding, GeneralResponse, GeneralScene, Goods, GravityEffect, Motion, Options,
@@ -243,5 +247,31 @@ fn a_matrix_stands_for_springs() {
             close(a.value, b.value, 1e-11, "drift or slip");
         }
         close(of_matrix.base_shear.value, chain.base_shear.value, 1e-11, "base shear");
+    }
+}
+
+/// Goods without friction between damped stops without clearance, at rest on a light rack as a motion begins that is no zero:
+/// what their damper holds has decayed at once, and the force of the stop begins at zero. They come to their stop once.
+#[test]
+fn goods_at_damped_stops_without_clearance_start_once() {
+    for seed in 0..500 {
+        let draw = &mut Draw(seed);
+        let samples: Vec<f64> = [0.27, 0.23, 0.18, 0.14].map(|mean| mean * draw.scale(0.3, 3.0)).to_vec();
+        let (mass, levels) = (draw.scale(10.0, 3000.0), 4);
+        let stiffness = mass * draw.scale(1e3, 1e5);
+        let damping = 2.0 * draw.scale(0.5, 10.0) * (stiffness * mass).sqrt();
+        let stops = Stops { clearance: [0.0, 0.0], stiffness, damping };
+        let rack = Rack {
+            floor: 0,
+            mass: (0..levels).map(|_| draw.scale(10.0, 100.0)).collect(),
+            levels: (0..levels).map(|_| Storey::elastic(draw.scale(1e4, 1e7))).collect(),
+            damping_ratio: 0.05 * (seed % 2) as f64,
+            geometric_stiffness: Vec::new(),
+            goods: vec![Goods { block: Block::new(levels, mass, 0.0), stops: Some(stops) }],
+        };
+        let scene = GeneralScene::new(None, Vec::new(), vec![rack]).unwrap();
+        let response = solve(&scene, &Motion::new(samples, 0.005, None).unwrap());
+        let at_start = times(&response, EventKind::TouchStop).iter().filter(|&&time| time < 1e-9).count();
+        assert_eq!(at_start, 1, "seed {seed}");
     }
 }

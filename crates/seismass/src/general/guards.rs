@@ -96,9 +96,11 @@ impl<'a, 'b> Search<'a, 'b> {
         }
     }
 
-    /// Size of the terms of a node's acceleration at the start of the step.
+    /// Size of the terms of a node's acceleration at the start of the step. Where a mode has decayed they are corrected by
+    /// the ground's acceleration and its slope.
     pub(super) fn size(&self, node: usize) -> f64 {
-        self.sizes.get_or_init(|| self.state.acceleration_sizes(self.series.tau))[node]
+        let sizes = self.sizes.get_or_init(|| self.state.acceleration_sizes(self.series.tau));
+        sizes[node] + self.series.of_ground
     }
 
     /// Ends of segments, turns and collapses of all springs.

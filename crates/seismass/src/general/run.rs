@@ -14,6 +14,7 @@ use crate::general::response::{GeneralBase, GeneralEvent, GeneralResponse, Gener
 use crate::general::series::{Quantity, Series};
 use crate::general::state::GeneralState;
 use crate::general::system::System;
+use crate::general::terms::Terms;
 use crate::machines::block::{BlockMotion, BlockState};
 use crate::response::{EventKind, Statistics};
 use crate::run::limits::{EVENTS_PER_INTERVAL, EVENTS_PER_MACHINE};
@@ -50,6 +51,7 @@ pub fn simulate_general_until(
         observer: Observer::new(&state),
         state,
         series: Series::default(),
+        terms: Terms::default(),
         rows: Default::default(),
         recorder,
         balance: None,
@@ -86,6 +88,8 @@ pub fn simulate_general_until(
 struct Run<'a> {
     state: GeneralState<'a>,
     series: Series,
+    /// Working space of the series.
+    terms: Terms<1>,
     /// Working space: rows by node.
     rows: [Vec<f64>; 3],
     observer: Observer,
@@ -161,7 +165,7 @@ impl Run<'_> {
     /// Forms the series from `tau` on, as long as terms allow, within the time that remains.
     fn form_series(&mut self, tau: f64, remaining: f64) -> Result<()> {
         let whole = self.phase_of(remaining)?;
-        let decayed = decayed(&mut self.state, &mut self.series.terms, tau, remaining);
+        let decayed = decayed(&mut self.state, &mut self.terms, tau, remaining);
         let modes = self.state.regime.decaying.get().filter(|modes| whole > SERIES_PHASE && !modes.is_empty());
         let bound = |modes: &Vec<DecayingMode>| match modes.get(decayed) {
             Some(alive) => alive.rate.max(alive.left),
@@ -171,7 +175,8 @@ impl Run<'_> {
         let pieces = (phase / GENERAL_PHASE).ceil().max(1.0);
         // What is left beside such modes is known less closely: the series has all orders, and ends by its terms.
         let of_order = if phase < whole { GENERAL_PHASE } else { phase / pieces };
-        self.series.form(&self.state, tau, (remaining / pieces, of_order), decayed, of_order > SERIES_PHASE);
+        let step = (remaining / pieces, of_order);
+        self.series.form(&mut self.terms, &self.state, tau, step, decayed, of_order > SERIES_PHASE);
         Ok(())
     }
 

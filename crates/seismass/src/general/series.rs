@@ -9,7 +9,7 @@ use crate::polynomial::power::{MAX_DEGREE, Polynomial};
 use crate::tolerances::SERIES_ROUNDING;
 
 /// Coefficients of a block's relative velocity and slip since the start of the step, lowest first.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct BlockSeries {
     pub(super) velocity: [f64; MAX_DEGREE + 1],
     pub(super) slip: [f64; MAX_DEGREE + 1],
@@ -25,6 +25,8 @@ pub(super) struct BlockSeries {
 pub(super) struct Series {
     pub(super) tau: f64,
     pub(super) h: f64,
+    /// Size of the ground's terms by which accelerations are corrected, where modes have decayed (m/s2).
+    pub(super) of_ground: f64,
     /// Nodes with the ground, and the length of a row: that, padded to fours.
     width: usize,
     row: usize,
@@ -41,8 +43,6 @@ pub(super) struct Series {
     pub(super) blocks: Vec<BlockSeries>,
     /// Force of the ground that holds a stuck slab (N).
     holding: [f64; MAX_DEGREE + 1],
-    /// Working space of a series in one direction.
-    pub(super) terms: Terms<1>,
 }
 
 /// Which of a node's quantities.
@@ -73,16 +73,16 @@ fn own_end(terms: &Terms<1>) -> f64 {
 
 impl Series {
     /// Forms the series of a step of `h`, so many radians, from `tau`, on which the fastest modes have decayed; where it is
-    /// asked for the series ends by its terms.
+    /// asked for the series ends by its terms. These are formed in the working space `own`.
     pub(super) fn form(
         &mut self,
+        own: &mut Terms<1>,
         state: &GeneralState,
         tau: f64,
         (h, phase): (f64, f64),
         decayed: usize,
         ends_by_terms: bool,
     ) {
-        let own = &mut self.terms;
         own.begin_sliding(state, tau, h, terms::<Plain>(phase));
         let modes = state.regime.decaying.get().map_or(&[][..], |modes| &modes[..decayed]);
         for k in 0..=own.order {
@@ -90,14 +90,10 @@ impl Series {
             modes.iter().for_each(|mode| mode.correct(state, own, k));
         }
         let end = if ends_by_terms { own_end(own) } else { 1.0 };
-        self.end_own(end);
-    }
-
-    /// Takes its own terms up to their place `end`.
-    fn end_own(&mut self, end: f64) {
-        let terms = std::mem::take(&mut self.terms);
-        self.take(&terms, 0, end, terms.order);
-        self.terms = terms;
+        self.take(own, 0, end, own.order);
+        let ground = &state.interval;
+        self.of_ground =
+            if modes.is_empty() { 0.0 } else { ground.ground_at(tau).abs() + h * ground.ground_slope.abs() };
     }
 
     /// Takes terms of direction `d` up to their place `end`, which is the new 1, and to an order; bounds all changes.
@@ -128,20 +124,22 @@ impl Series {
         take_rows(&mut self.rate, &mut self.rate_change, &terms.rate, order + 1);
         take_rows(&mut self.drift, &mut self.drift_change, &terms.drift, order + 2);
         self.holding = std::array::from_fn(|k| powers[k] * terms.holding[k]);
-        self.blocks.clear();
-        self.blocks.extend(terms.blocks.iter().map(|block| {
-            let of = |terms: &[[f64; D]; MAX_DEGREE + 1]| {
-                let mut of_direction = [0.0; MAX_DEGREE + 1];
-                for ((own, power), term) in of_direction.iter_mut().zip(&powers).zip(terms).take(order + 3) {
-                    *own = power * term[d];
+        self.blocks.resize(terms.blocks.len(), BlockSeries::default());
+        for (own, block) in self.blocks.iter_mut().zip(&terms.blocks) {
+            let last = (order + 2).min(MAX_DEGREE);
+            let take = |own: &mut [f64; MAX_DEGREE + 1], terms: &[[f64; D]; MAX_DEGREE + 1]| {
+                for k in 0..=last {
+                    own[k] = powers[k] * terms[k][d];
                 }
-                of_direction
+                own[last + 1..].fill(0.0);
             };
-            let (velocity, slip, friction) = (of(&block.velocity), of(&block.slip), of(&block.friction));
+            take(&mut own.velocity, &block.velocity);
+            take(&mut own.slip, &block.slip);
+            take(&mut own.friction, &block.friction);
             let size = |terms: &[f64]| terms.iter().map(|term| term.abs()).sum();
-            let (velocity_change, slip_change) = (size(&velocity[1..=order + 1]), size(&slip[1..=order + 2]));
-            BlockSeries { velocity, slip, friction, velocity_change, slip_change }
-        }));
+            (own.velocity_change, own.slip_change) =
+                (size(&own.velocity[1..=order + 1]), size(&own.slip[1..=order + 2]));
+        }
     }
 
     /// The force that holds a stuck slab, as a polynomial with this factor and constant, and the size of its terms.
@@ -263,11 +261,11 @@ mod tests {
         let mut state = GeneralState::new(&scene, &system, false);
         state.interval = interval(&motion, None, 0);
         state.follow();
-        let (mut ended, mut formed) = (Series::default(), Series::default());
+        let (mut ended, mut formed, mut terms) = (Series::default(), Series::default(), Terms::default());
         let phase_of = |h: f64| (h, state.regime.frequency * h);
-        ended.form(&state, 0.0, phase_of(0.01), 0, true);
+        ended.form(&mut terms, &state, 0.0, phase_of(0.01), 0, true);
         assert!(ended.h > 0.004 && ended.h < 0.008, "{} s", ended.h);
-        formed.form(&state, 0.0, phase_of(ended.h), 0, false);
+        formed.form(&mut terms, &state, 0.0, phase_of(ended.h), 0, false);
         let everything = |series: &Series| -> Vec<f64> {
             let (velocity, slip) = series.block_changes(0, 1.0);
             let of_nodes = [Quantity::Drift, Quantity::Rate, Quantity::Acceleration].map(|q| {

@@ -60,9 +60,14 @@ impl<const D: usize> Matrices<D> {
             *sums = added(*sums, columns, values);
         }
         if !rest.is_empty() && !fours.is_empty() {
-            let mut four = [0.0; 4];
-            four.iter_mut().zip(rest.iter()).for_each(|(of_four, sum)| *of_four = *sum);
-            rest.iter_mut().zip(added(four, fours, values)).for_each(|(sum, of_four)| *sum = of_four);
+            // At most three, one by one: a copy of unknown length would be a call.
+            let of_rest = std::array::from_fn(|l| rest.get(l).copied().unwrap_or(0.0));
+            let sums = added(of_rest, fours, values);
+            for l in 0..3 {
+                if let Some(sum) = rest.get_mut(l) {
+                    *sum = sums[l];
+                }
+            }
         }
     }
 }
@@ -142,13 +147,16 @@ impl<const D: usize> Terms<D> {
             self.tangent[p] = states.map(|state| state.regime.tangent[p]);
         }
         let none = [[0.0; D]; MAX_DEGREE + 1];
-        self.blocks.clear();
-        self.blocks.extend(states[0].moving.iter().map(|&j| {
-            let (law, mut velocity, mut slip) = (&states[0].system.blocks[j], none, none);
-            velocity[0] = states.map(|state| state.motions[j].velocity);
-            slip[1] = velocity[0].map(|v| h * v);
-            BlockTerms { node: law.floor, mass: law.mass, velocity, slip, friction: none }
-        }));
+        let of_block = BlockTerms { node: 0, mass: 0.0, velocity: none, slip: none, friction: none };
+        self.blocks.resize(states[0].moving.len(), of_block);
+        for (block, &j) in self.blocks.iter_mut().zip(&states[0].moving) {
+            (block.node, block.mass) = (states[0].system.blocks[j].floor, states[0].system.blocks[j].mass);
+            for terms in [&mut block.velocity, &mut block.slip, &mut block.friction] {
+                terms.fill([0.0; D]);
+            }
+            block.velocity[0] = states.map(|state| state.motions[j].velocity);
+            block.slip[1] = block.velocity[0].map(|v| h * v);
+        }
     }
 
     /// Terms of order k of accelerations, and those of rates, drifts and blocks that follow.

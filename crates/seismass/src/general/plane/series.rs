@@ -37,6 +37,8 @@ const LEAST_ORDER: usize = 6;
 #[derive(Default)]
 pub(super) struct PlaneSeries {
     pub(super) axes: [Series; 2],
+    /// Working space of these where nothing slides.
+    own: [Terms<1>; 2],
     /// Of which a step with sliding blocks is formed.
     pub(super) terms: Terms<2>,
     /// Of the blocks that slide.
@@ -73,8 +75,8 @@ impl PlaneSeries {
         (self.last_way, self.highest) = (None, ORDER);
         self.begin(state);
         if self.slides.is_empty() {
-            for (series, axis) in self.axes.iter_mut().zip(&state.axes) {
-                series.form(axis, tau, (longest, axis.regime.frequency * longest), 0, false);
+            for ((series, own), axis) in self.axes.iter_mut().zip(&mut self.own).zip(&state.axes) {
+                series.form(own, axis, tau, (longest, axis.regime.frequency * longest), 0, false);
             }
             return None;
         }
