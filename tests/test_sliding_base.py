@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import os
 import pickle
 from pathlib import Path
@@ -10,6 +11,8 @@ import numpy as np
 import pytest
 
 import seismass as sm
+from seismass.show.animation.html import element_content
+from seismass.show.animation.picture import SCENES, SLAB, Picture
 
 SHARED = os.environ.get("SEISMASS_SHARED", "")
 PULSE = sm.Motion(np.concatenate([np.full(40, 4.0), np.zeros(200)]), 0.01)
@@ -153,11 +156,107 @@ def test_what_is_no_base_is_refused() -> None:
         _ = sm.simulate(sm.Scene(building()), PULSE).peak_base_slip
 
 
-def test_what_takes_the_ground_alone_says_so() -> None:
-    scene = sm.Scene(building(), [sm.Block(1, mass=500.0, mu=0.2)], base=sm.SlidingBase(0.1))
-    for call in (
-        lambda: sm.slip.slip_demand(scene, [PULSE], clearance=0.1),
-        lambda: sm.animate(scene, PULSE),
-    ):
-        with pytest.raises(sm.errors.InvalidScene, match=r"base of scene must be left out in .*; simulate takes it"):
-            call()
+def test_histories_of_the_slab_belong_together() -> None:
+    """Its velocity is the rate of its slip, its acceleration that of its velocity and the ground, between samples where
+    nothing happens."""
+    response = sm.simulate(ON_BASE, PULSE, histories=True)
+    change = np.diff(response.base_slip)
+    between = 0.5 * (response.base_velocity[1:] + response.base_velocity[:-1]) * PULSE.dt
+    # The trapezoidal rule misses dt^2/12 of a change of acceleration, here by up to the peak of the ground.
+    assert change == pytest.approx(between, abs=PULSE.dt**2 * PULSE.pga / 8.0)
+    assert np.abs(response.base_velocity).max() > 0.1
+    relative = response.base_acceleration - PULSE.acceleration
+    of_rate = 0.5 * (relative[1:] + relative[:-1]) * PULSE.dt
+    assert np.median(np.abs(np.diff(response.base_velocity) - of_rate)) < 1e-4
+    assert 0.9 < np.abs(response.base_acceleration).max() / response.peak_base_acceleration <= 1.0
+    with pytest.raises(sm.errors.InvalidOption, match="base_velocity is wanted"):
+        _ = sm.simulate(ON_BASE, PULSE, histories=True, displacements_only=True).base_velocity
+
+
+ON_BASE = sm.Scene(
+    building(),
+    [sm.Block(0, mass=300.0, mu=0.05), sm.Block(1, mass=500.0, mu=0.1), sm.Block(2, mass=400.0, mu=0.15)],
+    base=sm.SlidingBase(0.12, mass=700.0),
+)
+
+
+def test_slip_on_a_base_that_never_slides_is_slip_on_the_ground() -> None:
+    held, fixed = (
+        sm.slip.slip_demand(ON_BASE.replace(base=base), [PULSE, PULSE.scaled(1.5)], clearance=0.1)
+        for base in (sm.SlidingBase(50.0, mass=700.0), None)
+    )
+    for one, other in ((held.blocks, fixed.blocks), (held.runs, fixed.runs), (held.exceedance, fixed.exceedance)):
+        assert one.columns == other.columns
+        for name in one.columns:
+            if one[name].dtype.is_float():
+                assert one[name].to_numpy() == pytest.approx(other[name].to_numpy(), rel=1e-9, nan_ok=True), name
+            else:
+                assert one[name].to_list() == other[name].to_list(), name
+    assert not any("slab" in remark for remark in fixed.remarks)
+    assert any(remark.startswith("floor 0 is the slab of the sliding base") for remark in held.remarks)
+
+
+def test_slip_on_a_base_is_that_of_the_run() -> None:
+    found = sm.slip.slip_demand(ON_BASE, [PULSE], clearance=0.1)
+    run = sm.simulate(ON_BASE, PULSE, histories=True)
+    assert found.runs["peak_slip"].to_list() == run.peak_slip.tolist()
+    sides = found.runs.select("slip_plus", "slip_minus").to_numpy()
+    assert sides.max(axis=1).tolist() == run.peak_slip.tolist()
+    assert sides[:, 0] == pytest.approx(np.maximum(run.slip.max(axis=0), 0.0), abs=1e-4)
+    assert sides[:, 1] == pytest.approx(np.maximum(-run.slip.min(axis=0), 0.0), abs=1e-4)
+    on_slab = found.runs.row(0, named=True)
+    assert on_slab["floor_acceleration_g"] * sm.STANDARD_GRAVITY == pytest.approx(run.peak_base_acceleration)
+    assert on_slab["floor_velocity"] == pytest.approx(np.abs(run.base_velocity + run.ground_velocity).max())
+
+
+@pytest.mark.parametrize(
+    "racks", [(), (sm.Rack(1, 2, period=0.3, level_mass=60.0, blocks=[sm.RackBlock(2, mass=90.0, mu=9.0)]),)]
+)
+def test_goods_on_a_base_slide_where_they_would_if_all_were_attached(racks: tuple[sm.Rack, ...]) -> None:
+    """Nothing slides just above the acceleration of the model with all goods attached; just below something does."""
+    bound = ON_BASE.replace(
+        blocks=[block.replace(mu=9.0, mu_s=None, mu_k=None) for block in ON_BASE.blocks], racks=racks
+    )
+    attached = sm.slip.slip_demand(bound, [PULSE]).runs["attached_acceleration_g"].to_list()
+    assert sm.simulate(bound, PULSE).peak_slip.max() == 0.0
+    for number, block in enumerate(bound.blocks):
+        for factor, slides in ((1.0 + 1e-6, False), (1.0 - 1e-6, True)):
+            blocks = list(bound.blocks)
+            blocks[number] = block.replace(mu=factor * attached[number], mu_s=None, mu_k=None)
+            assert (sm.simulate(bound.replace(blocks=blocks), PULSE).peak_slip[number] > 0.0) == slides
+
+
+def test_an_animation_shows_the_slab() -> None:
+    animation = sm.animate(ON_BASE, PULSE, fraction=0.25)
+    run, model = animation.shown.runs
+    assert np.abs(run.base_slip).max() == pytest.approx(run.response.peak_base_slip, rel=0.02)
+    assert np.abs(model.base_slip).max() > 0.0
+    above = run.floor_displacement - np.cumsum(run.response.drift[: run.rows], axis=1)
+    assert above == pytest.approx(np.column_stack([run.base_slip] * 2), abs=1e-15)
+    assert f"the slab slides by up to {1e3 * run.response.peak_base_slip:.3g} mm" in animation.sentences[0]
+    content = element_content(animation)["data"]
+    events = content["runs"][0]["events"]
+    kinds = [content["kinds"][kind] for kind in base64.b64decode(events["kind"])]
+    numbers = np.frombuffer(base64.b64decode(events["number"]), dtype="<u2")
+    assert "slip" in kinds
+    assert 0 in run.response.event_log["number"]
+    assert numbers.min() > 0
+    assert '"base":{"peak":' in animation.html()
+    firm = sm.animate(ON_BASE.replace(base=None), PULSE, fraction=0.25)
+    assert '"base":{' not in firm.html()
+    alone = sm.animate(sm.Scene(None, [sm.Block(0, mass=50.0, mu=0.2)], base=ON_BASE.base), PULSE)
+    assert alone.sentences[0].startswith("Blocks on the slab (goods slide): ")
+
+
+def test_frames_move_the_slab() -> None:
+    """Its pixels, in the lowest row of slabs, where the base slips the farthest, and before anything moves."""
+    animation = sm.animate(ON_BASE, PULSE, fraction=0.25)
+    picture, run = Picture(animation), animation.shown.runs[0]
+    places = []
+    for row in (0, int(np.argmax(np.abs(run.base_slip)))):
+        frame = np.asarray(picture.frame(row * animation.shown.step).convert("RGB"))[SCENES - 22, :360]
+        columns = np.flatnonzero((frame == tuple(bytes.fromhex(SLAB[1:]))).all(axis=1))
+        places.append(0.5 * (columns.min() + columns.max()))
+    scale = (places[1] - places[0]) / run.base_slip[int(np.argmax(np.abs(run.base_slip)))]
+    assert scale > 0.0
+    assert abs(places[1] - places[0]) > 10.0

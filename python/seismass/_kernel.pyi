@@ -309,6 +309,11 @@ class GeneralResponse:
     The response of one run of the general engine.
     """
     @property
+    def base_acceleration(self, /) -> NDArray[float64] | None:
+        """
+        History of the absolute acceleration of a sliding base (m/s2), one value per row.
+        """
+    @property
     def base_slip(self, /) -> NDArray[float64] | None:
         """
         History of the slip of a sliding base (m), one value per row.
@@ -317,6 +322,11 @@ class GeneralResponse:
     def base_slip_path(self, /) -> float | None:
         """
         Path slipped by a sliding base in contact with the ground (m).
+        """
+    @property
+    def base_velocity(self, /) -> NDArray[float64] | None:
+        """
+        History of the velocity of a sliding base over the ground (m/s), one value per row.
         """
     @property
     def block_velocity(self, /) -> NDArray[float64] | None:

@@ -72,10 +72,11 @@ getters! { GeneralResponse
     /// Path slipped by a sliding base in contact with the ground (m).
     base_slip_path(self) -> Option<f64> = self.0.base.as_ref().map(|base| base.slip_path);
     /// History of the slip of a sliding base (m), one value per row.
-    base_slip(self) -> Option<Output<f64>> = {
-        let base = self.0.base.as_ref().filter(|_| self.0.histories.is_some())?;
-        Some(Output::new(base.history.iter().copied()))
-    };
+    base_slip(self) -> Option<Output<f64>> = self.of_base(|base| &base.history);
+    /// History of the velocity of a sliding base over the ground (m/s), one value per row.
+    base_velocity(self) -> Option<Output<f64>> = self.of_base(|base| &base.velocity_history);
+    /// History of the absolute acceleration of a sliding base (m/s2), one value per row.
+    base_acceleration(self) -> Option<Output<f64>> = self.of_base(|base| &base.acceleration_history);
     /// Samples per row of the histories; None without histories.
     every(self) -> Option<usize> = self.0.histories.as_ref().map(|histories| histories.every);
     /// Drift history (m), rows x storeys.

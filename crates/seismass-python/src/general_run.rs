@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 
 use pyo3::prelude::*;
-use seismass::{GeneralEvent, Options, Peak, simulate_general_until};
+use seismass::{GeneralBase, GeneralEvent, Options, Peak, simulate_general_until};
 
 use crate::arrays::Output;
 use crate::general_scene::GeneralScene;
@@ -67,6 +67,12 @@ impl GeneralResponse {
         let (rows, blocks) = (histories.rows, self.0.residual_slip.len());
         let values = of(histories);
         (values.len() == rows * blocks).then(|| Output::shaped(&[rows, blocks], values.clone()))
+    }
+
+    /// A history of a sliding base; None without one, or where it was not kept.
+    pub(crate) fn of_base(&self, of: impl Fn(&GeneralBase) -> &Vec<f64>) -> Option<Output<f64>> {
+        let (histories, values) = (self.0.histories.as_ref()?, of(self.0.base.as_ref()?));
+        (values.len() == histories.rows).then(|| Output::new(values.iter().copied()))
     }
 
     pub(crate) fn event_column<T>(&self, of: impl Fn(&GeneralEvent) -> T) -> Option<Output<T>> {

@@ -290,23 +290,6 @@ class Scene(Value):
             raise refusal(InvalidScene, parameter, owner_of_it, f"left out in {owner}; simulate takes it", value)
         return self
 
-    def on_ground(self, owner: str) -> Scene:
-        """Return the scene itself, for what takes scenes that stand on the ground alone.
-
-        Parameters
-        ----------
-        owner : str
-            What takes it, as errors name it.
-
-        Raises
-        ------
-        InvalidScene
-            It has a sliding base.
-        """
-        if self.base is not None:
-            raise refusal(InvalidScene, "base", "scene", f"left out in {owner}; simulate takes it", repr(self.base))
-        return self
-
     @property
     def _kernel(self) -> _ChainScene:
         scene: Any = self.require_chain("this function")._chain_scene

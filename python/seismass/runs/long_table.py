@@ -139,7 +139,7 @@ def history_table(response: Response, places: Places = "storeys") -> pl.DataFram
     as_word(places, get_args(Places), "places", "history_table")
     time, columns = response.time, {}
     for name in (name for method in _HISTORIES for name in names_read_by(Response, method)):
-        if QUANTITIES[name].places == ("" if places == "ground" else places) and name != "base_slip":
+        if QUANTITIES[name].places == ("" if places == "ground" else places):
             with suppress(InvalidOption):  # displacements alone were kept
                 values = getattr(response, name)
                 columns[name] = np.column_stack(values) if isinstance(values, tuple) and values else values

@@ -46,7 +46,10 @@ QUANTITIES: Final = {
     "slip_path": Quantity("m", "blocks", "path slipped by each block, by the chain engine also in the air"),
     "base_slip_path": Quantity("m", "", "path slipped by the slab in contact with the ground"),
     "base_slip": Quantity("m", "", "slip of the slab on the ground"),
-    "base_acceleration": Quantity("m/s2", "", "absolute acceleration of the slab, of jumps both one-sided limits"),
+    "base_velocity": Quantity("m/s", "", "velocity of the slab relative to the ground"),
+    "base_acceleration": Quantity(
+        "m/s2", "", "absolute acceleration of the slab, in peaks both one-sided limits of jumps"
+    ),
     "ground_acceleration": Quantity("m/s2", "", "acceleration of the ground"),
     "ground_velocity": Quantity("m/s", "", "velocity of the ground"),
     "ground_displacement": Quantity("m", "", "displacement of the ground"),

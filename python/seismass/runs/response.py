@@ -281,7 +281,9 @@ class Response(Numbers):
     floor_acceleration = Values[FloatArray]("_history", "rows")
     storey_shear = Values[FloatArray]("_history", "rows")
     block_velocity = Values[FloatArray]("_history", "rows")
-    base_slip = Values[FloatArray]("_history", "rows")
+    base_slip = Values[FloatArray]("_history_of_base", "rows")
+    base_velocity = Values[FloatArray]("_history_of_base", "rows")
+    base_acceleration = Values[FloatArray]("_history_of_base", "rows")
     rack_drift = Values[tuple[FloatArray, ...]]("_histories_of_racks", "rows")
     rack_velocity = Values[tuple[FloatArray, ...]]("_histories_of_racks", "rows")
     rack_acceleration = Values[tuple[FloatArray, ...]]("_histories_of_racks", "rows")
@@ -485,12 +487,14 @@ class Response(Numbers):
 
     def _history(self, name: str) -> FloatArray:
         stored = QUANTITIES[name].stored or name
-        if name == "base_slip":
-            self._needed(name)
         displacement = name in ("drift", "slip", "rack_drift", "base_slip")
         if not displacement and self._get(stored) is None and self._get("drift") is not None:
             raise refusal(InvalidOption, "displacements_only", "simulate", f"False, if {name} is wanted", "True")
         return cast(FloatArray, self._asked(name, "histories", stored))
+
+    def _history_of_base(self, name: str) -> FloatArray:
+        self._needed(name)
+        return self._history(name)
 
     def _of_racks(self, name: str, axis: int = 0) -> tuple[FloatArray, ...]:
         """Values of all levels, one array for each rack; none without racks."""

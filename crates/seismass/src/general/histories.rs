@@ -12,7 +12,8 @@ use crate::scene::Options;
 /// Writes histories.
 pub(super) struct Recorder {
     histories: Histories,
-    base_slip: Option<Vec<f64>>,
+    /// Slip, velocity and acceleration of a sliding base.
+    base: Option<[Vec<f64>; 3]>,
     displacements_only: bool,
     nodes: usize,
     goods: usize,
@@ -31,8 +32,8 @@ impl Recorder {
             return Err(Error::invalid(Domain::Options, "histories", "run", requirement, value));
         }
         let histories = Histories { every: every.get(), rows, ..Histories::default() };
-        let base_slip = system.base.is_some().then(Vec::new);
-        Ok(Self { histories, base_slip, displacements_only: options.displacements_only, nodes, goods })
+        let base = system.base.is_some().then(Default::default);
+        Ok(Self { histories, base, displacements_only: options.displacements_only, nodes, goods })
     }
 
     /// Appends the state, with accelerations of all nodes, if there is a row at the sample.
@@ -43,22 +44,26 @@ impl Recorder {
         }
         histories.drift.extend((1..=self.nodes).map(|p| state.drift(p)));
         histories.slip.extend(state.motions.iter().map(|motion| motion.slip));
-        if let Some(slip) = &mut self.base_slip {
+        if let Some([slip, ..]) = &mut self.base {
             slip.push(state.x[0]);
         }
         if self.displacements_only {
             return;
         }
-        let velocities = state.node_velocities(&state.v);
+        let (velocities, accelerations) = (state.node_velocities(&state.v), accelerations());
+        if let Some([_, velocity, acceleration]) = &mut self.base {
+            velocity.push(velocities[0]);
+            acceleration.push(accelerations[0]);
+        }
         histories.floor_velocity.extend(&velocities[1..]);
         let of_goods = state.motions.iter().zip(&state.system.blocks);
         histories.block_velocity.extend(of_goods.map(|(motion, law)| motion.velocity + velocities[law.floor]));
-        histories.floor_acceleration.extend(&accelerations()[1..]);
+        histories.floor_acceleration.extend(&accelerations[1..]);
         histories.storey_force.extend((1..=self.nodes).map(|p| state.spring_force(p)));
     }
 
-    /// The histories, and that of the slip of a sliding base, with NaN in rows that were not reached.
-    pub(super) fn finish(mut self) -> (Histories, Vec<f64>) {
+    /// The histories, and those of a sliding base, with NaN in rows that were not reached.
+    pub(super) fn finish(mut self) -> (Histories, [Vec<f64>; 3]) {
         let (rows, histories) = (self.histories.rows, &mut self.histories);
         let complete = |values: &mut Vec<f64>, width: usize| values.resize(rows * width, f64::NAN);
         complete(&mut histories.drift, self.nodes);
@@ -69,9 +74,12 @@ impl Recorder {
             complete(&mut histories.floor_acceleration, self.nodes);
             complete(&mut histories.storey_force, self.nodes);
         }
-        if let Some(slip) = &mut self.base_slip {
-            slip.resize(rows, f64::NAN);
+        if let Some([slip, others @ ..]) = &mut self.base {
+            complete(slip, 1);
+            if !self.displacements_only {
+                others.iter_mut().for_each(|values| complete(values, 1));
+            }
         }
-        (self.histories, self.base_slip.unwrap_or_default())
+        (self.histories, self.base.unwrap_or_default())
     }
 }

@@ -53,6 +53,10 @@ pub struct GeneralBase {
     pub slip_path: f64,
     /// History of the slip (m), if histories were asked for.
     pub history: Vec<f64>,
+    /// History of the velocity over the ground (m/s), if histories of more than displacements were asked for.
+    pub velocity_history: Vec<f64>,
+    /// History of the absolute acceleration (m/s2), if histories of more than displacements were asked for.
+    pub acceleration_history: Vec<f64>,
 }
 
 /// An event with the relative velocity of its block.

@@ -310,11 +310,20 @@ impl Run<'_> {
         self.statistics.skipped.elastic_storeys = laws.iter().filter(|law| !law.spring.law().can_yield()).count();
         let on_node = &state.system.on_node;
         self.statistics.skipped.bare_floors = on_node.iter().skip(1).filter(|blocks| blocks.is_empty()).count();
-        let (histories, history) = self.recorder.map(Recorder::finish).unzip();
+        let (histories, of_base) = self.recorder.map(Recorder::finish).unzip();
+        let [history, velocity_history, acceleration_history] = of_base.unwrap_or_default();
         let base = state.base.map(|motion| {
             let (slip, acceleration) = self.observer.of_base();
             let (residual_slip, slip_path) = (motion.slip, motion.path_in_contact());
-            GeneralBase { slip, acceleration, residual_slip, slip_path, history: history.unwrap_or_default() }
+            GeneralBase {
+                slip,
+                acceleration,
+                residual_slip,
+                slip_path,
+                history,
+                velocity_history,
+                acceleration_history,
+            }
         });
         GeneralResponse {
             storeys: state.system.storeys,

@@ -27,6 +27,7 @@
     const drift = numbers(given.drift.values, given.drift.peak);
     const slip = numbers(given.slip.values, given.slip.peak);
     const levelDrift = given.racks ? numbers(given.racks.values, given.racks.peak) : [];
+    const base = given.base && numbers(given.base.values, given.base.peak);
     const blocks = given.slip.peak > 0 || slip.length ? slip.length / given.rows : 0;
     const event = { row: whole(given.events.row, Uint32Array), kind: whole(given.events.kind, Uint8Array) };
     event.number = whole(given.events.number, Uint16Array);
@@ -47,7 +48,7 @@
         changes.get(key).push([row, STARTS[name]]);
       }
     });
-    return { ...given, drift, slip, levelDrift, blocks, event, largest, changes };
+    return { ...given, drift, slip, levelDrift, base, blocks, event, largest, changes };
   }
   function open(given) {
     data = given;
@@ -160,14 +161,17 @@
     context.rect(left, 66, width, height - 66);
     context.clip();
     context.lineCap = "round";
+    const slab = Math.min(7, Math.max(2, (scale * total) / Math.max(storeys, 1) / 10));
+    const soil = floor + 2 + (run.base ? slab : 0);
     context.strokeStyle = colours.soft;
     context.lineWidth = 2;
     context.beginPath();
-    context.moveTo(left + width * 0.06, floor + 2);
-    context.lineTo(left + width * 0.94, floor + 2);
+    context.moveTo(left + width * 0.06, soil);
+    context.lineTo(left + width * 0.94, soil);
+    if (run.base) for (const edge of [-half, half]) context.rect(middle + edge, soil, 0, 5); // the first place of the slab
     context.stroke();
 
-    const xs = [middle];
+    const xs = [middle + (run.base ? enlarged * scale * between(run.base, 1, 0, run.rows, row) : 0)];
     const ys = [floor];
     for (let s = 0; s < storeys; s++) {
       xs.push(xs[s] + enlarged * scale * between(run.drift, storeys, s, run.rows, row));
@@ -201,8 +205,7 @@
       for (let s = 0; s <= storeys; s++) context.lineTo(xs[s] - 0.97 * half, ys[s]);
       context.stroke();
     }
-    const slab = Math.min(7, Math.max(2, (scale * total) / Math.max(storeys, 1) / 10));
-    for (let s = 1; s <= storeys; s++) {
+    for (let s = run.base ? 0 : 1; s <= storeys; s++) {
       context.fillStyle = colours.slab;
       context.fillRect(xs[s] - half, ys[s], 2 * half, slab);
     }
@@ -411,6 +414,13 @@
       curves.forEach((curve, i) => Object.assign(curve, { colour: hues[i], dash: DASHES[i] }));
       return curves;
     };
+    if (runs[0].base) {
+      const curves = runs.map((run, i) => ({
+        values: run.base, columns: 1, column: 0, rows: run.rows, scale: 1000,
+        colour: colourOf(run), dash: i ? [5, 2] : [], label: run.attached === null ? "goods slide" : "model",
+      }));
+      panels.push({ title: "slip of the base (mm)", ends: rangeOf(curves), digits: 1, curves });
+    }
     if (levels) {
       const ofLevels = racks.flatMap((rack, r) => Array.from({ length: rack.levels }, (_, l) => ({
         values: runs[0].levelDrift, columns: levels, column: rack.first + l, rows: runs[0].rows, scale: 1000,

@@ -74,9 +74,14 @@ class Run:
         return SLIDE.name if self.response.scene.goods and self.label != SLIDE.name else ""
 
     @property
+    def base_slip(self) -> FloatArray:
+        """Slip of the sliding base (m), zero without one, shape (rows,)."""
+        return np.zeros(self.rows) if self.response.scene.base is None else self.response.base_slip[: self.rows]
+
+    @property
     def floor_displacement(self) -> FloatArray:
         """Displacement of each floor over the ground (m), shape (rows, storeys)."""
-        return np.cumsum(self.response.drift[: self.rows], axis=1)
+        return self.base_slip[:, None] + np.cumsum(self.response.drift[: self.rows], axis=1)
 
     @property
     def level_drift(self) -> FloatArray:
@@ -87,7 +92,7 @@ class Run:
     @property
     def rack_displacement(self) -> FloatArray:
         """Displacement of each level of each rack over the ground (m), shape (rows, levels)."""
-        floors = np.hstack([np.zeros((self.rows, 1)), self.floor_displacement])
+        floors = np.column_stack([self.base_slip, self.floor_displacement])
         moved = [
             floors[:, [rack.floor]] + np.cumsum(drift[: self.rows], axis=1)
             for rack, drift in zip(self.response.scene.racks, self.response.rack_drift, strict=True)
@@ -148,6 +153,8 @@ class Shown:
         if len(response.peak_slip):
             block = int(np.argmax(response.peak_slip))
             parts.append(f"largest slip {1e3 * response.peak_slip[block]:.3g} mm of block {block + 1}")
+        if response.scene.base is not None:
+            parts.append(f"the slab slides by up to {1e3 * response.peak_base_slip:.3g} mm on the ground")
         fastest = float(response.peak_contact_velocity.max(initial=0.0))
         if fastest > 0.0:
             parts.append(f"stops hit at up to {fastest:.3g} m/s")
@@ -206,7 +213,7 @@ def _factor(runs: list[Run], room: float) -> float:
     """The largest factor with which no floor, level or block goes farther than there is room in the picture (m)."""
     largest = 0.0
     for run in runs:
-        for moved in (run.floor_displacement, run.rack_displacement, run.response.slip[: run.rows]):
+        for moved in (run.base_slip, run.floor_displacement, run.rack_displacement, run.response.slip[: run.rows]):
             if moved.size:
                 largest = max(largest, float(np.abs(moved).max()))
     if largest == 0.0:
@@ -300,7 +307,8 @@ class Animation(FieldValue):
 def _label(scene: Scene) -> str:
     """What the run of the scene itself is called."""
     if scene.building is None:
-        return f"{'racks' if scene.racks else 'blocks'} on the ground"
+        place = "ground" if scene.base is None else "slab"
+        return f"{'racks' if scene.racks else 'blocks'} on the {place}"
     return SLIDE.name if scene.goods else "no goods"
 
 
@@ -361,7 +369,6 @@ def animate(
     if not isinstance(scene, Scene):
         raise refusal(InvalidScene, "scene", "animation", "a Scene", brief(scene))
     motion_shown = as_motion(motion, "motion", "animation")
-    scene.on_ground("animation")
     scenes: list[tuple[str, float | None, Scene]] = [(_label(scene), None, scene)]
     if any(floor > 0 for floor in (*scene.block_floor, *(rack.floor for rack in scene.racks if rack.blocks))):
         if fraction is None:

@@ -60,6 +60,7 @@ def element_content(animation: Animation) -> dict[str, Any]:
         "factor": shown.factor,
         "last": (shown.rows - 1) * shown.step,
         "step": shown.step,
+        **({"base": True} if scene.base is not None else {}),
     }
 
 
@@ -75,7 +76,7 @@ def element_html(
     """
     times = "\N{MULTIPLICATION SIGN}"
     choices = factors or [(factor, f"{factor:g} {times}") for factor in sorted({content["factor"], *FACTORS})]
-    flags = dict.fromkeys(("racks", "walls", "fixed", "stops"), False) | content
+    flags = dict.fromkeys(("racks", "base", "walls", "fixed", "stops"), False) | content
     data = json.dumps(content["data"], separators=(",", ":")).replace("<", "\\u003c")
     html: str = (
         templates()
@@ -156,8 +157,9 @@ def _block(good: Good) -> dict[str, Any]:
 def _run(run: Run, step: float) -> dict[str, Any]:
     response = run.response
     drift, slip = response.drift[: run.rows], response.slip[: run.rows]
-    levels = run.level_drift
-    peaks = [float(abs(moved).max()) if moved.size else 0.0 for moved in (drift, slip, levels)]
+    levels, base = run.level_drift, run.base_slip
+    peaks = [float(abs(moved).max()) if moved.size else 0.0 for moved in (drift, slip, levels, base)]
+    of_base = {"base": {"peak": peaks[3], "values": _packed(base, peaks[3])}} if response.scene.base is not None else {}
     return {
         "label": run.label,
         "what": run.what,
@@ -168,13 +170,17 @@ def _run(run: Run, step: float) -> dict[str, Any]:
         "drift": {"peak": peaks[0], "values": _packed(drift, peaks[0])},
         "slip": {"peak": peaks[1], "values": _packed(slip, peaks[1])},
         "racks": {"peak": peaks[2], "values": _packed(levels, peaks[2])},
+        **of_base,
         "events": _events(run, step),
     }
 
 
 def _events(run: Run, step: float) -> dict[str, str]:
-    """Events by the row at which they are drawn; of equal ones in one row the last is kept."""
+    """Events by the row at which they are drawn; of equal ones in one row the last is kept. Those of a sliding base
+    have the number 0, by which the script takes them for those of all blocks, and are left out.
+    """
     log = run.response.event_log
+    log = log[(log["number"] > 0) | ~np.isin(log["kind"], ("slip", "stick", "reverse"))]
     row = np.minimum(np.ceil(log["time"] / step), run.rows - 1).astype(np.uint32)
     kind = np.array([EVENT_KINDS.index(name) for name in log["kind"]], dtype=np.uint8)
     number = log["number"].astype(np.uint16)

@@ -158,7 +158,7 @@ class Picture(Frames):
 
     def __init__(self, animation: Animation) -> None:
         scene = animation.scene
-        super().__init__(animation.shown, 1 + bool(scene.storeys) + bool(scene.racks) + bool(scene.goods))
+        super().__init__(animation.shown, 1 + sum(map(bool, (scene.storeys, scene.base, scene.racks, scene.goods))))
         self._animation = animation
         self._shown = animation.shown
         self._standing = standing_goods(scene)
@@ -220,9 +220,13 @@ class Picture(Frames):
             if run.response.collapsed_storey is not None and time >= run.response.end_time:
                 words = f"storey {run.response.collapsed_storey} collapsed at {run.response.end_time:.2f} s"
             self._text(draw, (middle, 39), words, SOFT, 12, "ma")
-        self._line(draw, [(left + 0.06 * width, ground + 1), (left + 0.94 * width, ground + 1)], SOFT, 2)
+        slab, on_base = min(6.0, max(1.5, scale * total / max(storeys, 1) / 10.0)), scene.base is not None
+        soil = ground + 1.0 + (slab if on_base else 0.0)
+        self._line(draw, [(left + 0.06 * width, soil), (left + 0.94 * width, soil)], SOFT, 2)
         enlarged = self._shown.factor * scale
-        xs, ys = [middle], [ground]
+        xs, ys = [middle + enlarged * float(self._at(run.base_slip, run, time))], [ground]
+        for edge in (-half, half) if on_base else ():  # the first place of the slab
+            self._line(draw, [(middle + edge, soil), (middle + edge, soil + 5.0)], SOFT, 2)
         drifts = self._at(run.response.drift, run, time)
         for drift, height in zip(drifts.tolist(), heights, strict=True):
             xs.append(xs[-1] + enlarged * drift)
@@ -238,8 +242,8 @@ class Picture(Frames):
         if scene.building is not None and scene.building.stiffness_matrix is not None:
             wall = [(x - 0.97 * half, y) for x, y in zip(xs, ys, strict=True)]
             self._line(draw, wall, SLAB, 2.0 * thin + 2.0)
-        slab = min(6.0, max(1.5, scale * total / max(storeys, 1) / 10.0))
-        for x, y in zip(xs[1:], ys[1:], strict=True):
+        first = 0 if on_base else 1
+        for x, y in zip(xs[first:], ys[first:], strict=True):
             self._box(draw, (x - half, y, x + half, y + slab), SLAB)
         self._goods(draw, number, run, (xs, ys), Sizes(half, scale, total, aloft, thin, flash), time)
 
@@ -408,6 +412,9 @@ class Picture(Frames):
             ]
             unit = unit.replace("%", "% of height")
             panels.append((f"drift of storey {shown.storey + 1} ({unit})", drifts))
+        if scene.base is not None:
+            bases = [(1e3 * run.base_slip, _role(run).text, _name(run)) for run in shown.runs]
+            panels.append(("slip of the base (mm)", bases))
         if scene.racks:
             peaks = np.concatenate(sliding.response.peak_rack_drift)
             places = rack_levels(scene)

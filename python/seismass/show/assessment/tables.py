@@ -87,12 +87,12 @@ def analysis_table(result: Assessment) -> tuple[pl.DataFrame, dict[str, Any]]:
 
 def animated(result: Assessment) -> Assessment:
     """Return an assessment with what the animation of its page shows, the building under the motion in the middle,
-    beside the model with the code's share; as it is in two directions, on a sliding base, and where it was read.
+    beside the model with the code's share; as it is in two directions, and where it was read.
     """
     if result.solved is None:
         return result
     shown, building = result.example, result.building
-    if shown.scene.base is not None or shown.scene.other_direction is not False:
+    if shown.scene.other_direction is not False:
         return result
     from seismass.show.animation import animate
     from seismass.show.animation.html import element_content

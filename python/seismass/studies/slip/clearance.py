@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from numbers import Real
-from typing import Any, Final
+from typing import Any, Final, Literal
 
 import numpy as np
 import polars as pl
@@ -302,19 +302,21 @@ def place_columns(scene: Scene, times: int) -> dict[str, Any]:
     }
 
 
-def at_nodes(response: Response, of_floors: str, of_racks: str, ground: float) -> FloatArray:
-    """Return peaks of the ground, the floors and the rack levels; `of_floors` and `of_racks` name what is peaked."""
-    return np.concatenate([[ground], getattr(response, of_floors), *getattr(response, of_racks)])
+def accelerations_at_nodes(response: Response, ground: float) -> FloatArray:
+    """Return peak accelerations of the ground, or the slab of a sliding base, of floors and of rack levels (m/s2)."""
+    first = ground if response.scene.base is None else response.peak_base_acceleration
+    return np.concatenate([[first], response.peak_floor_acceleration, *response.peak_rack_acceleration])
 
 
-def histories_at_nodes(response: Response, of_floors: str, of_racks: str, ground: FloatArray) -> FloatArray:
-    """Return histories of the ground, the floors and the rack levels, shape (rows, nodes)."""
-    return np.column_stack([ground, getattr(response, of_floors), *getattr(response, of_racks)])
+def histories_at_nodes(response: Response, what: Literal["velocity", "acceleration"], ground: FloatArray) -> FloatArray:
+    """Return histories of the ground, or the slab of a sliding base, of floors and of levels, shape (rows, nodes)."""
+    first = ground if response.scene.base is None else getattr(response, f"base_{what}")
+    return np.column_stack([first, getattr(response, f"floor_{what}"), *getattr(response, f"rack_{what}")])
 
 
 def without_loose_goods(scene: Scene, *, attached: bool) -> Scene:
-    """Return the building with its racks, without loose goods or with all of them attached for good. Springs of racks
-    stay the same; their damping is the ratio in their modes with what is attached.
+    """Return building, racks and base without loose goods, or with all attached for good, those on a slab to the slab.
+    Springs of racks stay the same; their damping is the ratio in their modes with what is attached.
     """
     if scene.other_direction is not False:
         x, y = (without_loose_goods(each, attached=attached) for each in scene._directions())
@@ -328,13 +330,16 @@ def without_loose_goods(scene: Scene, *, attached: bool) -> Scene:
             collapse_drift=scene.collapse_drift,
             name=scene.name,
         )
-    building = scene.building
+    building, base = scene.building, scene.base
     scale = np.ones(scene.storeys + 1)
+    on_floors = np.zeros(scene.storeys + 1)
+    if attached:
+        np.add.at(on_floors, list(scene.block_floor), scene.block_mass)
+        on_floors[1:] += 0.0 if scene.fixed_goods is None else scene.fixed_goods
+    slab = 0.0 if base is None else base.slab_mass(building) + float(on_floors[0])
     if building is not None:
-        mass = building.mass.copy()
-        for floor, block in zip(scene.block_floor, scene.block_mass, strict=True):
-            if floor and attached:
-                mass[floor - 1] += block
+        mass = building.mass + on_floors[1:]
+        base = None if base is None else base.replace(mass=None, mass_ratio=slab / float(mass[0]))
         # Masses that are given over that of their floor stay what they are.
         scale[1:] = building.mass / mass
         changes: dict[str, Any] = {"mass": mass, "damping": building.damping_matrix}
@@ -343,10 +348,12 @@ def without_loose_goods(scene: Scene, *, attached: bool) -> Scene:
         racks = [_emptied(rack, building.mass, float(scale[rack.floor]), attached=attached) for rack in scene.racks]
         building = building.replace(**changes)
     else:
+        base = None if base is None else base.replace(mass=slab)
         racks = [_emptied(rack, np.empty(0), 1.0, attached=attached) for rack in scene.racks]
     return Scene(
         building,
         racks=racks,
+        base=base,
         initial_drift=scene.initial_drift,
         initial_velocity=scene.initial_velocity,
         collapse_drift=scene.collapse_drift,

@@ -257,7 +257,10 @@ def slip_demand(
     With racks, what goods stand on is the level of their rack: its acceleration is set beside mu_s, and the building
     alone and with all goods attached have the racks in them, empty or with the goods fixed to their levels. Stops act
     in the building; on the ground and in the estimates the goods are free. Fragilities are of scenes without racks,
-    walls and stops.
+    walls, stops and a sliding base.
+
+    On a sliding base floor 0 is its slab. The building alone and with all goods attached, those on the slab too, stand
+    on a base of the same friction coefficients under their own weight.
 
     In two directions friction is of the circle. Slips, accelerations and velocities are lengths of vectors; the tables
     have slips by direction and side too, and those of each direction under its own motion alone, which an analysis of
@@ -279,7 +282,6 @@ def slip_demand(
     listed: Any = motions
     if not isinstance(motions, Motion | HasMotion | Pair) and isinstance(motions, Iterator):
         listed = list(motions)
-    scene.on_ground("slip_demand")
     named = named_motions(listed, OWNER, scene)
     count, in_plane = len(scene.goods), scene.other_direction is not False
     measured, limits = as_sizes(sizes, count), as_clearances(clearance, count, plane=in_plane)

@@ -26,7 +26,13 @@ from seismass.motions.spectra import response_spectrum
 from seismass.runs.plane import PlaneMotion, PlaneResponse
 from seismass.runs.response import Response
 from seismass.runs.simulate import simulate
-from seismass.studies.slip.clearance import at_nodes, histories_at_nodes, places_of, signed_peaks, without_loose_goods
+from seismass.studies.slip.clearance import (
+    accelerations_at_nodes,
+    histories_at_nodes,
+    places_of,
+    signed_peaks,
+    without_loose_goods,
+)
 
 BOUND_LIMIT: Final = 6.0
 """Largest A/N of the bound of Newmark (1965); beyond it the bound is 6 V^2/(2 g N)."""
@@ -163,7 +169,7 @@ class PlaneSlip:
 def _peaks_at_nodes(response: Response | PlaneResponse, ground: float) -> FloatArray:
     """Peak acceleration, or its length, of the ground, the floors and the rack levels (m/s2)."""
     if isinstance(response, Response):
-        return at_nodes(response, "peak_floor_acceleration", "peak_rack_acceleration", ground)
+        return accelerations_at_nodes(response, ground)
     of_floors, of_levels = (response.peak_floor_acceleration, response.peak_rack_acceleration)
     return np.concatenate([[ground], of_floors[:, VECTOR], of_levels[:, VECTOR]])
 
@@ -173,7 +179,7 @@ def _peaks(response: Response | PlaneResponse | None, nodes: NDArray[np.int64], 
     if response is None:
         return np.full(len(nodes), ground)
     if response.status == "collapsed":
-        return np.where(nodes > 0, np.nan, ground)
+        return np.where((nodes > 0) | (response.scene.base is not None), np.nan, ground)
     return _peaks_at_nodes(response, ground)[nodes]
 
 
@@ -195,7 +201,7 @@ def _demands_plane_runs(response: PlaneResponse, motions: PlaneMotion, peaks: Fl
 @dataclass(frozen=True, slots=True)
 class SlipModels:
     """The scene, its goods on the ground, and the building alone and with all goods attached (None without goods).
-    Racks stand in the latter two, empty or with all goods attached to their levels.
+    Racks stand in the latter two, empty or with all goods attached to their levels, and both on the base of the scene.
     """
 
     scene: Scene
@@ -208,7 +214,7 @@ class SlipModels:
         """Return the models of a scene."""
         goods = [on_ground(block) for block in scene.goods]
         ground = Scene(None, goods, other_direction=scene.other_direction is not False)
-        if scene.racks:
+        if scene.racks or scene.base is not None:
             alone, full = (without_loose_goods(scene, attached=share) for share in (False, True))
             return cls(scene, ground, alone, full)
         if not any(floor > 0 for floor in scene.block_floor):
@@ -281,7 +287,7 @@ def solve_motion(models: SlipModels, motion: Motion, other: Motion | None = None
     ground_velocity, _ = integrals(motion.acceleration, motion.dt)
     velocity = float(peak_velocity(motion.acceleration, motion.dt, ground_velocity))
     base = Base(motion, motion.pga, velocity, _peak_vertical(motion))
-    standing = histories_at_nodes(sliding, "floor_velocity", "rack_velocity", 0.0 * ground_velocity)
+    standing = histories_at_nodes(sliding, "velocity", 0.0 * ground_velocity)
     rate = sliding.block_velocity - standing[:, nodes]
     plus, minus = signed_peaks(sliding.slip, rate, motion.dt, sliding.peak_slip)
     alone = None if models.alone is None else simulate(models.alone, motion, histories=True, events=False)
@@ -294,7 +300,8 @@ def solve_motion(models: SlipModels, motion: Motion, other: Motion | None = None
         rows += _floor_estimates(scene, alone, motion, ground_velocity)
     accelerations = _peaks_at_nodes(sliding, base.acceleration)
     velocities = np.nanmax(np.abs(standing + ground_velocity[:, None]), axis=0)
-    velocities[0] = base.velocity
+    if scene.base is None:
+        velocities[0] = base.velocity
     return SlipRuns(
         peak=sliding.peak_slip,
         plus=plus,
@@ -376,10 +383,10 @@ def _peak_vertical(motion: Motion) -> float:
 def _demands(response: Response, motion: Motion, peaks: FloatArray) -> FloatArray:
     """Largest abs(a)/(g + a_v) of all nodes: in continuous time without vertical motion, of the samples with it."""
     if motion.vertical is None:
-        demands: FloatArray = np.concatenate([[motion.pga], peaks[1:]]) / STANDARD_GRAVITY
+        demands: FloatArray = peaks / STANDARD_GRAVITY
         return demands
     vertical = motion.vertical
-    every = histories_at_nodes(response, "floor_acceleration", "rack_acceleration", motion.acceleration)
+    every = histories_at_nodes(response, "acceleration", motion.acceleration)
     return np.array([demand_in_g(history, vertical) for history in every.T])
 
 
@@ -388,11 +395,11 @@ def _floor_estimates(scene: Scene, alone: Response, motion: Motion, ground_veloc
     rows = []
     bases: dict[int, Base] = {}
     peaks = _peaks_at_nodes(alone, motion.pga)
-    accelerations = histories_at_nodes(alone, "floor_acceleration", "rack_acceleration", motion.acceleration)
-    velocities = histories_at_nodes(alone, "floor_velocity", "rack_velocity", 0.0 * ground_velocity)
+    accelerations = histories_at_nodes(alone, "acceleration", motion.acceleration)
+    velocities = histories_at_nodes(alone, "velocity", 0.0 * ground_velocity)
     for number, (block, place) in enumerate(zip(scene.goods, places_of(scene), strict=True)):
         node = place.node
-        if node == 0:
+        if node == 0 and scene.base is None:
             continue
         if node not in bases:
             bases[node] = Base(

@@ -311,6 +311,11 @@ def demand_remarks(
             "goods on racks slide on their level, whose acceleration is set beside their friction; racks do not "
             "uplift, and goods do not fall"
         )
+    if scene.base is not None:
+        remarks.append(
+            "floor 0 is the slab of the sliding base; the building alone and with all goods attached stand on a base "
+            "of the same friction coefficients under their own weight"
+        )
     if not (runs.peak > 0.0).any() and not runs.collapsed.any():
         remarks.append("no block slides under any motion")
     for row in squat.filter(pl.col("rocks_first")).iter_rows(named=True):
