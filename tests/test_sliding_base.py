@@ -209,14 +209,18 @@ def test_slip_on_a_base_is_that_of_the_run() -> None:
     assert on_slab["floor_velocity"] == pytest.approx(np.abs(run.base_velocity + run.ground_velocity).max())
 
 
-@pytest.mark.parametrize(
-    "racks", [(), (sm.Rack(1, 2, period=0.3, level_mass=60.0, blocks=[sm.RackBlock(2, mass=90.0, mu=9.0)]),)]
-)
-def test_goods_on_a_base_slide_where_they_would_if_all_were_attached(racks: tuple[sm.Rack, ...]) -> None:
+RACK = sm.Rack(1, 2, period=0.3, level_mass=60.0, blocks=[sm.RackBlock(2, mass=90.0, mu=9.0)])
+
+
+@pytest.mark.parametrize("racks", [(), (RACK,)])
+@pytest.mark.parametrize("fixed", [None, [250.0, 100.0]])
+@pytest.mark.parametrize("base", [ON_BASE.base, None])
+def test_goods_slide_where_they_would_if_all_were_attached(
+    racks: tuple[sm.Rack, ...], fixed: list[float] | None, base: sm.SlidingBase | None
+) -> None:
     """Nothing slides just above the acceleration of the model with all goods attached; just below something does."""
-    bound = ON_BASE.replace(
-        blocks=[block.replace(mu=9.0, mu_s=None, mu_k=None) for block in ON_BASE.blocks], racks=racks
-    )
+    blocks = [block.replace(mu=9.0, mu_s=None, mu_k=None) for block in ON_BASE.blocks]
+    bound = ON_BASE.replace(blocks=blocks, racks=racks, fixed_goods=fixed, base=base)
     attached = sm.slip.slip_demand(bound, [PULSE]).runs["attached_acceleration_g"].to_list()
     assert sm.simulate(bound, PULSE).peak_slip.max() == 0.0
     for number, block in enumerate(bound.blocks):
