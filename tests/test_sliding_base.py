@@ -204,6 +204,9 @@ def test_slip_on_a_base_is_that_of_the_run() -> None:
     assert sides.max(axis=1).tolist() == run.peak_slip.tolist()
     assert sides[:, 0] == pytest.approx(np.maximum(run.slip.max(axis=0), 0.0), abs=1e-4)
     assert sides[:, 1] == pytest.approx(np.maximum(-run.slip.min(axis=0), 0.0), abs=1e-4)
+    assert "  1, slab " in found.text
+    assert "  2, floor 1 " in found.text
+    assert "1, ground " not in found.text
     on_slab = found.runs.row(0, named=True)
     assert on_slab["floor_acceleration_g"] * sm.STANDARD_GRAVITY == pytest.approx(run.peak_base_acceleration)
     assert on_slab["floor_velocity"] == pytest.approx(np.abs(run.base_velocity + run.ground_velocity).max())

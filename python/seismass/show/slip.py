@@ -67,7 +67,7 @@ def slip_demand_figure(result: SlipDemand, name: str | None = None) -> Figure:
         handles.append(Line2D([], [], color=LIMIT.colour, linestyle=LIMIT.line, linewidth=1.2, label="clearance"))
     figure.legend(handles=handles, loc="outside upper center", ncols=2, frameon=False)
     worst = result.blocks.sort("p84", nulls_last=True, descending=True).row(0, named=True)
-    place = "the ground" if worst["floor"] == 0 else f"floor {worst['floor']}"
+    place = ("" if worst["floor"] else "the ") + _floor(result, worst)
     known = worst["p84"] is not None and math.isfinite(worst["p84"])
     words = f"{1e3 * worst['p84']:.0f} mm of slip at 84 % of the motions" if known else "runs that collapse"
     axes[0].set_title(f"Block {worst['block']} on {place}: {words}", loc="left")
@@ -103,7 +103,7 @@ def _by_block(axes: Axes, result: SlipDemand) -> None:
                 axes.plot([1e3 * mean], [place + offset], color=INK, marker="D", markersize=5.0)
         for limit in result.exceedance.filter(block=row["block"], side="any")["clearance"]:
             axes.vlines(1e3 * limit, place - 0.4, place + 0.4, color=LIMIT.colour, linestyle=LIMIT.line, linewidth=1.2)
-        name = "ground" if row["floor"] == 0 else f"floor {row['floor']}"
+        name = _floor(result, row)
         if row.get("rack"):
             name = f"rack {row['rack']}, level {row['level']}"
         collapses = f"\n{lost} collapsed" if lost else ""
@@ -201,7 +201,7 @@ def _blocks(result: SlipDemand) -> list[str]:
         text_line(("block", "in the building", "largest", "slides", "on the ground", "slides"), _SLIPS),
     ]
     for row in result.blocks.iter_rows(named=True):
-        name = f"{row['block']}, {_place(row)}"
+        name = f"{row['block']}, {_place(result, row)}"
         here = f"{_mm(row['mean'])} [{_mm(row['p16'])}, {_mm(row['p84'])}]"
         ground = f"{_mm(row['ground_mean'])} [{_mm(row['ground_p16'])}, {_mm(row['ground_p84'])}]"
         slides, ground_slides = _percent(row["slides"]), _percent(row["ground_slides"])
@@ -209,7 +209,7 @@ def _blocks(result: SlipDemand) -> list[str]:
     lines += ["", "Slip that remains (mm), slip over that on the ground, friction over floor acceleration"]
     lines.append(text_line(("block", "remains", "building/ground", "motion by motion", "mu_s g/PFA"), _RATIOS))
     for row in result.blocks.iter_rows(named=True):
-        name = f"{row['block']}, {_place(row)}"
+        name = f"{row['block']}, {_place(result, row)}"
         remains = f"{_mm(row['residual_mean'])} [{_mm(row['residual_p16'])}, {_mm(row['residual_p84'])}]"
         pooled = interval_text(row["amplification"], row["amplification_low"], row["amplification_high"])
         each = interval_text(row["amplification_median"], row["amplification_p16"], row["amplification_p84"])
@@ -237,7 +237,9 @@ def _directions(result: SlipDemand) -> list[str]:
     for row in result.blocks.iter_rows(named=True):
         of_axes = (f"{_mm(row[f'{axis}_mean'])}, {_mm(row[f'{axis}_largest'])}" for axis in "xy")
         rest = (number_text(row[name]) for name in ("over_one_direction", "length_over_one_direction"))
-        lines.append(text_line((f"{row['block']}, {_place(row)}", *of_axes, _mm(row["path_mean"]), *rest), _DIRECTIONS))
+        lines.append(
+            text_line((f"{row['block']}, {_place(result, row)}", *of_axes, _mm(row["path_mean"]), *rest), _DIRECTIONS)
+        )
     return [*lines, "  in each: means of the peaks in x and in y over those of each direction under its motion alone"]
 
 
@@ -249,7 +251,7 @@ def _contacts(result: SlipDemand) -> list[str]:
     for row in result.blocks.filter(pl.col("touches") > 0.0).iter_rows(named=True):
         velocity = f"{number_text(row['contact_velocity_p84'])}, {number_text(row['contact_velocity_largest'])} m/s"
         force = ", ".join(number_text(row[f"contact_force_{end}"], scale=1e-3) for end in ("p84", "largest"))
-        name = f"{row['block']}, {_place(row)}"
+        name = f"{row['block']}, {_place(result, row)}"
         lines.append(f"  {name:16}{_percent(row['touches']):>8}   {velocity:24}{force} kN")
     return lines if len(lines) > 1 else [f"{lines[0][:5]}: no goods touch any"]
 
@@ -301,7 +303,7 @@ def _estimates(result: SlipDemand) -> list[str]:
     for row in result.estimates.iter_rows(named=True):
         if row["base"] == "ground" and row["estimate"] == "rigid_block":
             continue  # the exact slip itself
-        base = "the ground" if row["base"] == "ground" else f"{_place(row)} alone"
+        base = "the ground" if row["base"] == "ground" else f"{_place(result, row)} alone"
         numbers = (number_text(row[name]) for name in ("ratio", "log_scatter"))
         short = "-" if row["below"] is None else _percent(row["below"])
         lines.append(text_line((str(row["block"]), base, TITLES[row["estimate"]], *numbers, short), _ESTIMATES))
@@ -311,11 +313,16 @@ def _estimates(result: SlipDemand) -> list[str]:
     ]
 
 
-def _place(row: dict[str, Any]) -> str:
+def _place(result: SlipDemand, row: dict[str, Any]) -> str:
     """What a block stands on."""
     if row.get("rack"):
         return f"rack {row['rack']}.{row['level']}"
-    return "ground" if row["floor"] == 0 else f"floor {row['floor']}"
+    return _floor(result, row)
+
+
+def _floor(result: SlipDemand, row: dict[str, Any]) -> str:
+    """The floor of a block; of a sliding base floor 0 is the slab."""
+    return f"floor {row['floor']}" if row["floor"] else str(result.metadata.get("floor_0", "ground"))
 
 
 def _mm(value: float | None) -> str:

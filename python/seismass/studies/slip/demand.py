@@ -306,6 +306,8 @@ def slip_demand(
         "sizes": [None if size is None else [size.width, size.height, size.centre_height] for size in measured],
         "clearances": [None if each is None else each.distances[: 5 if in_plane else 2] for each in limits],
     }
+    if scene.base is not None:
+        settings["floor_0"] = "slab"
     fragilities: dict[int, Fragility] = {}
     of_fragilities: tuple[str, ...] = ()
     if fragility:
