@@ -196,6 +196,14 @@ def test_slip_on_a_base_that_never_slides_is_slip_on_the_ground() -> None:
     assert any(remark.startswith("floor 0 is the slab of the sliding base") for remark in held.remarks)
 
 
+def test_models_on_a_base_and_with_racks_have_the_damping_of_the_building() -> None:
+    for scene in (ON_BASE, ON_BASE.replace(base=None, racks=[RACK])):
+        with pytest.raises(
+            sm.errors.InvalidOption, match="damping of slip demand must be 'same' with racks or a sliding base"
+        ):
+            sm.slip.slip_demand(scene, [PULSE], damping="ratio")
+
+
 def test_slip_on_a_base_is_that_of_the_run() -> None:
     found = sm.slip.slip_demand(ON_BASE, [PULSE], clearance=0.1)
     run = sm.simulate(ON_BASE, PULSE, histories=True)

@@ -220,7 +220,8 @@ def slip_demand(
         Intensity measure of fragilities, as for `seismass.fragility.measure_for`: by default Sa (g) at the first period
         of the building without goods.
     damping : {"same", "ratio"}, default "same"
-        Damping of the models of the building alone and with all goods attached, see `attached_scene`.
+        Damping of the models of the building alone and with all goods attached, see `attached_scene`; "same" with racks
+        and on a sliding base.
     confidence : float, default 0.90
         Probability of intervals.
     resamples, seed : int, optional
@@ -289,7 +290,9 @@ def slip_demand(
     whole, fragility = Progress(progress, len(named), OWNER), as_flag(fragility, "fragility", OWNER, InvalidOption)
     if fragility and not any(limits):
         raise refusal(InvalidOption, "clearance", OWNER, "given for a fragility", "None")
-    models = SlipModels.of(scene, check_damping(damping, OWNER))
+    if check_damping(damping, OWNER) != SAME_DAMPING and (scene.racks or scene.base is not None):
+        raise refusal(InvalidOption, "damping", OWNER, f"{SAME_DAMPING!r} with racks or a sliding base", brief(damping))
+    models = SlipModels.of(scene, damping)
     solved = []
     if fragility:
         scene.require_chain("slip_demand with a fragility")
