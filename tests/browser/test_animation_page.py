@@ -99,6 +99,7 @@ def test_animation_is_as_every_page_must_be(animation: sm.Animation, look: Any) 
             ),
         ),
         ("animation-racks", RACKED),
+        ("animation-base", SCENE.replace(base=sm.SlidingBase(0.1, radius=2.0))),
         ("animation-racks-alone", sm.Scene(None, racks=RACKED.racks[:1])),
         (
             "animation-collapse",
@@ -212,6 +213,28 @@ def test_what_yields_is_marked_while_it_does(animation: sm.Animation, open_page:
             found.append(page.locator(".buildings").evaluate(COUNT_COLOUR, YIELD))
     assert found[0] == 0
     assert found[1] > 200
+
+
+def test_a_slab_slides_on_the_ground(open_page: Any) -> None:
+    """Where it is grey in the lowest row of slabs of the first building, at the start and at the largest slip."""
+    middle_of_slab = """canvas => {
+      const ratio = canvas.width / canvas.clientWidth;
+      const row = Math.round(ratio * (canvas.clientHeight - 29));
+      const { data } = canvas.getContext("2d").getImageData(0, row, Math.floor(canvas.width / 2), 1);
+      const grey = Array.from({ length: data.length / 4 }, (_, x) => x).filter((x) =>
+        data[4 * x + 3] === 255 && Math.abs(data[4 * x] - 0x6b) < 3 && data[4 * x] === data[4 * x + 2]);
+      return (grey[0] + grey[grey.length - 1]) / 2 / ratio;
+    }"""
+    animation = sm.animate(SCENE.replace(base=sm.SlidingBase(0.1, radius=2.0)), RECORD)
+    slip = animation.shown.runs[0].base_slip
+    largest = int(abs(slip).argmax())
+    with open_page(animation.html(), "animation", reduced_motion="reduce") as page:
+        places = []
+        for row in (0, largest):
+            go_to(page, row * animation.shown.step)
+            places.append(page.locator(".buildings").evaluate(middle_of_slab))
+    assert (places[1] - places[0]) * slip[largest] > 0.0
+    assert abs(places[1] - places[0]) > 10.0
 
 
 def test_largest_drifts_so_far_are_those_of_the_run_at_the_end(animation: sm.Animation, open_page: Any) -> None:
