@@ -220,7 +220,9 @@ def test_a_slab_slides_on_the_ground(open_page: Any) -> None:
     middle_of_slab = """canvas => {
       const ratio = canvas.width / canvas.clientWidth;
       const row = Math.round(ratio * (canvas.clientHeight - 29));
-      const { data } = canvas.getContext("2d").getImageData(0, row, Math.floor(canvas.width / 2), 1);
+      const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
+      copy.drawImage(canvas, 0, 0);
+      const { data } = copy.getImageData(0, row, Math.floor(canvas.width / 2), 1);
       const grey = Array.from({ length: data.length / 4 }, (_, x) => x).filter((x) =>
         data[4 * x + 3] === 255 && Math.abs(data[4 * x] - 0x6b) < 3 && data[4 * x] === data[4 * x + 2]);
       return (grey[0] + grey[grey.length - 1]) / 2 / ratio;
