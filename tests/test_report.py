@@ -357,7 +357,11 @@ def test_page_of_a_building_without_heights_and_goods(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("further", "words", "animated"),
     [
-        ({"base": {"mu_s": 0.08, "mu_k": 0.06, "radius_m": 2.5}}, ["Sliding base", "it stands on a sliding base"], True),
+        (
+            {"base": {"mu_s": 0.08, "mu_k": 0.06, "radius_m": 2.5}},
+            ["Sliding base", "it stands on a sliding base"],
+            True,
+        ),
         ({"other_direction": {"period_s": 0.7}}, ["Other direction, y", "it moves in two directions"], False),
     ],
 )
