@@ -391,16 +391,18 @@
     return data.marks ? Array.from(row).filter(isOne) : [];
   }
   const DASHES = [[], [6, 3], [2, 3], [9, 3, 2, 3], [1, 2]];
+  // A history of both runs: solid where goods slide, dashed of the model.
+  const curveOf = (run, i, values, columns, column, scale) => ({
+    values, columns, column, rows: run.rows, scale,
+    colour: colourOf(run), dash: i ? [5, 2] : [], label: run.attached === null ? "goods slide" : "model",
+  });
   function panelsOf(mostCurves) {
     const wide = storeys ? (data.known ? 100 / data.heights[data.storey] : 1000) : 1;
     const peak = data.ground.peak;
     const panels = [{ title: "ground acceleration (g)", ends: [-peak, peak], digits: 2, range: ground, curves: [] }];
     if (storeys) {
       const unit = data.known ? "% of height" : "mm";
-      const curves = runs.map((run, i) => ({
-        values: run.drift, columns: storeys, column: data.storey, rows: run.rows, scale: wide,
-        colour: colourOf(run), dash: i ? [5, 2] : [], label: run.attached === null ? "goods slide" : "model",
-      }));
+      const curves = runs.map((run, i) => curveOf(run, i, run.drift, storeys, data.storey, wide));
       const title = mostCurves > 3 ? `drift of storey ${data.storey + 1} (${unit})` : `drift ${data.storey + 1} (${unit.slice(0, 2).trim()})`;
       panels.push({ title, ends: rangeOf(curves), digits: data.known ? 2 : 1, curves, marks: marksOf("yield", data.storey + 1) });
     }
@@ -415,10 +417,7 @@
       return curves;
     };
     if (runs[0].base) {
-      const curves = runs.map((run, i) => ({
-        values: run.base, columns: 1, column: 0, rows: run.rows, scale: 1000,
-        colour: colourOf(run), dash: i ? [5, 2] : [], label: run.attached === null ? "goods slide" : "model",
-      }));
+      const curves = runs.map((run, i) => curveOf(run, i, run.base, 1, 0, 1000));
       panels.push({ title: "slip of the base (mm)", ends: rangeOf(curves), digits: 1, curves });
     }
     if (levels) {
