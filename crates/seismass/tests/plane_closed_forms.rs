@@ -2,11 +2,16 @@
 
 #![allow(clippy::unwrap_used)]
 
+#[allow(dead_code)] // Only numbers are drawn.
+mod general_random;
+
 use std::sync::Arc;
 
+use general_random::Draw;
 use seismass::{
     Block, Damping, EventKind, GeneralBuilding, GeneralScene, GeneralStatus, Goods, GravityEffect, Motion, Options,
-    PlaneMotion, PlaneResponse, PlaneScene, STANDARD_GRAVITY, Stops, Storey, Wear, simulate_general, simulate_plane,
+    PlaneEvent, PlaneMotion, PlaneResponse, PlaneScene, STANDARD_GRAVITY, Stops, Storey, Wear, simulate_general,
+    simulate_plane,
 };
 
 const G: f64 = STANDARD_GRAVITY;
@@ -185,6 +190,46 @@ fn stops_of_both_directions_by_themselves() {
     }
     assert!(touched > 8);
     assert_eq!(plane.statistics.events.of(EventKind::TouchStop), touched);
+}
+
+/// A block rests at a damped stop that it has pressed in by less than a last digit, beside a fast one. Ground accelerates so
+/// that it starts away from the stop: the stop lets go while the block counts as at rest, and lets go for good. It slides
+/// straight, by c t^3/6 from where the ramp c t reaches its friction, then by v t + (a - mu g) t^2/2.
+#[test]
+fn a_block_leaves_a_stop_that_it_hardly_presses_once() {
+    let (dt, samples) = (0.01, 60);
+    for seed in 0..500 {
+        let draw = &mut Draw(seed);
+        let (mass, mu) = (draw.scale(10.0, 3000.0), draw.scale(0.05, 0.3));
+        let stiffness = mass * draw.scale(1e3, 1e6);
+        let damping = 2.0 * draw.scale(0.02, 2.0) * (stiffness * mass).sqrt();
+        let stops = Stops { clearance: [f64::INFINITY, 0.0], stiffness, damping };
+        let (towards, fast) = (draw.scale(1e-11, 1e-7), draw.scale(0.1, 10.0));
+        let of = |axis: usize| {
+            let resting = Block { velocity: Some([towards, 0.0][axis]), ..Block::new(0, mass, mu) };
+            let other = Block { velocity: Some([0.0, fast][axis]), ..Block::new(0, 1.0, mu) };
+            let stops = (axis == 0).then_some(stops);
+            GeneralScene::new(None, vec![Goods { block: resting, stops }, other.into()], Vec::new()).unwrap()
+        };
+        // Nothing for one sample, then a ramp to a push beyond friction, away from the stop.
+        let (push, angle) = (mu * G * draw.scale(1.2, 3.0), draw.scale(0.05, 1.5));
+        let ground = |part: f64| (0..samples).map(|i| [0.0, part * push][usize::from(i > 1)]).collect::<Vec<f64>>();
+        let motion = Motion::new(ground(angle.cos()), dt, None).unwrap();
+        let motion = PlaneMotion::new(motion, ground(angle.sin())).unwrap();
+        let response = solve(&PlaneScene::new(of(0), of(1)).unwrap(), &motion);
+        let events = response.events.as_ref().unwrap().iter();
+        let of_stop = |e: &&PlaneEvent| e.event.event.kind == EventKind::LeaveStop;
+        let leaves: Vec<f64> = events.filter(of_stop).map(|e| e.event.event.time).collect();
+        assert_eq!(leaves.len(), 1, "seed {seed}: {leaves:?}");
+        let (rate, ramp) = (push / dt, dt * (1.0 - mu * G / push));
+        let then = (samples - 3) as f64 * dt;
+        let slip = rate * ramp.powi(3) / 6.0 + 0.5 * rate * ramp * ramp * then + 0.5 * (push - mu * G) * then * then;
+        let expected = [-slip * angle.cos(), -slip * angle.sin()];
+        for (found, expected) in response.residual_slip[0].iter().zip(expected) {
+            // What the stop holds is some 1e-8 of the friction at most.
+            assert!((found - expected).abs() < 1e-7 * slip, "seed {seed}: {found} for {expected}");
+        }
+    }
 }
 
 /// Without friction the slip is s = v t - a t^2/2. Its length turns where s v = 0 with the velocity v - a t: at the roots of

@@ -158,19 +158,29 @@ impl<R: Real> Machines<'_, R> {
         sizes[place(data.node)] + self.state.blocks[block].mu_k * gravity + stop
     }
 
+    /// Slip of a block beyond the stop of a side, and the size of its terms.
+    fn beyond(&self, block: usize, side: Sign, series: &Series<R>) -> Option<(Polynomial<R>, R)> {
+        let place = State::place_of_stop(self.model, block, side)?;
+        let slip = series.slip[block].plus(&Polynomial::constant(-place));
+        Some((slip.scaled(side.times(R::of(1.0))), series.slip[block].size() + place.abs()))
+    }
+
+    /// A block that has parted from its stop comes back within its clearance.
+    pub(super) fn within(&self, block: usize, series: &Series<R>, first: &mut First<R>) {
+        if let Stopped::Parted(side) = self.state.stopped[block]
+            && let Some((slip, size)) = self.beyond(block, side, series)
+        {
+            first.consider(Guard::Within { block }, &slip, size);
+        }
+    }
+
     pub(super) fn stops(&self, block: usize, series: &Series<R>, sizes: &[R], first: &mut First<R>) {
         let Some(stops) = &self.model.goods[block].stops else { return };
-        // Slip beyond the stop of a side.
-        let beyond = |side: Sign| {
-            let place = State::place_of_stop(self.model, block, side)?;
-            let slip = series.slip[block].plus(&Polynomial::constant(-place));
-            Some((slip.scaled(side.times(R::of(1.0))), series.slip[block].size() + place.abs()))
-        };
         let opposite = R::of(-1.0);
         match self.state.stopped[block] {
             Stopped::Free => {
                 for side in [Sign::Positive, Sign::Negative] {
-                    if let Some((slip, size)) = beyond(side) {
+                    if let Some((slip, size)) = self.beyond(block, side, series) {
                         first.consider(Guard::Touch { block, side }, &slip.scaled(opposite), size);
                     }
                 }
@@ -182,8 +192,8 @@ impl<R: Real> Machines<'_, R> {
                 first.consider(Guard::Leave { block }, &force, size);
             }
             Stopped::Parted(side) => {
-                let Some((slip, size)) = beyond(side) else { return };
-                first.consider(Guard::Within { block }, &slip, size);
+                self.within(block, series, first);
+                let Some((slip, size)) = self.beyond(block, side, series) else { return };
                 let velocity = series.velocity[block].scaled(side.times(stops.damping));
                 let force = slip.scaled(stops.stiffness).plus(&velocity).scaled(opposite);
                 let rounding = stops.damping * self.piece * self.relative_size(block, series, sizes);

@@ -193,7 +193,7 @@ impl Tally {
             Some(Verdict::Grazing { digits, difference }) => self.grazing.push((found.seed, digits, difference)),
             Some(Verdict::Sensitive { digits, difference }) => self.sensitive.push((found.seed, digits, difference)),
             Some(Verdict::GrazingPairs { digits, difference }) => self.pairs.push((found.seed, digits, difference)),
-            Some(Verdict::Unexplained(_) | Verdict::BeforeStops { .. }) | None => {}
+            Some(Verdict::Unexplained(_) | Verdict::BeforeStops { .. } | Verdict::SlowTouches { .. }) | None => {}
         }
         if let (Some(explained), Some(residual)) = (found.explained_residual, found.residual) {
             self.cancelled.push((found.seed, explained, residual));

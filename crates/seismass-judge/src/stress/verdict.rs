@@ -24,6 +24,13 @@ pub enum Verdict {
         /// How the two differed.
         difference: String,
     },
+    /// As agreement, but for touches and leaves of stops whose velocities are rounding.
+    SlowTouches {
+        /// How far apart all else is.
+        comparison: Comparison,
+        /// How the two differed.
+        difference: String,
+    },
     /// The judge, with its input changed in the last digits, comes to the kernel's events and numbers.
     Grazing {
         /// The change, in units of the last digit.

@@ -169,7 +169,7 @@ impl Search<'_, '_> {
     }
 
     /// A parted block comes back to the place of its stop.
-    fn clear(&mut self, position: usize, block: usize, side: Sign) {
+    pub(super) fn clear(&mut self, position: usize, block: usize, side: Sign) {
         let (beyond, change) = (self.state.stops[block].beyond, self.series.blocks[position].slip_change);
         if side.factor() * beyond > change {
             return;

@@ -5,6 +5,7 @@ use super::series::PlaneSeries;
 use super::state::Plane;
 use crate::general::guards::{First, Guard};
 use crate::general::series::{Series, place};
+use crate::general::state::Stopped;
 use crate::polynomial::Polynomial;
 use crate::real::Real;
 use crate::sign::Sign;
@@ -40,6 +41,12 @@ impl<R: Real> Plane<R> {
         (0..goods.len()).filter(|&j| comes(j)).collect()
     }
 
+    /// A block starts away from a stop that does not press any more, and counts as at rest: it does not come back to it.
+    fn is_gone(&self, block: usize, a: usize) -> bool {
+        let Stopped::Parted(side) = self.directions[a].state.stopped[block] else { return false };
+        self.young[block] && side.times(self.heads[block][a]) < R::zero()
+    }
+
     /// The first guard that falls on a stretch, its place on it in [0, 1], and its direction.
     pub(super) fn first_event(&mut self, series: &PlaneSeries<R>) -> Option<(R, usize, Guard)> {
         let mut first = First::new();
@@ -48,10 +55,13 @@ impl<R: Real> Plane<R> {
         let sizes = [of(0), of(1)];
         for a in 0..2 {
             first.direction = a;
+            let gone: Vec<bool> = (0..self.heads.len()).map(|j| self.is_gone(j, a)).collect();
             let machines = self.machines(a);
             machines.contact_and_springs(&series.directions[a], &sizes[a], &mut first);
-            for j in 0..machines.model.goods.len() {
-                if !machines.is_stuck(j) {
+            for (j, &gone) in gone.iter().enumerate() {
+                if gone {
+                    machines.within(j, &series.directions[a], &mut first);
+                } else if !machines.is_stuck(j) {
                     machines.stops(j, &series.directions[a], &sizes[a], &mut first);
                 }
             }

@@ -10,6 +10,7 @@ mod invariants;
 mod one_direction;
 mod plane_invariants;
 mod report;
+mod slow_touches;
 mod subject;
 mod tally;
 mod tally_file;

@@ -80,6 +80,10 @@ impl Subject for (GeneralScene, Motion) {
         vec![solution]
     }
 
+    fn directions_mut(solution: &mut GeneralSolution) -> Vec<&mut GeneralSolution> {
+        vec![solution]
+    }
+
     fn logs(solution: &GeneralSolution) -> Vec<Vec<Event>> {
         vec![solution.events.iter().map(|entry| entry.event).collect()]
     }

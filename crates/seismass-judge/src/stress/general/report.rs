@@ -11,6 +11,10 @@ use super::verdict::MAX_SERIES;
 use crate::stress::random::LARGEST_RESIDUAL;
 use crate::stress::verdict::AGREEMENT;
 
+const SLOW_TOUCHES: &str = "Goods between stops of hardly any clearance tremble there, ever less: below 1e-12 of the largest \
+     velocity the times and the number of touches are rounding; a scene in which the two implementations part in these alone is \
+     listed by itself (`stress/general/slow_touches.rs`).";
+
 /// The distribution of a random run, as Markdown.
 pub fn distribution(tally: &GeneralTally) -> String {
     let mut text = String::new();
@@ -45,6 +49,8 @@ pub fn distribution(tally: &GeneralTally) -> String {
         let apart = "apart in peak accelerations just before stops alone, by no more than friction does as it turns";
         row(apart, tally.before_stops.len().to_string());
     }
+    let slow = "apart in touches and leaves of stops alone, slower than 1e-12 of the largest velocity";
+    row(slow, tally.slow_touches.len().to_string());
     row("not judged, too dear: the plain implementation takes too many steps", tally.not_followed.len().to_string());
     row("parted at a grazing, explained", tally.grazing.len().to_string());
     row("parted by sensitivity, explained", tally.sensitive.len().to_string());
@@ -70,6 +76,7 @@ pub fn distribution(tally: &GeneralTally) -> String {
     );
     for (heading, list) in [
         ("Apart in peak accelerations just before stops alone", &tally.before_stops),
+        ("Apart in touches and leaves of stops slower than rounding alone", &tally.slow_touches),
         (&*not_judged, &tally.not_followed),
         (
             "Failed runs, no defects where the judge fails for the same reason or takes too many steps itself",
@@ -137,7 +144,7 @@ fn of_two_directions(tally: &GeneralTally) -> String {
          takes a light node with it. No run is solved to that end: a peak acceleration that falls there depends on where it is \
          cut off (`numerics`, section 9.7), which is elsewhere in other precisions and with other steps. Where peak \
          accelerations of the node of such a block part at its stop, by no more than its friction can do as it turns, and all \
-         else agrees, the scene is listed by itself (`stress/general/before_stops.rs`).\n\n{}",
+         else agrees, the scene is listed by itself (`stress/general/before_stops.rs`). {SLOW_TOUCHES}\n\n{}",
         distribution(tally),
     )
 }
@@ -167,7 +174,7 @@ fn of_one_direction(tally: &GeneralTally) -> String {
          double-double has the engine's events, times and numbers from the first sample to the last within the same limits; \
          the scene is explained if it is below 1e-12, and counts as sensitive (`stress/general/backward_error.rs`). Where \
          differences outgrow the digits of double-double before the end, the judge must follow the engine as far as its own \
-         last digit allows. \
+         last digit allows. {SLOW_TOUCHES} \
          Random shear buildings are solved by both engines.\n\n{}",
         distribution(tally),
     )

@@ -71,6 +71,9 @@ pub(super) trait Subject: Sized {
     /// What a solution is in each direction.
     fn directions(solution: &Self::Solution) -> Vec<&GeneralSolution>;
 
+    /// The same, to be changed.
+    fn directions_mut(solution: &mut Self::Solution) -> Vec<&mut GeneralSolution>;
+
     /// The logs of a solution, one per direction and one of vectors.
     fn logs(solution: &Self::Solution) -> Vec<Vec<Event>>;
 }

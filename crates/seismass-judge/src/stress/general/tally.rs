@@ -63,6 +63,8 @@ pub struct GeneralTally {
     pub sensitive: Vec<(u64, f64, String)>,
     /// Scenes that part in accelerations just before stops alone: seed, difference.
     pub before_stops: Vec<(u64, String)>,
+    /// Scenes that part in touches of stops slower than rounding alone: seed, difference.
+    pub slow_touches: Vec<(u64, String)>,
     /// Scenes whose judge takes too many series: seed, reason.
     pub not_followed: Vec<(u64, String)>,
     /// Failed runs: seed, reason. Where the judge does not fail for the same reason it is a defect too.
@@ -140,6 +142,11 @@ impl GeneralTally {
                 raise(&mut self.worst_difference, comparison.worst());
                 raise(&mut self.worst_time, comparison.worst_time());
                 self.before_stops.push((found.seed, difference));
+            }
+            Some(Verdict::SlowTouches { comparison, difference }) => {
+                raise(&mut self.worst_difference, comparison.worst());
+                raise(&mut self.worst_time, comparison.worst_time());
+                self.slow_touches.push((found.seed, difference));
             }
             Some(Verdict::Grazing { digits, difference }) => self.grazing.push((found.seed, digits, difference)),
             Some(Verdict::Sensitive { digits, difference } | Verdict::GrazingPairs { digits, difference }) => {

@@ -47,6 +47,7 @@ impl GeneralTally {
         }
         let lists = [
             ("before-stops", &self.before_stops),
+            ("slow-touches", &self.slow_touches),
             ("not-followed", &self.not_followed),
             ("failed", &self.failed),
             ("defect", &self.defects),
@@ -119,6 +120,7 @@ impl GeneralTally {
             "chains" => (self.chains.scenes, self.chains.events) = (whole(0)?, whole(1)?),
             "chain-judged" => self.chains.judged.push(whole(0)?),
             "before-stops" => self.before_stops.push((whole(0)?, text(1)?)),
+            "slow-touches" => self.slow_touches.push((whole(0)?, text(1)?)),
             "not-followed" => self.not_followed.push((whole(0)?, text(1)?)),
             "failed" => self.failed.push((whole(0)?, text(1)?)),
             "defect" => self.defects.push((whole(0)?, text(1)?)),

@@ -125,6 +125,10 @@ impl Subject for (PlaneScene, PlaneMotion) {
         solution.directions.iter().collect()
     }
 
+    fn directions_mut(solution: &mut PlaneSolution) -> Vec<&mut GeneralSolution> {
+        solution.directions.iter_mut().collect()
+    }
+
     fn logs(solution: &PlaneSolution) -> Vec<Vec<Event>> {
         let directions = solution.directions.iter();
         let mut logs: Vec<Vec<Event>> =

@@ -5,6 +5,7 @@ use seismass::Event;
 
 use super::backward_error::backward_error;
 use super::before_stops::BeforeStops;
+use super::slow_touches::without_slow_touches;
 use super::subject::Subject;
 use crate::general::{Budget, GeneralSolution, Scale, apart_by_machine};
 use crate::stress::grazing::AMPLIFICATION;
@@ -56,7 +57,8 @@ fn takes_too_many(error: &JudgeError) -> bool {
     matches!(error, JudgeError::TooManySeries { .. } | JudgeError::TooDear { .. })
 }
 
-/// The verdict where a response agrees with a solution, but for accelerations just before stops.
+/// The verdict where a response agrees with a solution, but for accelerations just before stops, or for touches slower than
+/// rounding.
 fn agreement<S: Subject>(response: &S::Solution, exact: &S::Solution, stops: &BeforeStops) -> Option<Verdict> {
     let comparison = S::compare(response, exact);
     if comparison.agrees(AGREEMENT) {
@@ -64,7 +66,12 @@ fn agreement<S: Subject>(response: &S::Solution, exact: &S::Solution, stops: &Be
     }
     let but_for_stops = S::compare(&S::with_accelerations_of(response, exact, stops), exact);
     let difference = difference(&comparison);
-    but_for_stops.agrees(AGREEMENT).then_some(Verdict::BeforeStops { comparison: but_for_stops, difference })
+    if but_for_stops.agrees(AGREEMENT) {
+        return Some(Verdict::BeforeStops { comparison: but_for_stops, difference });
+    }
+    let [found, exact] = [response, exact].map(without_slow_touches::<S>);
+    let comparison = S::compare(&found, &exact);
+    comparison.agrees(AGREEMENT).then_some(Verdict::SlowTouches { comparison, difference })
 }
 
 /// Looks for a grazing where a response parts from the judge in double-double.

@@ -6,6 +6,7 @@ use crate::general::plane::series::PlaneSeries;
 use crate::general::plane::state::PlaneState;
 use crate::general::plane::vector::length;
 use crate::general::series::Quantity;
+use crate::general::stops::Contact;
 use crate::lanes::Plain;
 use crate::polynomial::power::Polynomial;
 use crate::tolerances::{AT_STOPS_ROUNDING, FALL_ROUNDING, NO_CONTACT};
@@ -70,8 +71,11 @@ impl<'a, 'b> PlaneSearch<'a, 'b> {
             search.contact();
         }
         for (position, &block) in axis.moving.iter().enumerate() {
-            if let Some(stops) = &axis.system.stops[block] {
-                search.stops(position, block, stops);
+            let Some(stops) = &axis.system.stops[block] else { continue };
+            match axis.stops[block].contact {
+                // Its velocity counts as zero still, at which the stop would press it again.
+                Contact::Parted(side) if self.state.starts_from(block, a, side) => search.clear(position, block, side),
+                _ => search.stops(position, block, stops),
             }
         }
         let (found, isolated) = search.found();

@@ -127,6 +127,12 @@ impl<'a> PlaneState<'a> {
         self.slides[block].start.or_else(|| unit(self.velocity(block))).unwrap_or([0.0; 2])
     }
 
+    /// Whether a block starts away from its stop of a direction, and is not yet faster than what counts as rest.
+    pub(super) fn starts_from(&self, block: usize, axis: usize, side: Sign) -> bool {
+        let Slide { start, is_young, .. } = self.slides[block];
+        is_young && start.is_some_and(|direction| side.factor() * direction[axis] < 0.0)
+    }
+
     /// Angle of the relative velocity, or of the start; NaN where there is neither.
     pub(super) fn heading(&self, block: usize) -> f64 {
         self.slides[block].start.or_else(|| unit(self.velocity(block))).map_or(f64::NAN, angle)
