@@ -10,8 +10,7 @@ use std::sync::Arc;
 use general_random::Draw;
 use seismass::{
     Block, Damping, EventKind, GeneralBuilding, GeneralScene, GeneralStatus, Goods, GravityEffect, Motion, Options,
-    PlaneEvent, PlaneMotion, PlaneResponse, PlaneScene, STANDARD_GRAVITY, Stops, Storey, Wear, simulate_general,
-    simulate_plane,
+    PlaneMotion, PlaneResponse, PlaneScene, STANDARD_GRAVITY, Stops, Storey, Wear, simulate_general, simulate_plane,
 };
 
 const G: f64 = STANDARD_GRAVITY;
@@ -217,9 +216,7 @@ fn a_block_leaves_a_stop_that_it_hardly_presses_once() {
         let motion = Motion::new(ground(angle.cos()), dt, None).unwrap();
         let motion = PlaneMotion::new(motion, ground(angle.sin())).unwrap();
         let response = solve(&PlaneScene::new(of(0), of(1)).unwrap(), &motion);
-        let events = response.events.as_ref().unwrap().iter();
-        let of_stop = |e: &&PlaneEvent| e.event.event.kind == EventKind::LeaveStop;
-        let leaves: Vec<f64> = events.filter(of_stop).map(|e| e.event.event.time).collect();
+        let leaves = times(&response, EventKind::LeaveStop);
         assert_eq!(leaves.len(), 1, "seed {seed}: {leaves:?}");
         let (rate, ramp) = (push / dt, dt * (1.0 - mu * G / push));
         let then = (samples - 3) as f64 * dt;
@@ -229,6 +226,38 @@ fn a_block_leaves_a_stop_that_it_hardly_presses_once() {
             // What the stop holds is some 1e-8 of the friction at most.
             assert!((found - expected).abs() < 1e-7 * slip, "seed {seed}: {found} for {expected}");
         }
+    }
+}
+
+/// A block starts almost along a stop that it hardly presses, and is driven into it from then on: it touches as soon as what
+/// drives it has turned, wherever the steps of the series end. The push across the stop is c (e - s) in the second sample
+/// interval, with s from 0 to 1; where along it friction is reached at s = 1/2, it starts there, and is driven back from s = e.
+#[test]
+fn a_block_that_is_turned_into_its_stop_touches_as_it_is_turned() {
+    let (dt, samples) = (0.01, 60);
+    for seed in 0..200 {
+        let draw = &mut Draw(seed);
+        let (mass, mu) = (draw.scale(10.0, 3000.0), draw.scale(0.05, 0.3));
+        let stiffness = mass * draw.scale(1e3, 1e6);
+        let damping = 2.0 * draw.scale(0.02, 2.0) * (stiffness * mass).sqrt();
+        let stops = Stops { clearance: [f64::INFINITY, 0.0], stiffness, damping };
+        let (towards, fast, late) = (draw.scale(1e-13, 1e-10), draw.scale(1.0, 10.0), draw.scale(1e-6, 1e-4));
+        let of = |axis: usize| {
+            let resting = Block { velocity: Some([towards, 0.0][axis]), mu_k: 0.5 * mu, ..Block::new(0, mass, mu) };
+            let other = Block { velocity: Some([0.0, fast][axis]), ..Block::new(0, 1.0, mu) };
+            let stops = (axis == 0).then_some(stops);
+            GeneralScene::new(None, vec![Goods { block: resting, stops }, other.into()], Vec::new()).unwrap()
+        };
+        let ramp = |first: f64, then: f64| -> Vec<f64> {
+            (0..samples).map(|i| [0.0, first, then][usize::min(i, 2)]).collect()
+        };
+        let (across, along) = (ramp(mu * G * (0.5 + late), mu * G * (late - 0.5)), ramp(0.0, 2.0 * mu * G));
+        let motion = PlaneMotion::new(Motion::new(across, dt, None).unwrap(), along).unwrap();
+        let response = solve(&PlaneScene::new(of(0), of(1)).unwrap(), &motion);
+        let after = times(&response, EventKind::TouchStop).into_iter().find(|&time| time > dt).unwrap();
+        // It was at rest at s = 1/2; driven away until s = 1/2 + e, it is back at s = 1/2 + 2 e at the latest.
+        let (turned, back) = (dt * (1.5 + 0.9 * late), dt * (1.5 + 2.5 * late) + 1e-11);
+        assert!(turned - 1e-11 < after && after < back, "seed {seed}: {after} for {turned} to {back}");
     }
 }
 

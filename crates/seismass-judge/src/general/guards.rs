@@ -86,7 +86,7 @@ impl<R: Real> Machines<'_, R> {
         self.contact_and_springs(series, &sizes, &mut first);
         // Of what happens at one instant stops come first, as their forces may jump.
         let goods = 0..self.model.goods.len();
-        goods.clone().filter(|&j| !self.is_stuck(j)).for_each(|j| self.stops(j, series, &sizes, &mut first));
+        goods.clone().filter(|&j| !self.is_stuck(j)).for_each(|j| self.stops((j, false), series, &sizes, &mut first));
         for j in goods {
             match self.state.blocks[j].contact {
                 Contact::Stuck => self.breakaway(j, series, &sizes, &mut first),
@@ -158,29 +158,27 @@ impl<R: Real> Machines<'_, R> {
         sizes[place(data.node)] + self.state.blocks[block].mu_k * gravity + stop
     }
 
-    /// Slip of a block beyond the stop of a side, and the size of its terms.
-    fn beyond(&self, block: usize, side: Sign, series: &Series<R>) -> Option<(Polynomial<R>, R)> {
-        let place = State::place_of_stop(self.model, block, side)?;
-        let slip = series.slip[block].plus(&Polynomial::constant(-place));
-        Some((slip.scaled(side.times(R::of(1.0))), series.slip[block].size() + place.abs()))
-    }
-
-    /// A block that has parted from its stop comes back within its clearance.
-    pub(super) fn within(&self, block: usize, series: &Series<R>, first: &mut First<R>) {
-        if let Stopped::Parted(side) = self.state.stopped[block]
-            && let Some((slip, size)) = self.beyond(block, side, series)
-        {
-            first.consider(Guard::Within { block }, &slip, size);
-        }
-    }
-
-    pub(super) fn stops(&self, block: usize, series: &Series<R>, sizes: &[R], first: &mut First<R>) {
+    /// Whatever the stops of a block may do. One that starts away from them at rest is pressed again by its motion from then
+    /// on alone.
+    pub(super) fn stops(
+        &self,
+        (block, starts_away): (usize, bool),
+        series: &Series<R>,
+        sizes: &[R],
+        first: &mut First<R>,
+    ) {
         let Some(stops) = &self.model.goods[block].stops else { return };
+        // Slip beyond the stop of a side.
+        let beyond = |side: Sign| {
+            let place = State::place_of_stop(self.model, block, side)?;
+            let slip = series.slip[block].plus(&Polynomial::constant(-place));
+            Some((slip.scaled(side.times(R::of(1.0))), series.slip[block].size() + place.abs()))
+        };
         let opposite = R::of(-1.0);
         match self.state.stopped[block] {
             Stopped::Free => {
                 for side in [Sign::Positive, Sign::Negative] {
-                    if let Some((slip, size)) = self.beyond(block, side, series) {
+                    if let Some((slip, size)) = beyond(side) {
                         first.consider(Guard::Touch { block, side }, &slip.scaled(opposite), size);
                     }
                 }
@@ -192,10 +190,11 @@ impl<R: Real> Machines<'_, R> {
                 first.consider(Guard::Leave { block }, &force, size);
             }
             Stopped::Parted(side) => {
-                self.within(block, series, first);
-                let Some((slip, size)) = self.beyond(block, side, series) else { return };
+                let Some((slip, size)) = beyond(side) else { return };
+                first.consider(Guard::Within { block }, &slip, size);
                 let velocity = series.velocity[block].scaled(side.times(stops.damping));
-                let force = slip.scaled(stops.stiffness).plus(&velocity).scaled(opposite);
+                let counted = if starts_away { slip.plus(&Polynomial::constant(-slip.start())) } else { slip };
+                let force = counted.scaled(stops.stiffness).plus(&velocity).scaled(opposite);
                 let rounding = stops.damping * self.piece * self.relative_size(block, series, sizes);
                 let size = stops.stiffness * size + velocity.size() + rounding;
                 first.consider(Guard::Again { block, side }, &force, size);

@@ -117,22 +117,26 @@ impl Search<'_, '_> {
         match self.state.stops[block].contact {
             Contact::Free => self.touch(position, block, stops),
             Contact::Touching(side) => {
-                let (p, size) = self.pressure(position, block, stops, side.factor());
+                let beyond = self.state.stops[block].beyond;
+                let (p, size) = self.pressure(position, beyond, stops, side.factor());
                 self.consider_pressure(Guard::Leave { block }, &p, size, block, stops);
             }
-            Contact::Parted(side) => {
-                let (p, size) = self.pressure(position, block, stops, -side.factor());
-                self.consider_pressure(Guard::TouchAgain { block }, &p, size, block, stops);
-                self.clear(position, block, side);
-            }
+            Contact::Parted(side) => self.parted(position, (block, self.state.stops[block].beyond), stops, side),
         }
     }
 
-    /// `factor` times k z + c z', where z is the slip beyond the clearance, and the size of its terms.
-    fn pressure(&self, position: usize, block: usize, stops: &Stops, factor: f64) -> (Polynomial, f64) {
+    /// What a stop may do from which a block has parted, of whose slip beyond the clearance so much counts as the step begins.
+    pub(super) fn parted(&mut self, position: usize, (block, beyond): (usize, f64), stops: &Stops, side: Sign) {
+        let (p, size) = self.pressure(position, beyond, stops, -side.factor());
+        self.consider_pressure(Guard::TouchAgain { block }, &p, size, block, stops);
+        self.clear(position, block, side);
+    }
+
+    /// `factor` times k z + c z', where z is the slip beyond the clearance, so much as the step begins, and the size of its
+    /// terms.
+    fn pressure(&self, position: usize, beyond: f64, stops: &Stops, factor: f64) -> (Polynomial, f64) {
         let terms = &self.series.blocks[position];
         let (k, c) = (factor * stops.stiffness, factor * stops.damping);
-        let beyond = self.state.stops[block].beyond;
         let slip = self.series.slip_of(position);
         let of_order =
             |(order, slip): (usize, &f64)| k * if order == 0 { beyond } else { *slip } + c * terms.velocity[order];
@@ -169,7 +173,7 @@ impl Search<'_, '_> {
     }
 
     /// A parted block comes back to the place of its stop.
-    pub(super) fn clear(&mut self, position: usize, block: usize, side: Sign) {
+    fn clear(&mut self, position: usize, block: usize, side: Sign) {
         let (beyond, change) = (self.state.stops[block].beyond, self.series.blocks[position].slip_change);
         if side.factor() * beyond > change {
             return;

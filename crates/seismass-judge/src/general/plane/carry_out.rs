@@ -96,6 +96,7 @@ impl<R: Real> Plane<R> {
                 false => Contact::Sliding(Sign::Positive),
             };
             self.set_contact(j, contact);
+            self.young[j] = false;
         }
     }
 

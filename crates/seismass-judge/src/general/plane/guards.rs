@@ -41,8 +41,8 @@ impl<R: Real> Plane<R> {
         (0..goods.len()).filter(|&j| comes(j)).collect()
     }
 
-    /// A block starts away from a stop that does not press any more, and counts as at rest: it does not come back to it.
-    fn is_gone(&self, block: usize, a: usize) -> bool {
+    /// A block starts away from a stop that does not press any more, and counts as at rest.
+    fn starts_away(&self, block: usize, a: usize) -> bool {
         let Stopped::Parted(side) = self.directions[a].state.stopped[block] else { return false };
         self.young[block] && side.times(self.heads[block][a]) < R::zero()
     }
@@ -55,14 +55,12 @@ impl<R: Real> Plane<R> {
         let sizes = [of(0), of(1)];
         for a in 0..2 {
             first.direction = a;
-            let gone: Vec<bool> = (0..self.heads.len()).map(|j| self.is_gone(j, a)).collect();
+            let start_away: Vec<bool> = (0..self.heads.len()).map(|j| self.starts_away(j, a)).collect();
             let machines = self.machines(a);
             machines.contact_and_springs(&series.directions[a], &sizes[a], &mut first);
-            for (j, &gone) in gone.iter().enumerate() {
-                if gone {
-                    machines.within(j, &series.directions[a], &mut first);
-                } else if !machines.is_stuck(j) {
-                    machines.stops(j, &series.directions[a], &sizes[a], &mut first);
+            for (j, &starts_away) in start_away.iter().enumerate() {
+                if !machines.is_stuck(j) {
+                    machines.stops((j, starts_away), &series.directions[a], &sizes[a], &mut first);
                 }
             }
         }

@@ -29,7 +29,7 @@ pub(super) fn check(scene: &PlaneScene, motion: &PlaneMotion, response: &PlaneRe
     }
     let events: Vec<Event> = log.iter().map(|entry| entry.event.event).collect();
     order(&events, response.end_time * (1.0 + 4.0 * f64::EPSILON))?;
-    chatter(&events)?;
+    chatter(log)?;
     let directions = [Axis::X, Axis::Y].map(|axis| response.direction(axis));
     for (a, of) in directions.iter().enumerate() {
         let scene = &scene.directions()[a];
@@ -46,20 +46,26 @@ pub(super) fn check(scene: &PlaneScene, motion: &PlaneMotion, response: &PlaneRe
     Circles::new(scene, motion, &directions)?.check(response)
 }
 
-/// Most events of sliding of one block within an instant (s): that it starts or stops may release others, once.
+/// Most events of sliding of one block, and of its stops of one direction, within an instant (s): that it starts or stops may
+/// release others, once.
 const MOST_IN_AN_INSTANT: usize = 3;
 const INSTANT: f64 = 1e-9;
 
-/// No block starts and stops time and again within an instant.
-fn chatter(events: &[Event]) -> Result<(), String> {
-    let is_of_sliding = |kind| matches!(kind, EventKind::Slip | EventKind::Stick | EventKind::Reverse);
-    let mut times: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
-    for event in events.iter().filter(|event| is_of_sliding(event.kind)) {
-        times.entry(event.number).or_default().push(event.time);
+/// No block starts and stops, or touches and leaves, time and again within an instant.
+fn chatter(log: &[PlaneEvent]) -> Result<(), String> {
+    let mut times: BTreeMap<(usize, Option<bool>), Vec<f64>> = BTreeMap::new();
+    for PlaneEvent { event, axis, .. } in log {
+        let direction = match event.event.kind {
+            EventKind::Slip | EventKind::Stick | EventKind::Reverse => None,
+            EventKind::TouchStop | EventKind::LeaveStop => Some(*axis == Some(Axis::Y)),
+            _ => continue,
+        };
+        times.entry((event.event.number, direction)).or_default().push(event.event.time);
     }
-    for (number, times) in times {
+    for ((number, direction), times) in times {
         if let Some(several) = times.windows(MOST_IN_AN_INSTANT + 1).find(|w| w[MOST_IN_AN_INSTANT] - w[0] <= INSTANT) {
-            return Err(format!("block {number} starts and stops {MOST_IN_AN_INSTANT} times at {} s", several[0]));
+            let what = if direction.is_none() { "starts and stops" } else { "touches and leaves" };
+            return Err(format!("block {number} {what} more than {MOST_IN_AN_INSTANT} times at {} s", several[0]));
         }
     }
     Ok(())

@@ -57,8 +57,7 @@ fn takes_too_many(error: &JudgeError) -> bool {
     matches!(error, JudgeError::TooManySeries { .. } | JudgeError::TooDear { .. })
 }
 
-/// The verdict where a response agrees with a solution, but for accelerations just before stops, or for touches slower than
-/// rounding.
+/// The verdict where a response agrees with a solution, but for accelerations just before stops.
 fn agreement<S: Subject>(response: &S::Solution, exact: &S::Solution, stops: &BeforeStops) -> Option<Verdict> {
     let comparison = S::compare(response, exact);
     if comparison.agrees(AGREEMENT) {
@@ -66,12 +65,13 @@ fn agreement<S: Subject>(response: &S::Solution, exact: &S::Solution, stops: &Be
     }
     let but_for_stops = S::compare(&S::with_accelerations_of(response, exact, stops), exact);
     let difference = difference(&comparison);
-    if but_for_stops.agrees(AGREEMENT) {
-        return Some(Verdict::BeforeStops { comparison: but_for_stops, difference });
-    }
+    but_for_stops.agrees(AGREEMENT).then_some(Verdict::BeforeStops { comparison: but_for_stops, difference })
+}
+
+/// How far a response is from a solution, where the two agree but for touches slower than rounding.
+fn agreement_but_for_slow_touches<S: Subject>(response: &S::Solution, exact: &S::Solution) -> Option<Comparison> {
     let [found, exact] = [response, exact].map(without_slow_touches::<S>);
-    let comparison = S::compare(&found, &exact);
-    comparison.agrees(AGREEMENT).then_some(Verdict::SlowTouches { comparison, difference })
+    Some(S::compare(&found, &exact)).filter(|comparison| comparison.agrees(AGREEMENT))
 }
 
 /// Looks for a grazing where a response parts from the judge in double-double.
@@ -86,6 +86,14 @@ fn explanation<S: Subject>(
 ) -> Result<Verdict, String> {
     let comparison = S::compare(response, exact);
     let difference = difference(&comparison);
+    if let Some(comparison) = agreement_but_for_slow_touches::<S>(response, exact) {
+        return Ok(Verdict::SlowTouches { comparison, difference });
+    }
+    // All numbers agree, and the judge in double precision has the engine's events: they are those of its rounding.
+    let of_rounding = |plain: &S::Solution| agreement_but_for_slow_touches::<S>(response, plain).is_some();
+    if comparison.worst() <= AGREEMENT && plain.as_ref().is_some_and(of_rounding) {
+        return Ok(Verdict::Sensitive { digits: 0.0, difference });
+    }
     let same_events = comparison.mismatch.is_none();
     if same_events && plain.is_some_and(|plain| moves_as_far::<S>(response, exact, &plain)) {
         return Ok(Verdict::Sensitive { digits: 0.0, difference });

@@ -73,8 +73,10 @@ impl<'a, 'b> PlaneSearch<'a, 'b> {
         for (position, &block) in axis.moving.iter().enumerate() {
             let Some(stops) = &axis.system.stops[block] else { continue };
             match axis.stops[block].contact {
-                // Its velocity counts as zero still, at which the stop would press it again.
-                Contact::Parted(side) if self.state.starts_from(block, a, side) => search.clear(position, block, side),
+                // Its velocity counts as zero still, at which what is left of the penetration would press it at once.
+                Contact::Parted(side) if self.state.starts_from(block, a, side) => {
+                    search.parted(position, (block, 0.0), stops, side);
+                }
                 _ => search.stops(position, block, stops),
             }
         }
