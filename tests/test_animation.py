@@ -315,6 +315,40 @@ def test_command_takes_a_scene_file_and_refuses_contradictions(
     assert sorted(file.name for file in tmp_path.iterdir()) == ["one.gif", "one.json"]
 
 
+def test_command_attaches_the_share_of_a_code_as_the_building_file_with_that_code(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A code counts a fraction of the design live load, of which 0.8 is there."""
+    monkeypatch.chdir(tmp_path)
+    code = '[code]\nid = "{}"\nuse = "storage"\n'
+    building = """
+[site]
+sds_g = 1.0
+sd1_g = 0.6
+[building]
+period_s = 0.4
+height_m = 4
+area_m2 = 500
+dead_load_kpa = 5
+design = true
+R = 4
+[goods]
+live_load_kpa = 6
+occupied = 0.8
+mu = 0.2
+[[storeys]]
+"""
+    Path("own.toml").write_text(building + code.format("asce7-10"))
+    for name in ("asce7-10", "ec8", "nbc"):
+        Path(f"{name}.toml").write_text(building + code.format(name))
+        assert main(["animate", "own.toml", "--code", name, "--factor", "1"]) == 0
+        by_option = capsys.readouterr().out.splitlines()
+        assert main(["animate", f"{name}.toml", "--factor", "1"]) == 0
+        by_file = capsys.readouterr().out.splitlines()
+        assert "of the goods attached" in " ".join(by_option)
+        assert by_option[:-1] == by_file[:-1], name
+
+
 def racked() -> sm.Scene:
     """Two racks, one on the ground; a wall; stops on a floor and on a level; fixed goods."""
     frame = sm.Building([2e4] * 2, 2e7, yield_shear=[1e5, 6e4], heights=3.5)

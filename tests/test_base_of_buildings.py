@@ -95,8 +95,7 @@ def file(**base: Any) -> dict[str, Any]:
         "building": {"period_s": 0.3, "height_m": 4, "area_m2": 500, "dead_load_kpa": 5, "design": True, "R": 2},
         "goods": {"live_load_kpa": 6, "mu": 0.3},
         "storeys": [{}, {"live_load_kpa": 0}],
-        "base": base,
-    }
+    } | ({"base": base} if base else {})
 
 
 def test_a_base_of_a_file() -> None:
@@ -128,3 +127,9 @@ def test_a_base_of_a_file() -> None:
 def test_bases_that_are_refused(base: dict[str, Any], message: str) -> None:
     with pytest.raises(sm.errors.InvalidBuildingFile, match=message):
         sm.read_building(file(**base))
+
+
+@pytest.mark.parametrize("table", ["base", "walls"])
+def test_a_table_without_keys_is_not_as_if_it_were_left_out(table: str) -> None:
+    with pytest.raises(sm.errors.InvalidBuildingFile, match=rf"{table}\..* of building must be given"):
+        sm.read_building(file() | {table: {}})

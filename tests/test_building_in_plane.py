@@ -55,6 +55,34 @@ def test_unknown_keys_and_numbers_of_storeys_are_refused() -> None:
         with_other(storeys=[{}])
 
 
+@pytest.mark.parametrize("table", [1, [], "x", [{}], True])
+def test_what_is_not_a_table_is_refused(table: Any) -> None:
+    with pytest.raises(sm.errors.InvalidBuildingFile, match=r"other_direction of .* must be a table of keys"):
+        sm.read_building(TABLES | {"other_direction": table})
+
+
+STRENGTHS = [{"yield_shear_kn": 900.0}, {"yield_shear_kn": 500.0}]
+
+
+def test_strengths_of_single_storeys_stand_in_place_of_the_design() -> None:
+    """Of a designed building and of one of stated strengths; what y states itself beside them is refused."""
+    other = with_other(period_s=0.7, storeys=STRENGTHS).other
+    assert other is not None
+    assert other.design is None
+    np.testing.assert_allclose(other.yield_shear, [9e5, 5e5])
+    assert other.period() == pytest.approx(0.7, rel=1e-12)
+    building = {key: value for key, value in TABLES["building"].items() if key not in ("design", "R")}
+    stated = TABLES | {"building": building | {"yield_shear_over_weight": 0.3}}
+    both = sm.read_building(stated | {"other_direction": {"storeys": STRENGTHS}})
+    assert both.other is not None
+    np.testing.assert_allclose(both.other.yield_shear, [9e5, 5e5])
+    for beside in ({"R": 4}, {"design": True, "R": 4}):
+        with pytest.raises(sm.errors.InvalidBuildingFile, match="must be left out where"):
+            with_other(storeys=STRENGTHS, **beside)
+    with pytest.raises(sm.errors.InvalidBuildingFile, match="must be left out where"):
+        with_other(period_s=0.7, storeys=[{"stiffness_kn_per_m": 5e4}, {"stiffness_kn_per_m": 4e4}])
+
+
 def test_an_assessment_takes_pairs_for_two_directions_and_records_for_one() -> None:
     with pytest.raises(sm.errors.InvalidMotion, match="motion 1 of assessment must be a Pair"):
         sm.assess(with_other(), [pair.first for pair in PAIRS])

@@ -90,6 +90,7 @@ def test_clearances_from_text() -> None:
         (("--clearance", "3=0.1"), "--clearance of slip must be of a block from 1 to 2; got 3=0.1"),
         (("--size", "1x1", "--size", "2x2"), "--size of slip must be given once for a block; got 2x2"),
         (("--fragility",), "clearance of slip demand must be given for a fragility"),
+        (("--measure", "pga"), "--measure of slip must be left out where --fragility is not given; got pga"),
         (("--period", "1"), "--period of slip must be left out where motions are not scaled to a target; got 1"),
         (("--sds", "1"), "site spectrum of slip must be given by --sds and --sd1 together; got --sds alone"),
         (

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import polars as pl
@@ -178,3 +179,77 @@ def test_a_block_lands_wherever_the_floor_is() -> None:
         scene = sm.Scene(building, [sm.Block(1, mass=3000.0, mu=0.3)], other_direction=True)
         events = sm.simulate(scene, motion).events
         assert events.filter(pl.col("kind") == "land")["time"].to_list() == pytest.approx([land], abs=1e-12)
+
+
+@pytest.mark.parametrize("form", ["first", "folder", "builtin"])
+def test_a_pair_takes_no_key_of_another_form(form: str, tmp_path: Path) -> None:
+    forms = {"first": {"second": "b.AT2"}, "folder": {"name": "x"}, "builtin": {}}
+    stated: dict[str, Any] = {form: {"first": "a.AT2", "folder": ".", "builtin": "scenario-3"}[form], **forms[form]}
+    others = {"first", "folder", "builtin", "second", "name", "vertical"} - set(stated)
+    for key in others - ({"vertical"} if form == "first" else set()):
+        table = stated | {key: "other"}
+        path = tmp_path / "pair.json"
+        blocks = [{"floor": 0, "mass": 100.0, "mu": 0.1}]
+        path.write_text(json.dumps({"other_direction": {}, "blocks": blocks, "pair": table}))
+        with pytest.raises(sm.errors.InvalidSceneFile, match=r"must be left out where pair\."):
+            sm.read_scene(path)
+
+
+def test_a_folder_without_pairs_is_what_is_wrong(tmp_path: Path) -> None:
+    path = tmp_path / "pair.json"
+    blocks = [{"floor": 0, "mass": 100.0, "mu": 0.1}]
+    pair = {"folder": ".", "name": "x"}
+    path.write_text(json.dumps({"other_direction": {}, "blocks": blocks, "pair": pair}))
+    with pytest.raises(sm.errors.InvalidSceneFile, match=r"pair\.folder of pair\.json must be a folder with records"):
+        sm.read_scene(path)
+
+
+SAME: Any = [("stiffness", 6e5, "period", 0.3), ("yield_shear", 1e3, "yield_shear_over_weight", 0.2)]
+
+
+@pytest.mark.parametrize(("one", "first", "other", "second"), SAME)
+def test_keys_that_say_the_same_are_refused_in_y_too(
+    one: str, first: float, other: str, second: float, tmp_path: Path
+) -> None:
+    """Beside each other in y, of a building by its stiffness or its period and of a rack."""
+    path = tmp_path / "scene.json"
+    motion = {"acceleration": [0.0, 1.0, 0.0], "dt": 0.1}
+    both = {one: first, other: second}
+    for building in ({"mass": [1000.0, 1000.0], "stiffness": 5e5}, {"storeys": 2, "period": 0.4, "mass": 1e3}):
+        rack = {"floor": 1, "levels": 2, "level_mass": 10.0, "period": 0.4}
+        for in_y, of_rack in ((both, {}), ({}, {"other_direction": both})):
+            path.write_text(
+                json.dumps(
+                    {
+                        "building": building,
+                        "other_direction": in_y,
+                        "racks": [rack | of_rack],
+                        "motion": motion,
+                        "other_motion": motion,
+                    }
+                )
+            )
+            with pytest.raises(sm.errors.SeismassError, match=f"{one}.* must be |{other}.* must be "):
+                sm.read_scene(path)
+            assert main(["run", str(path)]) == 2
+
+
+def test_histories_of_racks_have_a_column_of_each_level_in_each_direction(tmp_path: Path) -> None:
+    scene = {
+        "building": {"mass": [1000.0], "stiffness": 5e5},
+        "other_direction": {},
+        "racks": [{"floor": 1, "levels": levels, "level_mass": 10.0, "period": 0.3} for levels in (2, 1)],
+        "pair": {"builtin": "scenario-3"},
+    }
+    path, out = tmp_path / "scene.json", tmp_path / "out.csv"
+    path.write_text(json.dumps(scene))
+    assert main(["run", str(path), "--out", str(out)]) == 0
+    header, *rows = out.read_text().splitlines()
+    names = ["rack_1_drift_1", "rack_1_drift_2", "rack_2_drift_1"]
+    assert header.split(",")[3:] == [f"{name}_{axis}" for name in names for axis in "xy"]
+    file = sm.read_scene(path)
+    response: Any = sm.simulate(file.scene, (file.motion, file.other_motion), histories=True)
+    found = np.array([row.split(",") for row in rows], dtype=float)[:, 3:]
+    np.testing.assert_allclose(found, response.rack_drift.reshape(len(rows), -1), rtol=1e-12)
+    assert main(["run", str(path), "--opensees", str(tmp_path / "models")]) == 2
+    assert not (tmp_path / "models").exists()

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -175,6 +178,48 @@ def test_from_a_table_to_a_building_file(tmp_path: Path, capsys: pytest.CaptureF
     # What is there is not replaced.
     assert main(["new", str(out), "--from", str(file), *ANSWERS]) == 2
     assert "one that does not exist" in capsys.readouterr().err
+
+
+def test_options_that_the_tables_answer_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = table(tmp_path, "Story,Height (ft),Weight (kip),Stiffness (kip/in)\nRoof,12,250,400\nStory1,14,320,600\n")
+    command = ["new", str(tmp_path / "own.toml"), "--from", str(file), *ANSWERS]
+    for option, value in (("storeys", "7"), ("height", "9"), ("dead-load", "3"), ("period", "0.5")):
+        assert main([*command, f"--{option}", value]) == 2
+        words = f"--{option} of new must be left out where the tables or curves have it; got {value}"
+        assert words in capsys.readouterr().err
+    alone = ["new", str(tmp_path / "own.toml"), *ANSWERS]
+    for option, value in (("case", "x"), ("units", "kN-m"), ("order", "roof-first"), ("pushover-case", "x")):
+        assert main([*alone, f"--{option}", value]) == 2
+        assert f"--{option} of new must be left out where " in capsys.readouterr().err
+    assert not (tmp_path / "own.toml").exists()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a terminal of its own is asked for as POSIX has it")
+def test_ctrl_c_ends_a_question(tmp_path: Path) -> None:
+    import fcntl
+    import pty
+    import termios
+
+    own, terminal = pty.openpty()
+    command = [sys.executable, "-m", "seismass", "new", str(tmp_path / "own.toml")]
+    process = subprocess.Popen(
+        command,
+        stdin=terminal,
+        stdout=terminal,
+        stderr=terminal,
+        start_new_session=True,
+        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),
+    )
+    os.close(terminal)
+    try:
+        shown = b""
+        while b"called?" not in shown:
+            shown += os.read(own, 1000)
+        os.write(own, b"\x03")
+        assert process.wait(timeout=30) == 130
+    finally:
+        process.kill()
+        os.close(own)
 
 
 def test_without_a_table_and_what_is_missing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

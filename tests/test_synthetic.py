@@ -37,7 +37,7 @@ STORED = data_directory() / "synthetic"
 
 def test_eleven_labelled_synthetic_everywhere() -> None:
     suite = builtin_suite()
-    assert suite.name == "built-in suite of eleven"
+    assert suite.name == "built-in suite of eleven synthetic motions"
     assert len(suite) == len(ALL_RECIPES) == 11
     assert suite.table()["synthetic"].to_list() == [True] * 11
     for number, (record, recipe) in enumerate(zip(suite, ALL_RECIPES, strict=True), start=1):

@@ -179,7 +179,9 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
     scaling = scaling_of(code)
     limit, limit_rule = limit_of(building, fraction, scaling or fraction.code_id)
     stiffness = _stiffness(storeys, building, frame, counted[period.mass], period.value)
-    wall_matrix = walls_of(walls, building, frame + counted[period.mass], stiffness, heights, period.value)
+    wall_matrix = None
+    if "walls" in top.values:
+        wall_matrix = walls_of(walls, building, frame + counted[period.mass], stiffness, heights, period.value)
     if wall_matrix is not None and "damping_from_storey" in building.values:
         building.refuse("damping_from_storey", f"left out where {top.key('walls')} is given", "both")
     gravity = _gravity_load(storeys, building, frame) + STANDARD_GRAVITY * fixed if p_delta else None
@@ -227,7 +229,7 @@ def _building(top: Table, path: Path | None) -> OwnBuilding:
         sources=sources,
         walls=None if wall_matrix is None else wall_matrix.matrix,
         walls_stated="" if wall_matrix is None else wall_matrix.how,
-        base=base_of(base),
+        base=base_of(base) if "base" in top.values else None,
         risk_category=category_of(building),
         category_stated="risk_category" in building.values,
         system=building.text("system"),

@@ -447,12 +447,10 @@ class Walls(NamedTuple):
 
 def walls_of(
     walls: Table, building: Table, mass: FloatArray, stiffness: FloatArray, heights: Any, period: float | None
-) -> Walls | None:
-    """Return the walls of a file; None where it has none. `mass` is that of the floors without goods (kg); where
-    `period` (s) is stated for the building, `stiffness` (N/m) gives it without walls.
+) -> Walls:
+    """Return the walls of a file. `mass` is that of the floors without goods (kg); where `period` (s) is stated for the
+    building, `stiffness` (N/m) gives it without walls.
     """
-    if not walls.values:
-        return None
     walls.needed(*KEYS["walls"])
     walls.one_of(*KEYS["walls"])
     (key,) = walls.values
@@ -501,7 +499,8 @@ _REPLACED: Final = ((*PERIOD, *STIFFNESS), STRENGTH)
 def tables_in_y(tables: Mapping[str, Any], file: str) -> Table:
     """Return the tables of the building in y, made from `other_direction` of a file; `tables` stays as it is."""
     whole = copy.deepcopy(dict(tables))
-    other = Table(whole.pop("other_direction"), "other_direction", file, InvalidBuildingFile)
+    other = Table(whole, "", file, InvalidBuildingFile).table("other_direction")
+    del whole["other_direction"]
     known(other, None)
     in_y = Table(whole, "", f"{file}, other_direction", InvalidBuildingFile)
     storeys = other.tables("storeys") if "storeys" in other.values else []
@@ -515,10 +514,10 @@ def tables_in_y(tables: Mapping[str, Any], file: str) -> Table:
     for storey, of_storey in zip(storeys, storey_tables, strict=False):
         known(storey, None)
         _merge([of_storey], storey.values)
-        if any(key in storey.values for key in (*STIFFNESS, *STRENGTH)):
-            for group in _REPLACED:
-                if any(key in storey.values for key in group):
-                    _drop(of_building, group)
+        # What y itself states beside it stays, and is refused.
+        for group, replaced in ((STIFFNESS, (*PERIOD, *STIFFNESS)), (STRENGTH, (*STRENGTH, *DESIGN))):
+            if any(key in storey.values for key in group):
+                _drop(of_building, tuple(key for key in replaced if key not in other.values))
     return in_y
 
 
@@ -542,10 +541,8 @@ def _drop(table: dict[str, Any], keys: tuple[str, ...]) -> None:
         table.pop(key, None)
 
 
-def base_of(table: Table) -> SlidingBase | None:
-    """Return the sliding base of a building file from its table `base`; None where that table is empty."""
-    if not table.values:
-        return None
+def base_of(table: Table) -> SlidingBase:
+    """Return the sliding base of a building file from its table `base`."""
     table.needed("mu", "mu_s")
     table.excluded("mu", "mu_s", "mu_k")
     table.one_of("mass_kg", "mass_ratio")

@@ -243,12 +243,20 @@ class Shown(NamedTuple):
         Its number in the suite, from 1.
     factor : float
         By which it is scaled.
+    slides : bool
+        Whether goods slide under some motion.
     """
 
     scene: Scene
     motion: Any
     number: int
     factor: float
+    slides: bool = True
+
+
+def median_of(slides: bool) -> str:
+    """Say which motion is shown; `slides` tells whether goods slide under some of them."""
+    return f"median drift of {'those under which goods slide' if slides else 'all, as no goods slide under any'}"
 
 
 def motion_of_runs(runs: pl.DataFrame) -> int:
@@ -275,7 +283,7 @@ def shown_motion(scene: Scene, scaled: list[Any], factors: FloatArray) -> Shown:
     peaks = solve([scene], named_motions(scaled, "animation", scene))
     among = np.flatnonzero(peaks.slides[0]) if peaks.slides.any() else np.arange(len(scaled))
     place = _median(peaks.largest[0], among)
-    return Shown(scene, scaled[place], place + 1, float(factors[place]))
+    return Shown(scene, scaled[place], place + 1, float(factors[place]), bool(peaks.slides.any()))
 
 
 def scaled_to_site(

@@ -28,6 +28,8 @@ def load_table(source: Path, what: str, kind: type[SeismassError]) -> Table:
     `kind`; it is a regular file of at most `MOST_BYTES` (TOML: `MOST_TOML`).
     """
     suffix = source.suffix.lower()
+    if source.is_dir():
+        raise kind(f"{what} must be a file that can be read; got {source} (Is a directory)")
     if suffix not in (".toml", ".json"):
         raise refusal(kind, "suffix", f"{what} {source.name}", ".toml or .json", brief(suffix))
     try:

@@ -16,6 +16,7 @@ from seismass.commands.options import (
     add_records_options,
     arguments,
     positive_option,
+    read_code,
     read_site,
     refuse_options,
 )
@@ -65,7 +66,7 @@ def run(args: argparse.Namespace) -> int:
     for remark in shown.remarks:
         tell(remark)
     played = arguments(args, "start", "end")
-    options = shown.options | arguments(args, "code", "use", fraction="code_share") | played
+    options = shown.options | arguments(args, fraction="code_share") | played
     animation: Animation | PlaneAnimation
     if shown.scene.engine == "plane":
         refuse_options(args, ("code", "use", "code_share"), "animate", "in two directions, where no model is shown")
@@ -103,24 +104,27 @@ def _of_scene(args: argparse.Namespace, path: Path) -> _Shown:
     file = read_scene(path)
     note = ", ".join(part for part in (file.note, *(record.name for record in file.records[:1])) if part)
     motion: Any = file.motion if file.other_motion is None else (file.motion, file.other_motion)
-    return _Shown(file.scene, motion, file.name or path.stem, note, file.remarks, {})
+    return _Shown(file.scene, motion, file.name or path.stem, note, file.remarks, arguments(args, "code", "use"))
 
 
 def _of_building(args: argparse.Namespace, path: Path) -> _Shown:
-    """A building file, under the motion of `shown_motion`, beside the model with its code's share of the load."""
+    """A building file, under the motion of `shown_motion`, beside the model with the share of its code or --code."""
+    from seismass.assessment.building import with_code
     from seismass.assessment.building_file import read_building
-    from seismass.assessment.models import shown_motion
+    from seismass.assessment.models import median_of, shown_motion
 
-    building, target = read_building(path), read_site(args, "animate")
+    building, target, code = read_building(path), read_site(args, "animate"), read_code(args, "animate")
+    if code is not None:
+        building = with_code(building, code)
     scene = building.scene(target)
     motions = motions_of_file(args, "animate", scene, building, target)
     motion = shown_motion(scene, motions.scaled, motions.factors)
-    note = (
-        f"{motion.motion.name} x {motion.factor:.3g}, motion {motion.number} of {len(motions.suite)}, that with the "
-        "median drift of those under which goods slide"
-    )
+    shown: Any = motions.suite[motion.number - 1]
+    made = "synthetic motion" if getattr(shown, "first", shown).synthetic else "motion"
+    which = f"{made} {motion.number} of {len(motions.suite)}, that with the {median_of(motion.slides)}"
+    note = f"{motion.motion.name} x {motion.factor:.3g}, {which}"
     options: dict[str, Any] = {}
-    if args.code is None and args.use is None and args.code_share is None:
+    if args.code_share is None:
         options = {"fraction": building.present_code_share, "code_name": building.code.code}
     notes = (f"Motion: {note}.", f"Scaling: {motions.scaling}.")
     return _Shown(scene, motion.motion, building.name, f"{note}; {motions.scaling}", scene.remarks, options, notes)

@@ -57,7 +57,9 @@ def options(parser: argparse.ArgumentParser) -> None:
     )
     add_drift_cap_option(choices)
     # A folder of its own for each building, so that a second never replaces the first.
-    add_answer_options(parser, "the name of FILE", lambda args: None if args.file is None else Path(args.file.stem))
+    add_answer_options(
+        parser, "the name of FILE", lambda args: Path(args.file.stem) if args.file and args.file.stem else None
+    )
     show_help = "units of page, figures, text and analysis.csv (those of FILE)"
     parser.add_argument("--show", choices=("si", "us"), help=show_help)
     add_opensees_option(parser, "the building, with goods that slide and of both analyses")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 import tomllib
 from collections.abc import Sequence
@@ -94,7 +95,7 @@ def run(args: argparse.Namespace) -> int:
     from seismass.assessment.answer import doubt_lines
     from seismass.assessment.building_file import read_building
     from seismass.assessment.doubts import building_doubts
-    from seismass.assessment.new_file import MASS_INCLUDES, building_text, fit_of_curves, questions_for
+    from seismass.assessment.new_file import MASS_INCLUDES, QUESTIONS, building_text, fit_of_curves, questions_for
     from seismass.assessment.pushover_file import read_pushover
     from seismass.assessment.storey_table import read_storey_table
 
@@ -104,7 +105,12 @@ def run(args: argparse.Namespace) -> int:
         raise refusal(InvalidOption, "file", "new", "one that does not exist, or --force be given", str(args.out))
     check_files(args.out)
     if args.table is None:
-        refuse_options(args, ("mass_includes", "base_level", "loaded"), "new", "where --from is not given")
+        refuse_options(args, ("mass_includes", "base_level", "loaded", "case"), "new", "where --from is not given")
+    if args.pushover is None:
+        refuse_options(args, ("pushover_case",), "new", "where --pushover is not given")
+        if args.table is None:
+            neither = "where neither --from nor --pushover is given"
+            refuse_options(args, ("units", "order", "decimal"), "new", neither)
     reading = {name: getattr(args, name) for name in ("units", "order", "direction", "decimal")}
     table = curves = None
     try:
@@ -117,7 +123,10 @@ def run(args: argparse.Namespace) -> int:
     except (InvalidBuildingFile, InvalidOption) as error:
         raise type(error)(f"{error}{_lacking(args)}") from error
     answers: dict[str, Any] = {}
-    for question in questions_for(table, curves):
+    questions = questions_for(table, curves)
+    known = [one.name for one in QUESTIONS if one not in questions and one is not MASS_INCLUDES]
+    refuse_options(args, known, "new", "where the tables or curves have it")
+    for question in questions:
         value = getattr(args, question.name)
         if value is None and sys.stdin.isatty():
             answers[question.name] = _asked(question)
@@ -185,7 +194,9 @@ def _table_lines(table: StoreyTable | None, answers: dict[str, Any], loaded: Seq
 
 
 def _asked(question: Any) -> Any:
-    """Ask until there is an answer that can be read."""
+    """Ask until there is an answer that can be read. With the handler of polars alone Ctrl-C would wait for Enter."""
+    if hasattr(signal, "siginterrupt"):
+        signal.siginterrupt(signal.SIGINT, True)
     while True:
         default = f" [{question.default}]" if question.default else ""
         try:

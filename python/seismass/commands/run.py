@@ -25,7 +25,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("scene", type=Path, nargs="?", metavar="SCENE", help="scene file, .toml or .json")
     what.add_argument("--example", action="store_true", help="print a scene file to start from, and stop")
-    histories = "write time, drift of storeys and rack levels, slip of blocks at every sample (.parquet or .csv)"
+    histories = "write time, drift of storeys and rack levels, slip of blocks and base, by sample (.parquet or .csv)"
     add_output_option(parser, "FILE", histories, suffixes=(".parquet", ".csv"))
     add_json_option(parser)
     add_opensees_option(parser, "the scene")
@@ -42,7 +42,7 @@ def run(args: argparse.Namespace) -> int:
 
     file = read_scene(args.scene)
     motion: Any = file.motion if file.other_motion is None else (file.motion, file.other_motion)
-    if args.opensees is not None and file.other_motion is None:
+    if args.opensees is not None:
         from seismass.runs.opensees_export import write_opensees
 
         write_opensees(args.opensees, {"scene": file.scene}, [file.motion])
@@ -54,7 +54,7 @@ def run(args: argparse.Namespace) -> int:
         return 0
     title, chaotic = file.name or file.path.stem, digits_remarks(response)
     if file.other_motion is not None:
-        show("\n".join([plane_run_text(response, title=title), *chaotic]))
+        show("\n".join([plane_run_text(response, title=title, remarks=file.remarks), *chaotic]))
         return 0
     source = "".join(record.name for record in file.records[:1])
     remarks = (*(file.remarks or response.remarks), *chaotic)
@@ -63,14 +63,21 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _write_histories(response: Response | PlaneResponse, path: Path) -> None:
+    import numpy as np
     import polars as pl
 
     from seismass.runs.response import Response
 
     columns: dict[str, Any] = {"time": response.time}
-    histories = {"drift": response.drift, "slip": response.slip}
     if isinstance(response, Response):
-        histories |= {f"rack_{number}_drift": drift for number, drift in enumerate(response.rack_drift, start=1)}
+        of_racks: Any = response.rack_drift
+        if response.scene.base is not None:
+            columns["base_slip"] = response.base_slip
+    else:
+        ends = np.cumsum([rack.levels for rack in response.scene.racks], dtype=int)
+        of_racks = np.split(response.rack_drift, ends[:-1], axis=1)
+    histories = {"drift": response.drift, "slip": response.slip}
+    histories |= {f"rack_{number}_drift": drift for number, drift in enumerate(of_racks, start=1)}
     for name, history in histories.items():
         for number in range(1, history.shape[1] + 1):
             values = history[:, number - 1]

@@ -9,7 +9,14 @@ from typing import TYPE_CHECKING, Any
 from seismass.base.errors import InvalidOption
 from seismass.base.values import brief, refusal
 from seismass.commands.frame import Command, give_answer, progress
-from seismass.commands.options import add_answer_options, add_records_options, add_target_options, arguments, read_site
+from seismass.commands.options import (
+    add_answer_options,
+    add_records_options,
+    add_target_options,
+    arguments,
+    read_site,
+    refuse_options,
+)
 from seismass.commands.scene_or_building import (
     add_file_argument,
     add_scaling_options,
@@ -48,6 +55,8 @@ def run(args: argparse.Namespace) -> int:
     """Solve the runs, print the slip demand and write its files; return the exit code."""
     from seismass.studies.slip import parse_size, slip_demand
 
+    if not args.fragility:
+        refuse_options(args, ("measure",), "slip", "where --fragility is not given")
     target = read_site(args, "slip")
     scene, building = read_scene_or_building(args.file, target)
     stated = None

@@ -382,7 +382,8 @@ def effective_mass_table(
 
     def part(first: int) -> pl.DataFrame:
         numbers = range(first, min(first + _AT_ONCE, len(scenes)))
-        listed = [check_loaded(scenes.scene(i + 1) if isinstance(scenes, Grid) else scenes[i]) for i in numbers]
+        several = [scenes.scene(i + 1) if isinstance(scenes, Grid) else scenes[i] for i in numbers]
+        listed = [check_loaded(scene, TABLE_OWNER) for scene in several]
         rows: list[dict[str, Any]] = []
         for _, group in groupby(listed, key=lambda scene: scene.storeys):
             alike = list(group)

@@ -192,7 +192,7 @@ def live_load_uncertainty(
     True
     """
     owner = "live load uncertainty"
-    checked = check_loaded(scene)
+    checked = check_loaded(scene, owner)
     named = named_motions(motions, owner)
     shares = SHARES if fractions is None else check_fractions(fractions, owner)
     convention = check_damping(damping, owner)

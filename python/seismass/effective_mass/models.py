@@ -158,11 +158,11 @@ def base_of_model(scene: Scene, mass: FloatArray) -> SlidingBase | None:
     )
 
 
-def building_of(scene: Scene) -> Building:
+def building_of(scene: Scene, owner: str = "effective mass") -> Building:
     """Return the building of a scene that has one."""
     building = scene.building
     if building is None:
-        raise refusal(InvalidScene, "building", "effective mass", "given", "None")
+        raise refusal(InvalidScene, "building", owner, "given", "None")
     return building
 
 
@@ -207,22 +207,22 @@ def friction(scene: Scene, *, with_static: bool = False) -> float:
     return float(mass @ both[on_floor] / mass.sum())
 
 
-def check_any_load(scene: Any) -> Scene:
+def check_any_load(scene: Any, owner: str = "effective mass") -> Scene:
     """Return a scene whose building carries at least one block, on a floor or on a rack."""
     if not isinstance(scene, Scene):
-        raise refusal(InvalidScene, "scene", "effective mass", "a Scene", brief(scene))
-    building_of(scene)
+        raise refusal(InvalidScene, "scene", owner, "a Scene", brief(scene))
+    building_of(scene, owner)
     if not goods_mass(scene).any():
         requirement = "at least one on a floor of the building, as there is no live load otherwise"
-        raise refusal(InvalidScene, "blocks", "effective mass", requirement, "none")
+        raise refusal(InvalidScene, "blocks", owner, requirement, "none")
     return scene
 
 
-def check_loaded(scene: Any, owner: str = "effective mass") -> Scene:
+def check_loaded(scene: Any, owner: str) -> Scene:
     """Return a scene of the chain engine whose building carries at least one block."""
     if not isinstance(scene, Scene):
-        raise refusal(InvalidScene, "scene", "effective mass", "a Scene", brief(scene))
-    return check_any_load(scene.require_chain(owner))
+        raise refusal(InvalidScene, "scene", owner, "a Scene", brief(scene))
+    return check_any_load(scene.require_chain(owner), owner)
 
 
 def check_damping(damping: Any, owner: str) -> ModelDamping:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, Unpack
@@ -236,6 +237,9 @@ class Rack(Value, Card):
             if block.level > count:
                 requirement = f"between 1 and {count}"
                 raise refusal(InvalidScene, "level", f"block {number} of rack", requirement, str(block.level))
+        over_weight = per_level("yield_shear_over_weight", yield_shear_over_weight)
+        if over_weight is not None and not (over_weight > 0.0).all():
+            raise refusal(InvalidScene, "yield_shear_over_weight", "rack", "positive", brief(over_weight))
         self._set(
             floor=as_count(floor, "floor", "rack", InvalidScene),
             levels=count,
@@ -244,7 +248,7 @@ class Rack(Value, Card):
             period=None if period is None else as_number(period, "period", "rack", InvalidScene),
             stiffness=per_level("stiffness", stiffness),
             yield_shear=per_level("yield_shear", yield_shear),
-            yield_shear_over_weight=per_level("yield_shear_over_weight", yield_shear_over_weight),
+            yield_shear_over_weight=over_weight,
             hysteresis=hysteresis,
             shape={name: per_level(name, value) for name, value in parameters.items()},
             damping=as_number(damping, "damping", "rack", InvalidScene),
@@ -262,7 +266,7 @@ class Rack(Value, Card):
         overrides = self.other_direction or {}
         for one, other in (("period", "stiffness"), ("yield_shear", "yield_shear_over_weight")):
             changes |= {one: None} if other in overrides else {other: None} if one in overrides else {}
-        return self.replace(**changes, **overrides)
+        return self.replace(**(changes | overrides))
 
     def alone(self, floor_mass: float = np.nan) -> Building:
         """Return the rack alone, fixed at its base, with its goods attached, as a building whose floors are its levels.
@@ -303,8 +307,11 @@ class Rack(Value, Card):
         elif self.level_mass_ratio is not None or any(block.block.mass_ratio is not None for block in self.blocks):
             requirement = "given in kg where the rack does not stand on a floor of the building"
             raise refusal(InvalidScene, "masses", f"rack {number}", requirement, "ratios")
-        mass, alone = self._frame(floor_mass), self.alone(floor_mass)
-        goods = []
+        mass, goods = self._frame(floor_mass), []
+        try:
+            alone = self.alone(floor_mass)
+        except InvalidScene as error:
+            raise InvalidScene(_of_levels(str(error), number)) from None
         for block in self.blocks:
             if block.fixed:
                 mass[block.level - 1] += _mass(block, floor_mass)
@@ -359,6 +366,12 @@ class Rack(Value, Card):
         period = f"period = {self.period:g} s" if self.period is not None else f"k = {brief(stiffness)} N/m"
         blocks = {0: "no block", 1: "1 block"}.get(len(self.blocks), f"{len(self.blocks)} blocks")
         return f"Rack(floor={self.floor}, {levels}, {period}, {blocks})"
+
+
+def _of_levels(refused: str, number: int) -> str:
+    """What a building refused whose floors are the levels of the rack with this number, in words of the rack."""
+    in_levels = refused.replace("storey", "level").replace(" of building must", f" of rack {number} must", 1)
+    return re.sub(r" of (level \d+) must", rf" of \1 of rack {number} must", in_levels, count=1)
 
 
 def _check_choice(one: tuple[str, Any], other: tuple[str, Any], *, is_needed: bool = False) -> None:

@@ -265,7 +265,7 @@ class Scene(Value):
         if self.building is not None and self.building.stiffness_matrix is not None:
             return "stiffness_matrix", "building", "a matrix"
         if self.base is not None:
-            return "base", "scene", repr(self.base)
+            return "base", "scene", "a sliding base"
         if self.racks:
             return "racks", "scene", f"{len(self.racks)}"
         stopped = [number for number, block in enumerate(self.blocks, start=1) if block.stops is not None]

@@ -113,8 +113,10 @@ def model_content(scene: Scene, name: str = "") -> dict[str, Any]:
     """Return a scene, called `name` in errors, as model.json has it."""
     building = scene.building
 
+    owner = name if name == "scene" else f"scene {name}".strip()
+
     def refused(what: str) -> SeismassError:
-        return refusal(InvalidScene, f"scene {name}".strip(), "OpenSees export", "a shear building with goods", what)
+        return refusal(InvalidScene, owner, "OpenSees export", "a shear building with goods", what)
 
     if building is None:
         raise refused("blocks on the ground alone")

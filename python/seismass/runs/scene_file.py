@@ -213,6 +213,7 @@ def _other_direction(top: Table, building: Building | None) -> Building | bool:
             if key in other.values:
                 merged.pop(dropped, None)
     merged |= other.values
+    _one_of_each(Table(merged, "other_direction", top.file, InvalidSceneFile))
     if "period" in merged and isinstance(merged.get("mass"), list):
         period = other.number("period", np.nan, POSITIVE)
         merged["stiffness"] = [_kernel.Rack.uniform_stiffness(building.mass, period)] * building.storeys
@@ -220,13 +221,20 @@ def _other_direction(top: Table, building: Building | None) -> Building | bool:
     return building_of_table(Table(merged, "other_direction", top.file, InvalidSceneFile))
 
 
+def _one_of_each(table: Table) -> None:
+    """Refuse keys of a building beside others that say the same."""
+    table.excluded("yield_shear_over_weight", "yield_shear")
+    table.excluded("geometric_stiffness", "gravity_load")
+    for key in ("stiffness", "stiffness_matrix", "backbone"):
+        table.excluded(key, "period")
+
+
 def building_of_table(table: Table, walls: Table | None = None) -> Building:
     """Return the building of a table with the keys that a scene file has for one, with the walls of another table;
     errors in keys have the class of the table's errors.
     """
     table.known(KEYS["building"])
-    table.excluded("yield_shear_over_weight", "yield_shear")
-    table.excluded("geometric_stiffness", "gravity_load")
+    _one_of_each(table)
     if "gravity_load" in table.values:
         table.needed("heights")
     springs = infinite_where_null(table.subset(*_SPRING_KEYS))
@@ -239,9 +247,6 @@ def building_of_table(table: Table, walls: Table | None = None) -> Building:
     if isinstance(springs.get("backbone"), list):  # TOML has no null
         springs["backbone"] = [None if points == [] else points for points in springs["backbone"]]
     if "period" in table.values:
-        table.excluded("stiffness", "period")
-        table.excluded("stiffness_matrix", "period")
-        table.excluded("backbone", "period")
         table.needed("storeys")
         if isinstance(table.values.get("mass"), list):
             table.refuse("mass", f"one number where {table.key('period')} is given", brief(table.values["mass"]))

@@ -196,6 +196,12 @@ def pair_of_table(table: Table, folder: Path) -> Pair:
     table.known(KEYS["pair"])
     table.needed("first", "folder", "builtin")
     table.one_of("first", "folder", "builtin")
+    for key, others in (
+        ("second", ("folder", "builtin")),
+        ("vertical", ("folder", "builtin")),
+        ("name", ("first", "builtin")),
+    ):
+        table.excluded(key, *others)
     if "first" in table.values:
         table.needed("second")
         up = folder / table.text("vertical") if "vertical" in table.values else None
@@ -209,6 +215,8 @@ def pair_of_table(table: Table, folder: Path) -> Pair:
         table.excluded("rotation", "strike")
         pair = pair.rotated(table.number("rotation", need=FINITE))
     if "strike" in table.values:
+        if pair.azimuths is None:
+            table.refuse("strike", "left out where the pair has no azimuths", brief(table.values["strike"]))
         try:
             pair = pair.fault_normal_parallel(table.number("strike", need=FINITE))
         except InvalidOption as error:
@@ -220,6 +228,8 @@ def _named(table: Table, key: str, pairs: list[Pair]) -> Pair:
     """The pair of that name."""
     name = table.text(key)
     matches = [pair for pair in pairs if pair.name == name]
+    if not pairs:
+        table.refuse("folder", "a folder with records that belong together", brief(table.values["folder"]))
     if len(matches) != 1:
         known = ", ".join(pair.name for pair in pairs[:3])
         table.refuse(key, f"the name of one of {len(pairs)} pairs, as {known}", brief(name))

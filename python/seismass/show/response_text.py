@@ -255,7 +255,7 @@ def plane_text(response: PlaneResponse) -> str:
     return plane_run_text(response)
 
 
-def plane_run_text(response: PlaneResponse, *, title: str | None = None) -> str:
+def plane_run_text(response: PlaneResponse, *, title: str | None = None, remarks: Sequence[str] = ()) -> str:
     """Return peaks of storeys and blocks by direction and of the vector, events, energy and status as lines."""
     x, y = response.motions
     lines = [(response.scene.name if title is None else title) or "Response in two directions", f"  {response.scene!r}"]
@@ -263,7 +263,7 @@ def plane_run_text(response: PlaneResponse, *, title: str | None = None) -> str:
         f"  motion    {x.samples} samples at {x.dt:g} s ({x.duration:g} s), "
         f"PGA {x.pga_g:.3f} g in x, {y.pga_g:.3f} g in y"
     )
-    lines += [f"            {remark}" for remark in response.remarks]
+    lines += [f"            {remark}" for remark in remarks or response.remarks]
     for title_of, noun, values, unit, factor in (
         ("peak drift", "storey", response.peak_drift, "mm", 1e3),
         ("peak drift of rack levels", "level", response.peak_rack_drift, "mm", 1e3),

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 BuiltinName = Literal["forty", "eleven", "seven"]
 
 _SUITES: Final = {
-    "forty": ("built-in suite of forty", "forty.parquet"),
-    "eleven": ("built-in suite of eleven", "suite.csv"),
+    "forty": ("built-in suite of forty synthetic motions", "forty.parquet"),
+    "eleven": ("built-in suite of eleven synthetic motions", "suite.csv"),
     "seven": ("built-in suite", "seven.csv"),
 }
 """Name of each suite as results show it, and the table or the list of its motions."""

@@ -10,6 +10,7 @@ import numpy as np
 import polars as pl
 from markupsafe import Markup
 
+from seismass.assessment.models import median_of
 from seismass.assessment.result import Assessment
 from seismass.base.errors import MissingPackage
 from seismass.base.units import STANDARD_GRAVITY, UNITS, Units
@@ -429,6 +430,7 @@ def in_motion_html(result: Assessment) -> list[Markup]:
     parts = []
     if result.animation is not None:
         facts = result.animation["about"]
+        slides = bool((result.runs["peak_slip"] > 0.0).any())
         model_words = (
             f", beside a model with {100.0 * facts['fraction']:.0f} % of the goods present attached, the code's share"
         )
@@ -436,7 +438,7 @@ def in_motion_html(result: Assessment) -> list[Markup]:
             text_html(
                 sentence_html(
                     f"Under {facts['motion']}, motion {facts['number']}, scaled by {facts['factor']:.3g} to a peak of "
-                    f"{facts['peak_g']:.2f} g: the motion with the median drift of those under which goods slide"
+                    f"{facts['peak_g']:.2f} g: the motion with the {median_of(slides)}"
                     f"{model_words if result.effective else ''}.",
                     names_of(result),
                 )

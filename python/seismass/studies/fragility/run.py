@@ -60,9 +60,9 @@ def compared_models(
     >>> {name: model.building.mass.tolist() for name, model in sm.fragility.compared_models(scene).items()}
     {'real': [1.0, 1.0], 'code': [1.25, 1.0], 'attached': [2.0, 1.0]}
     """
-    loaded = check_loaded(scene)
-    share = as_share(code_share, "code_share", "compared models")
-    convention = check_damping(damping, "compared models")
+    owner = "compared models"
+    loaded = check_loaded(scene, owner)
+    share, convention = as_share(code_share, "code_share", owner), check_damping(damping, owner)
     return {SLIDING: loaded, CODE: attached(loaded, share, convention), ATTACHED: attached(loaded, 1.0, convention)}
 
 

@@ -292,7 +292,7 @@ def risk_targeted_share(
     >>> found.kind, found.value
     ('stuck', 1.0)
     """
-    checked = _at_rest(check_loaded(scene))
+    checked = _at_rest(check_loaded(scene, OWNER))
     curve = check_hazard(hazard, OWNER)
     probability, count, start = as_bootstrap(confidence, resamples, seed, OWNER)
     options = RiskOptions(

@@ -46,25 +46,25 @@ pub(super) fn check(scene: &PlaneScene, motion: &PlaneMotion, response: &PlaneRe
     Circles::new(scene, motion, &directions)?.check(response)
 }
 
-/// Most events of sliding of one block, and of its stops of one direction, within an instant (s): that it starts or stops may
-/// release others, once.
+/// Most events of sliding of one block, and touches of its stops of one direction, within an instant (s): that it starts or
+/// stops may release others, once, and a block without clearance goes from stop to stop as what drives it passes through zero.
 const MOST_IN_AN_INSTANT: usize = 3;
 const INSTANT: f64 = 1e-9;
 
-/// No block starts and stops, or touches and leaves, time and again within an instant.
+/// No block starts and stops, or touches, time and again within an instant.
 fn chatter(log: &[PlaneEvent]) -> Result<(), String> {
     let mut times: BTreeMap<(usize, Option<bool>), Vec<f64>> = BTreeMap::new();
     for PlaneEvent { event, axis, .. } in log {
         let direction = match event.event.kind {
             EventKind::Slip | EventKind::Stick | EventKind::Reverse => None,
-            EventKind::TouchStop | EventKind::LeaveStop => Some(*axis == Some(Axis::Y)),
+            EventKind::TouchStop => Some(*axis == Some(Axis::Y)),
             _ => continue,
         };
         times.entry((event.event.number, direction)).or_default().push(event.event.time);
     }
     for ((number, direction), times) in times {
         if let Some(several) = times.windows(MOST_IN_AN_INSTANT + 1).find(|w| w[MOST_IN_AN_INSTANT] - w[0] <= INSTANT) {
-            let what = if direction.is_none() { "starts and stops" } else { "touches and leaves" };
+            let what = if direction.is_none() { "starts and stops" } else { "touches a stop" };
             return Err(format!("block {number} {what} more than {MOST_IN_AN_INSTANT} times at {} s", several[0]));
         }
     }
