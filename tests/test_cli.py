@@ -75,3 +75,14 @@ def test_closed_streams_do_not_stop_a_command(tmp_path: Path, closed: str) -> No
     line = ["sh", "-c", f'"$@" {closed}', "sh", *COMMAND, "spectrum", path, "--period", "1"]
     done = subprocess.run(line, capture_output=True, check=False)
     assert (done.returncode, done.stderr) == (0, b"")
+
+
+@pytest.mark.parametrize("command", ["run", "animate", "building", "slip", "fragility"])
+@pytest.mark.parametrize("folder", [".", "folder", "folder.toml"])
+def test_a_folder_in_place_of_a_file_is_what_is_wrong(
+    command: str, folder: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path(folder).mkdir(exist_ok=True)
+    assert cli.main([command, folder]) == 2
+    assert f" file must be a file that can be read; got {folder} (" in capsys.readouterr().err

@@ -137,7 +137,7 @@ def test_pairs_of_scene_files(tmp_path: Path) -> None:
     for table, message in (
         ('builtin = "none"', "pair.builtin of pair.toml must be the name of one of 40 pairs"),
         ('first = "a.AT2"', "pair.second"),
-        ('builtin = "scenario-3"\nstrike = 10.0', "pair.strike"),
+        ('builtin = "scenario-3"\nstrike = 10.0', "pair.strike of pair.toml must be left out where the pair has no az"),
         ('builtin = "scenario-3"\n[motion]\nbuiltin = "synthetic-1"', "motion of pair.toml must be left out"),
     ):
         path.write_text(f"{goods}[pair]\n{table}\n")

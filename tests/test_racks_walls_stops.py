@@ -7,13 +7,16 @@ import json
 import pickle
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import seismass as sm
 from seismass.commands.run import as_json
+from seismass.model.springs import SHAPE_FIELDS
 
+FIELDS = ("yield_shear", "yield_shear_over_weight", "stiffness", "level_mass", *SHAPE_FIELDS)
 SCENES = ("01_rack", "04_rack", "08_rack", "11_wall", "14_wall", "18_stop", "21_stop", "41_opposite_stops")
 PULSE = sm.Motion(np.sin(np.linspace(0.0, 12.0, 300)) * 3.0, dt=0.01)
 
@@ -163,6 +166,18 @@ def test_racks_that_are_none_are_refused(change: dict, message: str) -> None:
         rack().replace(**change)
 
 
+@pytest.mark.parametrize("key", ["damping", "hysteresis", "geometric_stiffness", *FIELDS])
+@pytest.mark.parametrize("value", [-1.0, np.nan, [], "x", [3.0, -1.0]])
+def test_what_a_rack_is_refused_for_is_said_of_it(key: str, value: Any) -> None:
+    """No wrong value of a key of a rack is refused as the building's."""
+    try:
+        sm.Scene(building(), racks=[rack(), rack().replace(**{key: value})])
+    except sm.errors.SeismassError as error:
+        told = str(error)
+        assert "rack" in told
+        assert "building" not in told and "storey" not in told
+
+
 def test_scenes_refuse_what_does_not_stand(tmp_path: Path) -> None:
     with pytest.raises(sm.errors.InvalidScene, match="floor of rack 1 must be"):
         sm.Scene(building(), racks=[rack().replace(floor=3)])
@@ -180,13 +195,17 @@ def test_what_takes_shear_buildings_alone_says_so() -> None:
     racked = sm.Scene(building(), blocks, racks=[rack()])
     stopped = sm.Scene(building(), [blocks[0].replace(stops=sm.Stops(0.1, 1e5))])
     walled = sm.Scene(building(stiffness_matrix=np.diag([1e4, 1e4])), blocks)
+    hazard = sm.risk.HazardCurve([0.05, 0.5, 5.0], [1e-2, 4e-4, 4e-6])
     for scene, named in (
         (racked, "racks of scene"),
         (stopped, "stops of block 1"),
         (walled, "stiffness_matrix of building"),
     ):
-        for call in (lambda scene: sm.fragility.incremental_dynamic_analysis(scene, [motion], 0.02),):
-            with pytest.raises(sm.errors.InvalidScene, match=f"{named} must be left out in .*; simulate takes it"):
+        for owner, call in (
+            ("compared models", lambda scene: sm.fragility.incremental_dynamic_analysis(scene, [motion], 0.02)),
+            ("risk-targeted share", lambda scene: sm.risk.risk_targeted_share(scene, [motion], hazard, 0.02)),
+        ):
+            with pytest.raises(sm.errors.InvalidScene, match=f"{named} must be left out in {owner}; simulate takes it"):
                 call(scene)
     with pytest.raises(sm.errors.InvalidScene, match="stiffness_matrix of building must be left out in grids"):
         sm.Grid(building=walled.building, mass_ratio=0.5, mu=0.3)
