@@ -57,6 +57,31 @@ def test_scene_beyond_a_limit_has_a_remark(changes, expected):
     assert not remarks or remarks[0].startswith(expected)
 
 
+@pytest.mark.parametrize(
+    ("changes", "expected"),
+    [
+        ({"base": sm.SlidingBase(mu=1.5, radius=99.0)}, None),
+        ({"base": sm.SlidingBase(mu=20.0)}, "mu_s of the base is 20, above 1.5: friction coefficients are ratios"),
+        ({"base": sm.SlidingBase(mu=0.1, radius=2000.0)}, "the radius of the base is 2000 m, above 100: is it in m"),
+        ({"racks": 0.011}, None),
+        ({"racks": 500.0}, "the period of rack 1 is 500 s, not between 0.01 and 10: is it in s?"),
+        ({"blocks": sm.Stops(10.0, 1e5)}, None),
+        ({"blocks": sm.Stops((0.1, np.inf), 1e5)}, None),
+        ({"blocks": sm.Stops((50.0, np.inf), 1e5)}, "the clearance of stops of block 1 is 50 m, above 10"),
+    ],
+)
+def test_base_rack_and_stops_beyond_a_limit_have_a_remark(changes, expected):
+    building = sm.Building([1e5], 4e7, heights=3.0)
+    if "racks" in changes:
+        goods = [sm.RackBlock(1, mass=10.0, mu=0.2)]
+        changes = {"racks": [sm.Rack(1, 1, level_mass=10.0, period=changes["racks"], blocks=goods)]}
+    if "blocks" in changes:
+        changes = {"blocks": [sm.Block(1, mass=10.0, mu=0.2, stops=changes["blocks"])]}
+    remarks = sm.Scene(building, **changes).remarks
+    assert len(remarks) == (expected is not None), remarks
+    assert not remarks or remarks[0].startswith(expected)
+
+
 def test_first_period():
     def remarks(period):
         return sm.Scene(sm.Building.uniform(1, period)).remarks

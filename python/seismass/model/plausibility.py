@@ -13,11 +13,14 @@ import numpy as np
 from seismass.base.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
-    from seismass.model.block import Block
+    from seismass.model.block import Block, SlidingBase
     from seismass.model.building import Building
+    from seismass.model.rack import Rack
 
 MAX_FRICTION: Final = 1.5
 """Friction coefficient; that of rubber on concrete is about 1."""
+MAX_RADIUS: Final = 100.0
+"""Effective radius of a friction pendulum (m); its period is then 20 s."""
 MAX_HEIGHT: Final = 20.0
 """Storey height (m); heights in ft or mm are above it."""
 MAX_STRENGTH: Final = 5.0
@@ -85,9 +88,11 @@ def usage_remarks(scene_remarks: Iterable[str], motions: Any, limits: Iterable[t
     return list(dict.fromkeys([*scene_remarks, *limit_remarks(limits), *strong, *mean_motion_remarks(motions)]))
 
 
-def model_remarks(building: Building | None, blocks: Sequence[Block]) -> tuple[str, ...]:
-    """Return what is unlikely about a building and its blocks, a sentence per kind of remark, which names the first
-    storey or block concerned and counts the others.
+def model_remarks(
+    building: Building | None, blocks: Sequence[Block], racks: Sequence[Rack] = (), base: SlidingBase | None = None
+) -> tuple[str, ...]:
+    """Return what is unlikely about a building, its blocks, racks and base, a sentence per kind, which names the
+    first storey, block or rack concerned and counts the others.
     """
     remarks = [] if building is None else list(_building_remarks(building))
     remarks += _numbered(
@@ -95,6 +100,25 @@ def model_remarks(building: Building | None, blocks: Sequence[Block]) -> tuple[s
         np.array([block.mu_s for block in blocks]) > MAX_FRICTION,
         "mu_s of block {number} is {value:.4g}, above 1.5{others}: friction coefficients are ratios, not per cent",
     )
+    sides = [(block.stop_numbers or ())[:2] for block in blocks]
+    clearances = [max(filter(np.isfinite, clearance), default=0.0) for clearance in sides]
+    remarks += _numbered(
+        clearances,
+        np.array(clearances) > MAX_SLIP_LIMIT,
+        "the clearance of stops of block {number} is {value:.4g} m, above 10{others}: is it in m, not mm?",
+    )
+    periods = np.array([np.nan if rack.period is None else rack.period for rack in racks])
+    remarks += _numbered(
+        periods,
+        (periods < PERIOD_RANGE[0]) | (periods > PERIOD_RANGE[1]),
+        "the period of rack {number} is {value:.4g} s, not between 0.01 and 10{others}: is it in s?",
+    )
+    if base is not None and base.mu_s > MAX_FRICTION:
+        remarks.append(
+            f"mu_s of the base is {base.mu_s:.4g}, above 1.5: friction coefficients are ratios, not per cent"
+        )
+    if base is not None and base.radius is not None and base.radius > MAX_RADIUS:
+        remarks.append(f"the radius of the base is {base.radius:.4g} m, above {MAX_RADIUS:g}: is it in m, not mm?")
     return tuple(remarks)
 
 

@@ -337,8 +337,8 @@ class Scene(Value):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What is unlikely about the building and its blocks, as sentences; found when asked for, empty as a rule."""
-        return model_remarks(self.building, self.blocks)
+        """What is unlikely about building, goods, racks and base, as sentences; found when asked for."""
+        return model_remarks(self.building, self.goods, self.racks, self.base)
 
     def _arguments(self) -> dict[str, Any]:
         return {

@@ -172,7 +172,7 @@ _LABEL: Final = 12
 _SLIPS: Final = (-16, 30, 9, 8, 30, 8)
 _RATIOS: Final = (-16, 24, 26, 24, 12)
 _DIRECTIONS: Final = (-16, 14, 14, 9, 9, 9)
-_ESTIMATES: Final = (-8, -14, -34, 8, 9, 8)
+_ESTIMATES: Final = (-8, -16, -34, 8, 9, 8)
 
 
 def slip_demand_text(result: SlipDemand) -> str:
