@@ -251,7 +251,7 @@ class Shown(NamedTuple):
     motion: Any
     number: int
     factor: float
-    slides: bool = True
+    slides: bool
 
 
 def median_of(slides: bool) -> str:

@@ -235,7 +235,8 @@ def assess(
         threads=threads,
     )
     chaotic = chaos_remarks([scenes[name] for name in frictions], scaled) if loaded else ()
-    example = Shown(sliding_scene, scaled[place], place + 1, float(factors[place]))
+    slides = bool((runs["peak_slip"] > 0.0).any())
+    example = Shown(sliding_scene, scaled[place], place + 1, float(factors[place]), slides)
     contents = (scenes, stated, None if spectrum is None else spectrum.parameters, motion_contents(components))
     return assessment_of(
         Solved(stated, spectrum, None if design is None else design.effective, scaling, example),

@@ -208,7 +208,10 @@ def pair_of_table(table: Table, folder: Path) -> Pair:
         pair = read_pair(folder / table.text("first"), folder / table.text("second"), up)
     elif "folder" in table.values:
         table.needed("name")
-        pair = _named(table, "name", list(find_pairs(folder / table.text("folder"))))
+        pairs = list(find_pairs(folder / table.text("folder")))
+        if not pairs:
+            table.refuse("folder", "a folder with records that belong together", brief(table.values["folder"]))
+        pair = _named(table, "name", pairs)
     else:
         pair = _named(table, "builtin", list(builtin_pairs()))
     if "rotation" in table.values:
@@ -228,8 +231,6 @@ def _named(table: Table, key: str, pairs: list[Pair]) -> Pair:
     """The pair of that name."""
     name = table.text(key)
     matches = [pair for pair in pairs if pair.name == name]
-    if not pairs:
-        table.refuse("folder", "a folder with records that belong together", brief(table.values["folder"]))
     if len(matches) != 1:
         known = ", ".join(pair.name for pair in pairs[:3])
         table.refuse(key, f"the name of one of {len(pairs)} pairs, as {known}", brief(name))
